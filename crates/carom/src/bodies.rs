@@ -1,0 +1,241 @@
+//! Spheres: what one is, and how many are stored.
+
+use std::f64::consts::PI;
+use std::fmt::{self, Display};
+
+use glam::DVec3;
+
+use crate::error::InvalidValue;
+use crate::validate;
+
+/// Names a sphere for as long as it lives; never given twice in one world.
+///
+/// The number counts up in the order of adding and emission, from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SphereId(pub(crate) u64);
+
+impl SphereId {
+    /// Place in the order in which spheres came into the world, from 0.
+    pub fn number(self) -> u64 {
+        self.0
+    }
+}
+
+impl Display for SphereId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// Mass, or the density to compute it from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Mass {
+    /// Mass \[kg\], > 0.
+    Kilograms(f64),
+    /// Density \[kg/m³\], > 0; the mass is density times the sphere's volume.
+    Density(f64),
+}
+
+/// One sphere, as it is added to a world and read from it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sphere {
+    /// Centre \[m\].
+    pub position: DVec3,
+    /// Velocity \[m/s\].
+    pub velocity: DVec3,
+    /// Radius \[m\], > 0.
+    pub radius: f64,
+    /// Mass or density; a world answers with [`Mass::Kilograms`].
+    pub mass: Mass,
+    /// Coefficient of restitution in \[0, 1\].
+    pub restitution: f64,
+}
+
+impl Sphere {
+    /// A sphere at rest, of 1 kg, that leaves the restitution to what it meets (its own is 1).
+    pub fn new(position: DVec3, radius: f64) -> Self {
+        Self {
+            position,
+            velocity: DVec3::ZERO,
+            radius,
+            mass: Mass::Kilograms(1.0),
+            restitution: 1.0,
+        }
+    }
+
+    /// The same sphere with this velocity \[m/s\].
+    pub fn with_velocity(self, velocity: DVec3) -> Self {
+        Self { velocity, ..self }
+    }
+
+    /// The same sphere with this mass \[kg\].
+    pub fn with_mass(self, kilograms: f64) -> Self {
+        Self { mass: Mass::Kilograms(kilograms), ..self }
+    }
+
+    /// The same sphere with the mass of this density \[kg/m³\].
+    pub fn with_density(self, density: f64) -> Self {
+        Self { mass: Mass::Density(density), ..self }
+    }
+
+    /// The same sphere with this coefficient of restitution.
+    pub fn with_restitution(self, restitution: f64) -> Self {
+        Self { restitution, ..self }
+    }
+
+    /// Mass \[kg\], however it was given.
+    pub fn kilograms(&self) -> f64 {
+        match self.mass {
+            Mass::Kilograms(kilograms) => kilograms,
+            Mass::Density(density) => density * volume(self.radius),
+        }
+    }
+
+    pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
+        validate::finite("position", self.position)?;
+        validate::finite("velocity", self.velocity)?;
+        validate::positive("radius", self.radius)?;
+        if let Mass::Density(density) = self.mass {
+            validate::positive("density", density)?;
+        }
+        validate::positive("mass", self.kilograms())?;
+        validate::unit_interval("restitution", self.restitution)
+    }
+}
+
+/// Volume of a sphere \[m³\], 4/3 π r³.
+pub fn volume(radius: f64) -> f64 {
+    4.0 / 3.0 * PI * (radius * radius * radius)
+}
+
+/// Where spheres are and how they move: what a step changes.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Motion {
+    /// Centres \[m\].
+    pub position: Vec<DVec3>,
+    /// Velocities \[m/s\].
+    pub velocity: Vec<DVec3>,
+}
+
+impl Motion {
+    /// Takes over the states of all spheres, without allocating where there is place already.
+    pub fn copy_all(&mut self, from: &Self) {
+        self.position.clone_from(&from.position);
+        self.velocity.clone_from(&from.velocity);
+    }
+
+    /// Takes over the state of one sphere.
+    pub fn copy(&mut self, from: &Self, index: usize) {
+        self.position[index] = from.position[index];
+        self.velocity[index] = from.velocity[index];
+    }
+}
+
+/// What spheres are: what a step reads.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Properties {
+    /// Ascending.
+    pub id: Vec<SphereId>,
+    /// \[m\]
+    pub radius: Vec<f64>,
+    /// \[kg\]
+    pub mass: Vec<f64>,
+    pub restitution: Vec<f64>,
+}
+
+/// All spheres of a world, one array per quantity, in ascending order of id.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Spheres {
+    pub(crate) properties: Properties,
+    pub(crate) motion: Motion,
+}
+
+impl Spheres {
+    /// How many there are: the length of every array below.
+    pub fn len(&self) -> usize {
+        self.ids().len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.ids().is_empty()
+    }
+
+    /// Ids, ascending.
+    pub fn ids(&self) -> &[SphereId] {
+        &self.properties.id
+    }
+
+    /// Centres \[m\].
+    pub fn positions(&self) -> &[DVec3] {
+        &self.motion.position
+    }
+
+    /// Velocities \[m/s\].
+    pub fn velocities(&self) -> &[DVec3] {
+        &self.motion.velocity
+    }
+
+    /// Radii \[m\].
+    pub fn radii(&self) -> &[f64] {
+        &self.properties.radius
+    }
+
+    /// Masses \[kg\].
+    pub fn masses(&self) -> &[f64] {
+        &self.properties.mass
+    }
+
+    /// Coefficients of restitution.
+    pub fn restitutions(&self) -> &[f64] {
+        &self.properties.restitution
+    }
+
+    /// Index of a sphere in the arrays; it changes when spheres are removed.
+    pub fn index_of(&self, id: SphereId) -> Option<usize> {
+        self.ids().binary_search(&id).ok()
+    }
+
+    /// The sphere at an index.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn get(&self, index: usize) -> Sphere {
+        Sphere {
+            position: self.motion.position[index],
+            velocity: self.motion.velocity[index],
+            radius: self.properties.radius[index],
+            mass: Mass::Kilograms(self.properties.mass[index]),
+            restitution: self.properties.restitution[index],
+        }
+    }
+
+    /// Appends a sphere that passed [`Sphere::validate`]; its id must be the largest so far.
+    pub(crate) fn push(&mut self, id: SphereId, sphere: &Sphere) {
+        self.properties.id.push(id);
+        self.properties.radius.push(sphere.radius);
+        self.properties.mass.push(sphere.kilograms());
+        self.properties.restitution.push(sphere.restitution);
+        self.motion.position.push(sphere.position);
+        self.motion.velocity.push(sphere.velocity);
+    }
+
+    /// Overwrites a sphere with one that passed [`Sphere::validate`].
+    pub(crate) fn set(&mut self, index: usize, sphere: &Sphere) {
+        self.properties.radius[index] = sphere.radius;
+        self.properties.mass[index] = sphere.kilograms();
+        self.properties.restitution[index] = sphere.restitution;
+        self.motion.position[index] = sphere.position;
+        self.motion.velocity[index] = sphere.velocity;
+    }
+
+    /// Takes a sphere out; those after it move up, so that ids stay ascending.
+    pub(crate) fn remove(&mut self, index: usize) {
+        self.properties.id.remove(index);
+        self.properties.radius.remove(index);
+        self.properties.mass.remove(index);
+        self.properties.restitution.remove(index);
+        self.motion.position.remove(index);
+        self.motion.velocity.remove(index);
+    }
+}

@@ -1,0 +1,125 @@
+//! Fixed colliders: shapes that spheres bounce off.
+
+use std::fmt::{self, Display};
+
+use glam::{DQuat, DVec3};
+
+use crate::error::InvalidValue;
+use crate::validate;
+
+/// Names a collider of a world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ColliderId(pub(crate) usize);
+
+impl ColliderId {
+    /// Place in the order in which colliders entered the world, from 0.
+    pub fn number(self) -> usize {
+        self.0
+    }
+}
+
+impl Display for ColliderId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// Form of a collider in its own frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Shape {
+    /// A sphere about the origin.
+    Sphere {
+        /// Radius \[m\], > 0.
+        radius: f64,
+    },
+    /// A rectangle in the local xz plane about the origin, with edges and corners. Its front
+    /// faces local +y; a sphere whose centre is behind it passes.
+    Rectangle {
+        /// Full length along local x \[m\], > 0.
+        size_x: f64,
+        /// Full length along local z \[m\], > 0.
+        size_z: f64,
+    },
+    /// Everything below the local xz plane; solid however deep a sphere is in it.
+    HalfSpace,
+    /// A box about the origin, made of six outward rectangles.
+    Box {
+        /// Full lengths along local x, y, z \[m\], each > 0.
+        size: DVec3,
+    },
+}
+
+/// Where a collider is and how it is turned: `x_world = position + rotation x_local`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Origin of the local frame \[m\].
+    pub position: DVec3,
+    /// Rotation from the local frame to the world; any length but zero.
+    pub rotation: DQuat,
+}
+
+impl Pose {
+    /// At a place \[m\], not turned.
+    pub fn at(position: DVec3) -> Self {
+        Self { position, rotation: DQuat::IDENTITY }
+    }
+
+    /// The same place, turned.
+    pub fn rotated(self, rotation: DQuat) -> Self {
+        Self { rotation, ..self }
+    }
+
+    pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
+        validate::finite("position", self.position)?;
+        validate::rotation("rotation", self.rotation)
+    }
+}
+
+/// A shape somewhere in the world that never gives way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Collider {
+    /// Form in the local frame.
+    pub shape: Shape,
+    /// Place of the local frame in the world.
+    pub pose: Pose,
+    /// Coefficient of restitution in \[0, 1\].
+    pub restitution: f64,
+    /// A trigger reports contact and deflects nothing.
+    pub trigger: bool,
+}
+
+impl Collider {
+    /// A solid collider with restitution 1.
+    pub fn new(shape: Shape, pose: Pose) -> Self {
+        Self { shape, pose, restitution: 1.0, trigger: false }
+    }
+
+    /// The same collider with this coefficient of restitution.
+    pub fn with_restitution(self, restitution: f64) -> Self {
+        Self { restitution, ..self }
+    }
+
+    /// The same collider as a trigger.
+    pub fn as_trigger(self) -> Self {
+        Self { trigger: true, ..self }
+    }
+
+    pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
+        match self.shape {
+            Shape::Sphere { radius } => validate::positive("radius", radius)?,
+            Shape::Rectangle { size_x, size_z } => {
+                validate::positive("size_x", size_x)?;
+                validate::positive("size_z", size_z)?;
+            }
+            Shape::HalfSpace => {}
+            Shape::Box { size } => {
+                validate::positive("size.x", size.x)?;
+                validate::positive("size.y", size.y)?;
+                validate::positive("size.z", size.z)?;
+            }
+        }
+        self.pose.validate()?;
+        validate::unit_interval("restitution", self.restitution)
+    }
+}

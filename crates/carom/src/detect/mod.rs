@@ -1,0 +1,35 @@
+//! Which bodies touch, and how.
+//!
+//! The broad phase proposes, one file per pair of shapes measures, `classify` decides.
+
+pub(crate) mod broad_phase;
+mod classify;
+pub(crate) mod contacts;
+mod separation;
+mod sphere_half_space;
+mod sphere_rectangle;
+mod sphere_sphere;
+
+use glam::DVec3;
+
+pub use classify::{ContactState, classify};
+pub use separation::Separation;
+pub use sphere_half_space::sphere_half_space;
+pub(crate) use sphere_rectangle::sphere_rectangle;
+pub use sphere_sphere::sphere_sphere;
+
+use crate::surface::Form;
+
+/// Separation of a fixed surface (body 1) and a sphere (body 2) with `center` and `radius` \[m\];
+/// `None` where the sphere is on the side that nothing collides with.
+pub(crate) fn sphere_surface(form: &Form, center: DVec3, radius: f64) -> Option<Separation> {
+    match form {
+        Form::Sphere { center: fixed, radius: fixed_radius } => {
+            Some(sphere_sphere([*fixed, center], [*fixed_radius, radius]))
+        }
+        Form::Rectangle(rectangle) => sphere_rectangle(rectangle, center, radius),
+        Form::HalfSpace { point, normal } => {
+            Some(sphere_half_space((*point, *normal), center, radius))
+        }
+    }
+}

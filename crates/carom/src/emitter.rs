@@ -1,0 +1,143 @@
+//! Emitters: sources of spheres.
+
+use std::collections::VecDeque;
+use std::fmt::{self, Display};
+
+use glam::{DQuat, DVec3};
+
+use crate::bodies::{Sphere, SphereId, Spheres};
+use crate::error::InvalidValue;
+use crate::validate;
+
+/// A sphere is due when its time is at most this much after the start of a frame \[s\], so that
+/// rounding in sums of frame times cannot delay it by a frame (`docs/physics.md`, stage 1).
+const DUE_TOLERANCE: f64 = 1e-9;
+
+/// Names an emitter of a world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct EmitterId(pub(crate) usize);
+
+impl Display for EmitterId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// More spheres than this in one frame are a mistake in `period`, not a wish.
+const MAX_PER_FRAME: f64 = 1e6;
+
+/// Emits a sphere at the times 0, period, 2 period, ... after it entered the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Emitter {
+    /// What is emitted, in the emitter's frame: `position` \[m\] is an offset from the emitter's
+    /// origin, `velocity` \[m/s\] is turned into the world with it.
+    pub sphere: Sphere,
+    /// Origin of the emitter's frame in the world \[m\].
+    pub position: DVec3,
+    /// Rotation from the emitter's frame to the world; any length but zero.
+    pub rotation: DQuat,
+    /// Time between two spheres \[s\], > 0.
+    pub period: f64,
+    /// With this many of its spheres alive, the oldest makes place for the next; `None`: no limit.
+    pub max_spheres: Option<u32>,
+}
+
+impl Emitter {
+    pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
+        self.sphere.validate()?;
+        validate::finite("position", self.position)?;
+        validate::rotation("rotation", self.rotation)?;
+        validate::positive("period", self.period)?;
+        self.max_spheres.map_or(Ok(()), |max| validate::at_least_one("max_spheres", max))
+    }
+
+    /// The sphere as it appears in the world.
+    fn emitted(&self) -> Sphere {
+        let rotation = self.rotation.normalize();
+        Sphere {
+            position: self.position + rotation * self.sphere.position,
+            velocity: rotation * self.sphere.velocity,
+            ..self.sphere
+        }
+    }
+}
+
+/// An emitter and what it has done so far.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct EmitterState {
+    pub emitter: Emitter,
+    /// When it entered the world, and so emits first \[s\].
+    pub start: f64,
+    /// Number of spheres emitted so far.
+    pub emitted: u64,
+    /// Its spheres that may still be alive, oldest first; empty without `max_spheres`.
+    pub ring: VecDeque<SphereId>,
+}
+
+impl EmitterState {
+    pub fn new(emitter: Emitter, start: f64) -> Self {
+        Self { emitter, start, emitted: 0, ring: VecDeque::new() }
+    }
+
+    fn is_due(&self, time: f64) -> bool {
+        self.start + self.emitted as f64 * self.emitter.period <= time + DUE_TOLERANCE
+    }
+
+    /// Refuses a period so short that one frame would have to emit spheres without end.
+    pub fn validate_at(&self, time: f64) -> Result<(), InvalidValue> {
+        let due = (time - self.start) / self.emitter.period - self.emitted as f64;
+        if due < MAX_PER_FRAME {
+            return Ok(());
+        }
+        Err(InvalidValue {
+            field: "period",
+            requirement: "longer: more than a million spheres are due in one frame",
+            value: self.emitter.period.to_string(),
+        })
+    }
+}
+
+/// Whether any emitter has a sphere due in the frame that starts at `time` \[s\].
+pub(crate) fn any_due(emitters: &[EmitterState], time: f64) -> bool {
+    emitters.iter().any(|state| state.is_due(time))
+}
+
+/// Emits every sphere that is due in the frame that starts at `time` \[s\], emitter by emitter.
+///
+/// Appends what came and what went to `came` and `went`.
+pub(crate) fn emit(
+    emitters: &mut [EmitterState],
+    (spheres, next_id): (&mut Spheres, &mut u64),
+    time: f64,
+    (came, went): (&mut Vec<SphereId>, &mut Vec<SphereId>),
+) {
+    for state in emitters {
+        while state.is_due(time) {
+            retire_oldest(state, spheres, went);
+            let id = SphereId(*next_id);
+            *next_id += 1;
+            spheres.push(id, &state.emitter.emitted());
+            if state.emitter.max_spheres.is_some() {
+                state.ring.push_back(id);
+            }
+            state.emitted += 1;
+            came.push(id);
+        }
+    }
+}
+
+/// Removes the oldest spheres of an emitter until there is place for one more.
+fn retire_oldest(state: &mut EmitterState, spheres: &mut Spheres, went: &mut Vec<SphereId>) {
+    let Some(max) = state.emitter.max_spheres else {
+        return;
+    };
+    // Spheres that were removed by hand no longer count.
+    state.ring.retain(|id| spheres.index_of(*id).is_some());
+    while state.ring.len() >= max as usize {
+        let Some(oldest) = state.ring.pop_front() else { return };
+        if let Some(index) = spheres.index_of(oldest) {
+            spheres.remove(index);
+            went.push(oldest);
+        }
+    }
+}

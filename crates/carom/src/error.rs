@@ -1,0 +1,86 @@
+//! What can go wrong, said so that a user can mend it.
+
+use std::fmt::{self, Display};
+
+use thiserror::Error;
+
+use crate::{ColliderId, EmitterId, ForceId, SphereId};
+
+/// Everything the physics can refuse. The world is unchanged after each of them.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A number that makes no sense where it was given.
+    #[error("{subject}: {source}")]
+    Invalid {
+        /// What the number was given for.
+        subject: Subject,
+        /// Which number, and why not.
+        source: InvalidValue,
+    },
+    /// The id names nothing in this world (any more).
+    #[error("there is no {0} in this world")]
+    Unknown(Subject),
+    /// Forces or speeds grew past what a number can hold.
+    #[error(
+        "sphere {sphere}: {quantity} is no longer finite in the step that starts at {time} s; \
+         the state before the step was kept"
+    )]
+    NonFiniteState {
+        /// The first sphere it happened to.
+        sphere: SphereId,
+        /// `"position"` or `"velocity"`.
+        quantity: &'static str,
+        /// Start of the refused step \[s\].
+        time: f64,
+    },
+}
+
+/// What an error is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Subject {
+    /// A sphere; for one that was refused, the id it would have had.
+    Sphere(SphereId),
+    /// A collider; for one that was refused, the id it would have had.
+    Collider(ColliderId),
+    /// An emitter; for one that was refused, the id it would have had.
+    Emitter(EmitterId),
+    /// A force; for one that was refused, the id it would have had.
+    Force(ForceId),
+    /// The settings of the world.
+    Settings,
+    /// The call of `World::step`.
+    Step,
+}
+
+impl Display for Subject {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sphere(id) => write!(f, "sphere {id}"),
+            Self::Collider(id) => write!(f, "collider {id}"),
+            Self::Emitter(id) => write!(f, "emitter {id}"),
+            Self::Force(id) => write!(f, "force {id}"),
+            Self::Settings => f.write_str("settings"),
+            Self::Step => f.write_str("step"),
+        }
+    }
+}
+
+/// A field, what it must be, and what it was.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{field}` must be {requirement}, not {value}")]
+pub struct InvalidValue {
+    /// Name of the field as users write it.
+    pub field: &'static str,
+    /// What it must be, continuing "must be".
+    pub requirement: &'static str,
+    /// What it was.
+    pub value: String,
+}
+
+impl InvalidValue {
+    pub(crate) fn about(self, subject: Subject) -> Error {
+        Error::Invalid { subject, source: self }
+    }
+}

@@ -1,0 +1,34 @@
+use glam::DVec3;
+
+use super::{Force, SphereState};
+use crate::error::InvalidValue;
+use crate::validate;
+
+/// The same force on every sphere, whatever its mass: `F = force`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ConstantForce {
+    /// Force \[N\].
+    pub force: DVec3,
+}
+
+impl ConstantForce {
+    /// A constant force \[N\].
+    pub fn new(force: DVec3) -> Self {
+        Self { force }
+    }
+}
+
+impl Force for ConstantForce {
+    fn on(&self, _sphere: &SphereState, _time: f64) -> DVec3 {
+        self.force
+    }
+
+    /// `-F · x`, zero at the origin.
+    fn potential_energy(&self, sphere: &SphereState, _time: f64) -> f64 {
+        -self.force.dot(sphere.position)
+    }
+
+    fn validate(&self) -> Result<(), InvalidValue> {
+        validate::finite("force", self.force)
+    }
+}

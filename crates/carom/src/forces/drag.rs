@@ -1,0 +1,29 @@
+use glam::DVec3;
+
+use super::{Force, SphereState};
+use crate::error::InvalidValue;
+use crate::validate;
+
+/// Viscous drag, against the velocity and proportional to it: `F = -k v`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ViscousDrag {
+    /// Drag coefficient k \[kg/s\], >= 0.
+    pub coefficient: f64,
+}
+
+impl ViscousDrag {
+    /// Drag with this coefficient \[kg/s\].
+    pub fn new(coefficient: f64) -> Self {
+        Self { coefficient }
+    }
+}
+
+impl Force for ViscousDrag {
+    fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
+        -self.coefficient * sphere.velocity
+    }
+
+    fn validate(&self) -> Result<(), InvalidValue> {
+        validate::non_negative("coefficient", self.coefficient)
+    }
+}

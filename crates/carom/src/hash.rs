@@ -1,0 +1,62 @@
+//! The state hash: one number that tells whether two worlds are in the same state, to the bit.
+
+use std::fmt::{self, Display};
+
+use glam::DVec3;
+use xxhash_rust::xxh3::Xxh3Default;
+
+use crate::state::State;
+
+/// Hash of a world's state: XXH3 (64 bits) over the bits of every number in it.
+///
+/// Equal states have equal hashes on every platform; a difference in one bit changes it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct StateHash(pub u64);
+
+impl Display for StateHash {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
+
+/// Hashes, in this order: time; per sphere its id, position, velocity, radius, mass, restitution;
+/// per collider its position and rotation; per emitter the number of spheres emitted.
+pub(crate) fn of_state(state: &State) -> StateHash {
+    let mut words = Words(Xxh3Default::new());
+    words.number(state.clock.seconds());
+    let spheres = &state.spheres;
+    words.integer(spheres.len() as u64);
+    for (i, id) in spheres.ids().iter().enumerate() {
+        words.integer(id.number());
+        words.vector(spheres.positions()[i]);
+        words.vector(spheres.velocities()[i]);
+        words.number(spheres.radii()[i]);
+        words.number(spheres.masses()[i]);
+        words.number(spheres.restitutions()[i]);
+    }
+    for collider in state.colliders.list() {
+        words.vector(collider.pose.position);
+        collider.pose.rotation.to_array().into_iter().for_each(|part| words.number(part));
+    }
+    for emitter in &state.emitters {
+        words.integer(emitter.emitted);
+    }
+    StateHash(words.0.digest())
+}
+
+/// Feeds numbers to the hash in little-endian order, whatever the machine's.
+struct Words(Xxh3Default);
+
+impl Words {
+    fn integer(&mut self, value: u64) {
+        self.0.update(&value.to_le_bytes());
+    }
+
+    fn number(&mut self, value: f64) {
+        self.integer(value.to_bits());
+    }
+
+    fn vector(&mut self, value: DVec3) {
+        value.to_array().into_iter().for_each(|part| self.number(part));
+    }
+}

@@ -1,0 +1,52 @@
+//! **Carom moves spheres exactly.** Spheres under forces that collide with each other and with
+//! fixed surfaces.
+//!
+//! A [`World`] holds [`Spheres`], forces ([`Force`]), [`Collider`]s and [`Emitter`]s.
+//! [`World::step`] advances it by a frame and reports every [`Impact`]. The stages of a step are
+//! free functions, put together by a [`Rule`]:
+//!
+//! 1. **emit** the spheres that are due (`emitter`)
+//! 2. **integrate** motion under the forces, without contacts (`forces`, `integrate`)
+//! 3. **detect** who touches whom: broad phase, distance, classification ([`detect`])
+//! 4. find the **time of contact** ([`contact_time`])
+//! 5. **respond** with impulses ([`respond`])
+//!
+//! Right-handed frame, y up, SI units, double precision. The same input gives the same bits on
+//! every platform: only `+ - * /` and `sqrt` are used, in a fixed order
+//! ([`World::state_hash`]). The formulas and their sources are in `docs/physics.md`.
+
+mod bodies;
+mod clock;
+mod collider;
+pub mod contact_time;
+pub mod detect;
+mod emitter;
+mod error;
+mod forces;
+mod hash;
+mod integrate;
+mod invariants;
+mod report;
+pub mod respond;
+mod rule;
+mod settings;
+mod state;
+mod sum;
+mod surface;
+mod system;
+mod validate;
+mod world;
+
+pub use glam::{DQuat, DVec3};
+
+pub use bodies::{Mass, Sphere, SphereId, Spheres, volume};
+pub use collider::{Collider, ColliderId, Pose, Shape};
+pub use emitter::{Emitter, EmitterId};
+pub use error::{Error, InvalidValue, Subject};
+pub use forces::{ConstantForce, Force, ForceId, Gravity, SphereState, ViscousDrag};
+pub use hash::StateHash;
+pub use integrate::Integrator;
+pub use report::{Impact, Overlap, Participants, StepReport, TriggerContact};
+pub use rule::{Bisect, Rule, WindBack};
+pub use settings::{RestitutionRule, Settings};
+pub use world::{Snapshot, World};

@@ -1,0 +1,122 @@
+//! What a step reports.
+
+use glam::DVec3;
+
+use crate::bodies::SphereId;
+use crate::collider::ColliderId;
+use crate::detect::contacts::{Bodies, Contact};
+use crate::system::System;
+
+/// What happened in one step.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StepReport {
+    /// Impacts in order of time; at one time in the order in which they were answered.
+    pub impacts: Vec<Impact>,
+    /// Spheres inside triggers, in order of sphere, then collider.
+    pub triggers: Vec<TriggerContact>,
+    /// Spheres that emitters put into the world, ascending.
+    pub emitted: Vec<SphereId>,
+    /// Spheres that emitters took out again to make place.
+    pub retired: Vec<SphereId>,
+    /// Groups of spheres for which rule `bisect` reached its bound of substeps: the rest of their
+    /// frame was taken in one piece, and what then overlapped was answered as in `discrete`.
+    pub unfinished_islands: u32,
+}
+
+impl StepReport {
+    pub(crate) fn clear(&mut self) {
+        self.impacts.clear();
+        self.triggers.clear();
+        self.emitted.clear();
+        self.retired.clear();
+        self.unfinished_islands = 0;
+    }
+}
+
+/// Who met.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Participants {
+    /// Two spheres, bodies 1 and 2; the smaller id first.
+    Spheres(SphereId, SphereId),
+    /// A fixed collider, body 1, and a sphere, body 2.
+    Collider {
+        /// Body 1.
+        collider: ColliderId,
+        /// Body 2.
+        sphere: SphereId,
+    },
+}
+
+impl Participants {
+    pub(crate) fn of(bodies: Bodies, system: &System) -> Self {
+        let id = &system.spheres.id;
+        match bodies {
+            Bodies::Pair(i, j) => Self::Spheres(id[i as usize], id[j as usize]),
+            Bodies::Surface { sphere, surface } => Self::Collider {
+                collider: system.surfaces[surface as usize].collider,
+                sphere: id[sphere as usize],
+            },
+        }
+    }
+}
+
+/// One impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    /// When, since the start of the step \[s\].
+    pub time: f64,
+    /// Who.
+    pub between: Participants,
+    /// Where on the surface of body 1 \[m\].
+    pub point: DVec3,
+    /// Unit normal from body 1 to body 2.
+    pub normal: DVec3,
+    /// Speed of approach along the normal before the impact \[m/s\], > 0.
+    pub approach_speed: f64,
+    /// Impulse on body 2 along the normal, and against it on body 1 \[N s\].
+    pub impulse: f64,
+}
+
+/// A sphere inside a trigger at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TriggerContact {
+    /// The trigger.
+    pub collider: ColliderId,
+    /// The sphere.
+    pub sphere: SphereId,
+    /// Unit normal from the trigger's surface to the sphere.
+    pub normal: DVec3,
+    /// Where on the trigger's surface \[m\].
+    pub point: DVec3,
+}
+
+impl TriggerContact {
+    /// What a contact with a trigger reports; `None` for a contact between spheres.
+    pub(crate) fn of(contact: &Contact, system: &System) -> Option<Self> {
+        let Bodies::Surface { sphere, surface } = contact.bodies else { return None };
+        Some(Self {
+            collider: system.surfaces[surface as usize].collider,
+            sphere: system.spheres.id[sphere as usize],
+            normal: contact.separation.normal,
+            point: contact.separation.point,
+        })
+    }
+}
+
+/// Two bodies that overlap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overlap {
+    /// Who.
+    pub between: Participants,
+    /// How far their surfaces overlap \[m\], > 0.
+    pub depth: f64,
+}
+
+impl Overlap {
+    pub(crate) fn of(contact: &Contact, system: &System) -> Self {
+        Self {
+            between: Participants::of(contact.bodies, system),
+            depth: -contact.separation.distance,
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! What an impact does to velocities. One file per law.
+
+mod line_of_centres;
+mod reflection;
+
+pub use line_of_centres::line_of_centres;
+pub use reflection::reflection;
+
+use crate::bodies::Motion;
+use crate::detect::Separation;
+use crate::detect::contacts::{Bodies, Contact};
+use crate::report::{Impact, Participants};
+use crate::system::System;
+
+/// Answers contacts one after the other: each that still closes when its turn comes gets its
+/// impulse, and `impacts` a record with this `time` \[s\] since the start of the step.
+pub(crate) fn sequentially<'a>(
+    contacts: impl Iterator<Item = &'a Contact>,
+    system: &System,
+    motion: &mut Motion,
+    (time, impacts): (f64, &mut Vec<Impact>),
+) {
+    for contact in contacts {
+        impacts.extend(answer(contact, system, motion, time));
+    }
+}
+
+/// Answers one contact; `None`, and nothing changed, if the bodies are not closing.
+pub(crate) fn answer(
+    contact: &Contact,
+    system: &System,
+    motion: &mut Motion,
+    time: f64,
+) -> Option<Impact> {
+    let Separation { normal, point, .. } = contact.separation;
+    let velocity = &mut motion.velocity;
+    let combine = |e1, e2| system.settings.restitution_rule.combine(e1, e2);
+    let (mass, restitution) = (&system.spheres.mass, &system.spheres.restitution);
+    let (approach_speed, impulse) = match contact.bodies {
+        Bodies::Pair(i, j) => {
+            let (i, j) = (i as usize, j as usize);
+            let approach_speed = -(velocity[j] - velocity[i]).dot(normal);
+            let (after, impulse) = line_of_centres(
+                [velocity[i], velocity[j]],
+                [mass[i], mass[j]],
+                normal,
+                combine(restitution[i], restitution[j]),
+            )?;
+            [velocity[i], velocity[j]] = after;
+            (approach_speed, impulse)
+        }
+        Bodies::Surface { sphere, surface } => {
+            let i = sphere as usize;
+            let approach_speed = -velocity[i].dot(normal);
+            let e = combine(system.surfaces[surface as usize].restitution, restitution[i]);
+            let change = reflection(velocity[i], normal, e)?;
+            velocity[i] += change * normal;
+            (approach_speed, mass[i] * change)
+        }
+    };
+    let between = Participants::of(contact.bodies, system);
+    Some(Impact { time, between, point, normal, approach_speed, impulse })
+}

@@ -1,0 +1,99 @@
+//! Step rules: how the stages are put together to advance all spheres by one frame.
+
+mod bisect;
+mod discrete;
+mod islands;
+
+use islands::Islands;
+
+use crate::bodies::Motion;
+use crate::detect::contacts::{Contact, Search};
+use crate::report::StepReport;
+use crate::system::{Interval, System};
+
+/// How a frame is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Rule {
+    /// The course's rule: move every sphere by the frame, then answer what overlaps at its end.
+    ///
+    /// Fast, but contacts are found late, and a sphere that crosses a surface within a frame
+    /// passes through it.
+    Discrete,
+    /// The tutorial's rule: where spheres intersect at the end of the frame, wind them back, find
+    /// the time of contact by bisection, answer it there and go on with the rest of the frame.
+    ///
+    /// A contact that begins and ends within a frame is still missed.
+    Bisect(Bisect),
+}
+
+impl Default for Rule {
+    fn default() -> Self {
+        Self::Bisect(Bisect::default())
+    }
+}
+
+/// Parameters of the rule `bisect`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bisect {
+    /// Surfaces at most this far apart, or overlapping by at most this, touch \[m\].
+    pub tolerance: f64,
+    /// Halvings of the (rest of the) frame in search of a contact; the error in its time is at
+    /// most the frame divided by two to this power.
+    pub max_halvings: u32,
+    /// Bound on the contacts that a group of spheres goes through in a frame, per sphere.
+    pub max_substeps: u32,
+    /// Which spheres go through the pieces into which a contact cuts the frame.
+    pub wind_back: WindBack,
+}
+
+impl Default for Bisect {
+    fn default() -> Self {
+        Self {
+            // Far above rounding in a scene of metres, far below anything one could see.
+            tolerance: 1e-9,
+            max_halvings: 8,
+            max_substeps: 64,
+            wind_back: WindBack::Touched,
+        }
+    }
+}
+
+/// Which spheres go through the pieces into which a contact cuts the frame.
+///
+/// The choice is between two errors of the integrator's order; without forces they agree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum WindBack {
+    /// Those that take part in a contact of the same group. The others take the frame in one
+    /// piece, undisturbed by impacts elsewhere, and the work is proportional to the contacts.
+    #[default]
+    Touched,
+    /// All, as the tutorial does. The work grows with spheres times contacts.
+    All,
+}
+
+/// Working memory of the rules, kept from step to step only to spare its allocation.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Scratch {
+    near: Vec<u32>,
+    search: Search,
+    contacts: Vec<Contact>,
+    islands: Islands,
+    bisect: bisect::Buffers,
+}
+
+/// Advances all spheres by one frame.
+pub(crate) fn step(
+    system: &System,
+    motion: &mut Motion,
+    frame: Interval,
+    scratch: &mut Scratch,
+    report: &mut StepReport,
+) {
+    match system.settings.rule {
+        Rule::Discrete => discrete::step(system, motion, frame, scratch, report),
+        Rule::Bisect(ref parameters) => {
+            bisect::step((system, parameters), motion, frame, scratch, report);
+        }
+    }
+}

@@ -1,0 +1,307 @@
+//! The world: everything that persists, and the step that moves it on.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::bodies::{Motion, Sphere, SphereId, Spheres};
+use crate::collider::{Collider, ColliderId, Pose};
+use crate::detect::contacts::{self, Search};
+use crate::emitter::{self, Emitter, EmitterId, EmitterState};
+use crate::error::{Error, Subject};
+use crate::forces::{Force, ForceId};
+use crate::hash::{self, StateHash};
+use crate::invariants;
+use crate::report::{Overlap, StepReport};
+use crate::rule::{self, Scratch};
+use crate::settings::Settings;
+use crate::state::State;
+use crate::system::Interval;
+use crate::validate;
+
+/// Spheres, what acts on them, and what they bounce off.
+///
+/// ```
+/// use carom::{Collider, DVec3, Gravity, Pose, Settings, Shape, Sphere, World};
+///
+/// let mut world = World::new(Settings::default())?;
+/// world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
+/// world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)))?;
+/// let ball = world.add_sphere(Sphere::new(DVec3::new(0.0, 2.0, 0.0), 0.5))?;
+/// for _ in 0..120 {
+///     for impact in &world.step(1.0 / 60.0)?.impacts {
+///         println!("bounced with {:.3} m/s", impact.approach_speed);
+///     }
+/// }
+/// assert!(world.sphere(ball)?.position.y > 0.499);
+/// # Ok::<(), carom::Error>(())
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct World {
+    state: State,
+    report: StepReport,
+    scratch: Scratch,
+    /// Motion at the start of the step, to return to if it fails.
+    start: Motion,
+}
+
+/// The state of a world at one moment, to return to.
+///
+/// Holds all that the future depends on, parameters too: settings, forces, colliders, emitters.
+#[derive(Debug, Clone)]
+pub struct Snapshot(State);
+
+impl World {
+    /// An empty world, at time 0.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a parameter of the rule that makes no sense.
+    pub fn new(settings: Settings) -> Result<Self, Error> {
+        let mut world = Self::default();
+        world.set_settings(settings)?;
+        Ok(world)
+    }
+
+    /// Advances the world by `dt` \[s\]: emits what is due, moves every sphere, answers impacts.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if `dt` is not positive and finite or an emitter runs away,
+    /// [`Error::NonFiniteState`] if a number would overflow. The state before the step is kept.
+    pub fn step(&mut self, dt: f64) -> Result<&StepReport, Error> {
+        validate::positive("dt", dt).map_err(|invalid| invalid.about(Subject::Step))?;
+        self.state.check_emitters()?;
+        self.report.clear();
+
+        let before_emission = self.emit();
+        self.start.copy_all(&self.state.spheres.motion);
+        let frame = Interval { time: self.time(), h: dt };
+        let (system, motion) = self.state.split();
+        rule::step(&system, motion, frame, &mut self.scratch, &mut self.report);
+
+        if let Err(error) = self.state.check_finite() {
+            match before_emission {
+                Some(state) => self.state = state,
+                None => std::mem::swap(&mut self.state.spheres.motion, &mut self.start),
+            }
+            self.report.clear();
+            return Err(error);
+        }
+        self.state.clock.advance(dt);
+        Ok(&self.report)
+    }
+
+    /// Emits the spheres that are due; if there are any, gives the state before it.
+    fn emit(&mut self) -> Option<State> {
+        let time = self.time();
+        let before = emitter::any_due(&self.state.emitters, time).then(|| self.state.clone());
+        if before.is_some() {
+            let State { emitters, spheres, next_id, .. } = &mut self.state;
+            let StepReport { emitted, retired, .. } = &mut self.report;
+            emitter::emit(emitters, (spheres, next_id), time, (emitted, retired));
+        }
+        before
+    }
+
+    /// What happened in the last step.
+    pub fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    /// Time since the beginning \[s\]: the sum of all steps.
+    pub fn time(&self) -> f64 {
+        self.state.clock.seconds()
+    }
+
+    /// How the world is stepped.
+    pub fn settings(&self) -> &Settings {
+        &self.state.settings
+    }
+
+    /// Steps the world differently from now on.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a parameter of the rule that makes no sense.
+    pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
+        settings.validate().map_err(|invalid| invalid.about(Subject::Settings))?;
+        self.state.settings = settings;
+        Ok(())
+    }
+
+    /// Adds a sphere. It may overlap others: see [`Self::overlaps`].
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a number that makes no sense.
+    pub fn add_sphere(&mut self, sphere: Sphere) -> Result<SphereId, Error> {
+        let id = SphereId(self.state.next_id);
+        sphere.validate().map_err(|invalid| invalid.about(Subject::Sphere(id)))?;
+        self.state.spheres.push(id, &sphere);
+        self.state.next_id += 1;
+        Ok(id)
+    }
+
+    /// All spheres, as arrays.
+    pub fn spheres(&self) -> &Spheres {
+        &self.state.spheres
+    }
+
+    /// One sphere.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if it is not in the world (any more).
+    pub fn sphere(&self, id: SphereId) -> Result<Sphere, Error> {
+        Ok(self.state.spheres.get(self.index_of(id)?))
+    }
+
+    /// Changes a sphere.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if it is not in the world, [`Error::Invalid`] for a number that makes
+    /// no sense.
+    pub fn set_sphere(&mut self, id: SphereId, sphere: Sphere) -> Result<(), Error> {
+        let index = self.index_of(id)?;
+        sphere.validate().map_err(|invalid| invalid.about(Subject::Sphere(id)))?;
+        self.state.spheres.set(index, &sphere);
+        Ok(())
+    }
+
+    /// Takes a sphere out of the world and returns it.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if it is not in the world.
+    pub fn remove_sphere(&mut self, id: SphereId) -> Result<Sphere, Error> {
+        let index = self.index_of(id)?;
+        let sphere = self.state.spheres.get(index);
+        self.state.spheres.remove(index);
+        Ok(sphere)
+    }
+
+    fn index_of(&self, id: SphereId) -> Result<usize, Error> {
+        self.state.spheres.index_of(id).ok_or(Error::Unknown(Subject::Sphere(id)))
+    }
+
+    /// Adds a force on every sphere.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if the force refuses its own parameters.
+    pub fn add_force(&mut self, force: impl Force + 'static) -> Result<ForceId, Error> {
+        let id = ForceId(self.state.forces.len());
+        force.validate().map_err(|invalid| invalid.about(Subject::Force(id)))?;
+        self.state.forces.push(Arc::new(force));
+        Ok(id)
+    }
+
+    /// Puts a force in the place of another; the next evaluation uses it.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is no such force, [`Error::Invalid`] if the new one refuses
+    /// its own parameters.
+    pub fn set_force(&mut self, id: ForceId, force: impl Force + 'static) -> Result<(), Error> {
+        let place = self.state.forces.get_mut(id.0).ok_or(Error::Unknown(Subject::Force(id)))?;
+        force.validate().map_err(|invalid| invalid.about(Subject::Force(id)))?;
+        *place = Arc::new(force);
+        Ok(())
+    }
+
+    /// Adds a collider, after those already there.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a number that makes no sense.
+    pub fn add_collider(&mut self, collider: Collider) -> Result<ColliderId, Error> {
+        let id = ColliderId(self.state.colliders.list().len());
+        collider.validate().map_err(|invalid| invalid.about(Subject::Collider(id)))?;
+        self.state.colliders.push(collider);
+        Ok(id)
+    }
+
+    /// All colliders; an id's number is the index.
+    pub fn colliders(&self) -> &[Collider] {
+        self.state.colliders.list()
+    }
+
+    /// Changes a collider.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is no such collider, [`Error::Invalid`] for a number that
+    /// makes no sense.
+    pub fn set_collider(&mut self, id: ColliderId, collider: Collider) -> Result<(), Error> {
+        if id.0 >= self.colliders().len() {
+            return Err(Error::Unknown(Subject::Collider(id)));
+        }
+        collider.validate().map_err(|invalid| invalid.about(Subject::Collider(id)))?;
+        self.state.colliders.set(id.0, collider);
+        Ok(())
+    }
+
+    /// Puts a collider elsewhere, at once: it has no velocity that spheres could feel.
+    ///
+    /// # Errors
+    /// As [`Self::set_collider`].
+    pub fn set_pose(&mut self, id: ColliderId, pose: Pose) -> Result<(), Error> {
+        let collider = self.colliders().get(id.0).copied();
+        let collider = collider.ok_or(Error::Unknown(Subject::Collider(id)))?;
+        self.set_collider(id, Collider { pose, ..collider })
+    }
+
+    /// Adds an emitter; its first sphere is due now.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a number that makes no sense.
+    pub fn add_emitter(&mut self, emitter: Emitter) -> Result<EmitterId, Error> {
+        let id = EmitterId(self.state.emitters.len());
+        emitter.validate().map_err(|invalid| invalid.about(Subject::Emitter(id)))?;
+        let time = self.time();
+        self.state.emitters.push(EmitterState::new(emitter, time));
+        Ok(id)
+    }
+
+    /// Kinetic energy \[J\].
+    pub fn kinetic_energy(&self) -> f64 {
+        invariants::kinetic_energy(self.spheres())
+    }
+
+    /// Potential energy \[J\] in all forces that have one.
+    pub fn potential_energy(&self) -> f64 {
+        invariants::potential_energy(self.spheres(), &self.state.forces, self.time())
+    }
+
+    /// Kinetic and potential energy \[J\].
+    pub fn total_energy(&self) -> f64 {
+        self.kinetic_energy() + self.potential_energy()
+    }
+
+    /// Momentum \[kg m/s\].
+    pub fn momentum(&self) -> DVec3 {
+        invariants::momentum(self.spheres())
+    }
+
+    /// Angular momentum about the origin \[kg m²/s\].
+    pub fn angular_momentum(&self) -> DVec3 {
+        invariants::angular_momentum(self.spheres())
+    }
+
+    /// Spheres that overlap each other (where spheres collide) or a solid collider by more than
+    /// `tolerance` \[m\], in order of their bodies.
+    pub fn overlaps(&self, tolerance: f64) -> Vec<Overlap> {
+        let mut overlaps = Vec::new();
+        contacts::of_overlaps(&self.state.now(), tolerance, &mut Search::default(), |contact| {
+            overlaps.push(Overlap::of(contact, &self.state.now().system));
+        });
+        overlaps
+    }
+
+    /// The state as one number, to compare worlds to the bit.
+    pub fn state_hash(&self) -> StateHash {
+        hash::of_state(&self.state)
+    }
+
+    /// Everything the future depends on, to return to.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot(self.state.clone())
+    }
+
+    /// Returns to a snapshot, bit for bit. The report of the last step is gone.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.state.clone_from(&snapshot.0);
+        self.report.clear();
+    }
+}

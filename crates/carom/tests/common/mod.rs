@@ -1,0 +1,68 @@
+//! What several test files need.
+#![allow(dead_code)]
+
+use carom::{Bisect, DVec3, Integrator, Rule, Settings, WindBack, World};
+
+pub const G: f64 = 9.81;
+
+pub fn vec(x: f64, y: f64, z: f64) -> DVec3 {
+    DVec3::new(x, y, z)
+}
+
+pub fn world(rule: Rule) -> World {
+    World::new(Settings { rule, ..Settings::default() }).unwrap()
+}
+
+pub fn world_with(integrator: Integrator) -> World {
+    let settings = Settings { rule: Rule::Discrete, integrator, ..Settings::default() };
+    World::new(settings).unwrap()
+}
+
+pub fn bisect() -> Rule {
+    Rule::Bisect(Bisect::default())
+}
+
+pub fn bisect_all() -> Rule {
+    Rule::Bisect(Bisect { wind_back: WindBack::All, ..Bisect::default() })
+}
+
+/// Numbers in [0, 1), the same in every run.
+pub struct Numbers(pub u64);
+
+impl Numbers {
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        let mixed = (self.0 ^ (self.0 >> 33)).wrapping_mul(0xff51afd7ed558ccd);
+        ((mixed ^ (mixed >> 33)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+
+    /// In the cube from -1 to 1.
+    pub fn vector(&mut self) -> DVec3 {
+        vec(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0))
+    }
+
+    pub fn unit_vector(&mut self) -> DVec3 {
+        loop {
+            let v = self.vector();
+            if (0.1..1.0).contains(&v.length()) {
+                return v.normalize();
+            }
+        }
+    }
+}
+
+/// Asserts `|a - b| <= tolerance`, and says by how much it fails.
+#[track_caller]
+pub fn assert_close(a: f64, b: f64, tolerance: f64) {
+    assert!((a - b).abs() <= tolerance, "{a} is not {b} within {tolerance}: off by {}", a - b);
+}
+
+#[track_caller]
+pub fn assert_close_vec(a: DVec3, b: DVec3, tolerance: f64) {
+    let distance = (a - b).length();
+    assert!(distance <= tolerance, "{a} is not {b} within {tolerance}: off by {distance}");
+}

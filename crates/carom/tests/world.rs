@@ -1,0 +1,300 @@
+//! The world as a store: ids, snapshots, hashes, and errors that leave it unchanged.
+
+mod common;
+
+use carom::{
+    Bisect, Collider, DQuat, DVec3, Emitter, Error, Force, Gravity, Pose, Rule, Settings, Shape,
+    Sphere, SphereState, ViscousDrag, World,
+};
+use common::{Numbers, bisect, bisect_all, vec, world};
+
+/// A busy little world: a box of spheres under gravity and drag, with an emitter above.
+fn busy_world(rule: Rule) -> World {
+    let mut numbers = Numbers(11);
+    let mut world = world(rule);
+    world.add_force(Gravity::new(vec(0.0, -9.81, 0.0))).unwrap();
+    world.add_force(ViscousDrag::new(0.05)).unwrap();
+    world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))).unwrap();
+    let plate = Shape::Rectangle { size_x: 6.0, size_z: 6.0 };
+    let tilt = DQuat::from_xyzw(0.1, 0.0, 0.05, 1.0);
+    let plate = Collider::new(plate, Pose::at(vec(0.0, 1.0, 0.0)).rotated(tilt));
+    world.add_collider(plate.with_restitution(0.7)).unwrap();
+    for i in 0..40u32 {
+        let cell = vec((i % 4).into(), (i / 16).into(), (i / 4 % 4).into());
+        let sphere = Sphere::new(1.1 * cell + vec(-2.0, 3.0, -2.0), numbers.between(0.2, 0.5));
+        let sphere = sphere.with_velocity(numbers.vector()).with_density(900.0);
+        world.add_sphere(sphere.with_restitution(0.9)).unwrap();
+    }
+    let emitter = Emitter {
+        sphere: Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(0.0, -3.0, 0.0)),
+        position: vec(0.3, 8.0, 0.2),
+        rotation: tilt,
+        period: 0.11,
+        max_spheres: Some(5),
+    };
+    world.add_emitter(emitter).unwrap();
+    world
+}
+
+fn run(world: &mut World, frames: usize) -> u64 {
+    let mut impacts = 0;
+    for _ in 0..frames {
+        impacts += world.step(1.0 / 120.0).unwrap().impacts.len() as u64;
+    }
+    impacts
+}
+
+const RULES: [fn() -> Rule; 3] = [|| Rule::Discrete, bisect, bisect_all];
+
+#[test]
+fn a_restored_snapshot_repeats_a_hundred_frames_bit_for_bit() {
+    for rule in RULES {
+        let mut world = busy_world(rule());
+        let drag = world.add_force(ViscousDrag::new(0.0)).unwrap();
+        run(&mut world, 50);
+        let snapshot = world.snapshot();
+        let start = world.state_hash();
+        assert!(run(&mut world, 100) > 100);
+        let first = world.state_hash();
+        assert_ne!(first, start);
+        // What is changed after the snapshot is undone too: parameters, spheres, colliders.
+        world.set_force(drag, ViscousDrag::new(9.0)).unwrap();
+        world.remove_sphere(world.spheres().ids()[0]).unwrap();
+        world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ONE))).unwrap();
+        run(&mut world, 3);
+        world.restore(&snapshot);
+        assert_eq!(world.state_hash(), start);
+        run(&mut world, 100);
+        assert_eq!(world.state_hash(), first);
+    }
+}
+
+#[test]
+fn the_same_world_twice_gives_the_same_hash() {
+    for rule in RULES {
+        let (mut first, mut second) = (busy_world(rule()), busy_world(rule()));
+        run(&mut first, 120);
+        run(&mut second, 120);
+        assert_eq!(first.state_hash(), second.state_hash());
+    }
+}
+
+#[test]
+fn hashes_are_the_same_in_every_build_and_on_every_platform() {
+    // Pinned. They may change only with the physics, and then the changelog says so.
+    let expected = ["0", "1", "2"];
+    for (rule, expected) in RULES.into_iter().zip(expected) {
+        let mut world = busy_world(rule());
+        run(&mut world, 240);
+        assert_eq!(world.state_hash().to_string(), expected);
+    }
+}
+
+#[test]
+fn one_changed_bit_changes_the_hash() {
+    let mut world = busy_world(Rule::Discrete);
+    let before = world.state_hash();
+    let id = world.spheres().ids()[7];
+    let sphere = world.sphere(id).unwrap();
+    let position = vec(sphere.position.x.next_up(), sphere.position.y, sphere.position.z);
+    world.set_sphere(id, Sphere { position, ..sphere }).unwrap();
+    assert_ne!(world.state_hash(), before);
+    world.set_sphere(id, sphere).unwrap();
+    assert_eq!(world.state_hash(), before);
+}
+
+#[test]
+fn ids_stay_valid_while_others_go_and_are_never_given_again() {
+    let mut world = world(Rule::Discrete);
+    let add = |world: &mut World, x| world.add_sphere(Sphere::new(vec(x, 0.0, 0.0), 0.1)).unwrap();
+    let [a, b, c] = [0.0, 1.0, 2.0].map(|x| add(&mut world, x));
+    assert_eq!(world.remove_sphere(b).unwrap().position.x, 1.0);
+    assert_eq!(world.sphere(a).unwrap().position.x, 0.0);
+    assert_eq!(world.sphere(c).unwrap().position.x, 2.0);
+    assert!(matches!(world.sphere(b), Err(Error::Unknown(_))));
+    assert!(matches!(world.remove_sphere(b), Err(Error::Unknown(_))));
+    let d = add(&mut world, 3.0);
+    assert!(![a, b, c].contains(&d));
+    assert_eq!(world.spheres().ids(), [a, c, d]);
+}
+
+/// Fails after a while, as a mistaken user's force would.
+#[derive(Debug)]
+struct Explosive;
+
+impl Force for Explosive {
+    fn on(&self, sphere: &SphereState, time: f64) -> DVec3 {
+        if time < 0.5 { DVec3::ZERO } else { sphere.position / 0.0 }
+    }
+}
+
+#[test]
+fn a_step_that_would_overflow_is_refused_and_the_state_before_it_kept() {
+    for rule in RULES {
+        let mut world = busy_world(rule());
+        world.add_force(Explosive).unwrap();
+        run(&mut world, 60);
+        let (before, time) = (world.state_hash(), world.time());
+        let ids = world.spheres().ids().to_vec();
+        let error = world.step(1.0 / 120.0).unwrap_err();
+        assert!(matches!(error, Error::NonFiniteState { quantity: "velocity", .. }), "{error}");
+        assert_eq!((world.state_hash(), world.time()), (before, time));
+        assert_eq!(world.spheres().ids(), ids);
+        assert!(world.report().impacts.is_empty());
+        // The world stays usable: with a smaller offence, it goes on.
+        let snapshot = world.snapshot();
+        world.restore(&snapshot);
+        assert!(world.step(1.0 / 120.0).is_err());
+    }
+}
+
+#[test]
+fn a_speed_beyond_all_numbers_is_refused() {
+    let mut world = world(Rule::Discrete);
+    let id = world.add_sphere(Sphere::new(DVec3::ZERO, 1.0).with_velocity(vec(1e308, 0.0, 0.0)));
+    let error = world.step(10.0).unwrap_err().to_string();
+    assert!(error.contains(&format!("sphere {}", id.unwrap())) && error.contains("position"));
+    assert_eq!(world.time(), 0.0);
+}
+
+#[test]
+fn every_field_of_a_sphere_is_checked_and_named() {
+    let good = Sphere::new(DVec3::ZERO, 1.0);
+    let bad = [f64::NAN, f64::INFINITY, -1.0, 0.0];
+    let mut cases: Vec<(&str, Sphere)> = vec![
+        ("position", Sphere { position: vec(0.0, f64::NAN, 0.0), ..good }),
+        ("velocity", good.with_velocity(vec(f64::INFINITY, 0.0, 0.0))),
+        ("restitution", good.with_restitution(1.1)),
+        ("restitution", good.with_restitution(-0.1)),
+        ("restitution", good.with_restitution(f64::NAN)),
+        // The volume of so small a sphere is zero.
+        ("mass", Sphere { radius: 1e-200, ..good }.with_density(1.0)),
+    ];
+    for value in bad {
+        cases.push(("radius", Sphere { radius: value, ..good }));
+        cases.push(("mass", good.with_mass(value)));
+        cases.push(("density", good.with_density(value)));
+    }
+    let mut world = busy_world(Rule::Discrete);
+    let before = world.state_hash();
+    let existing = world.spheres().ids()[3];
+    for (field, sphere) in cases {
+        let refusals = [
+            world.add_sphere(sphere).map(|_| ()).unwrap_err(),
+            world.set_sphere(existing, sphere).unwrap_err(),
+        ];
+        for (error, id) in refusals.into_iter().zip(["sphere 40", "sphere 3"]) {
+            let text = error.to_string();
+            assert!(text.starts_with(id) && text.contains(&format!("`{field}`")), "{text}");
+        }
+    }
+    assert_eq!(world.state_hash(), before);
+}
+
+#[test]
+fn every_field_of_colliders_forces_emitters_and_settings_is_checked_and_named() {
+    let mut world = World::default();
+    let collider = |shape| Collider::new(shape, Pose::at(DVec3::ZERO));
+    let plane = collider(Shape::HalfSpace);
+    let zero_rotation = Pose::at(DVec3::ZERO).rotated(DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0));
+    let rectangle = |size_x, size_z| collider(Shape::Rectangle { size_x, size_z });
+    let colliders = [
+        ("radius", collider(Shape::Sphere { radius: 0.0 })),
+        ("size_x", rectangle(-1.0, 1.0)),
+        ("size_z", rectangle(1.0, f64::NAN)),
+        ("size.y", collider(Shape::Box { size: vec(1.0, 0.0, 1.0) })),
+        ("position", Collider { pose: Pose::at(vec(0.0, 0.0, f64::NAN)), ..plane }),
+        ("rotation", Collider { pose: zero_rotation, ..plane }),
+        ("restitution", plane.with_restitution(2.0)),
+    ];
+    for (field, collider) in colliders {
+        let text = world.add_collider(collider).unwrap_err().to_string();
+        assert!(text.starts_with("collider 0") && text.contains(&format!("`{field}`")), "{text}");
+    }
+    assert!(world.colliders().is_empty());
+
+    let text = world.add_force(ViscousDrag::new(-1.0)).unwrap_err().to_string();
+    assert!(text.starts_with("force 0") && text.contains("`coefficient`"), "{text}");
+    let text = world.add_force(Gravity::new(DVec3::NAN)).unwrap_err().to_string();
+    assert!(text.contains("`acceleration`"), "{text}");
+
+    let good = Emitter {
+        sphere: Sphere::new(DVec3::ZERO, 1.0),
+        position: DVec3::ZERO,
+        rotation: DQuat::IDENTITY,
+        period: 1.0,
+        max_spheres: None,
+    };
+    let emitters = [
+        ("radius", Emitter { sphere: Sphere::new(DVec3::ZERO, -1.0), ..good }),
+        ("position", Emitter { position: DVec3::NAN, ..good }),
+        ("rotation", Emitter { rotation: DQuat::from_xyzw(0.0, f64::NAN, 0.0, 0.0), ..good }),
+        ("period", Emitter { period: 0.0, ..good }),
+        ("max_spheres", Emitter { max_spheres: Some(0), ..good }),
+    ];
+    for (field, emitter) in emitters {
+        let text = world.add_emitter(emitter).unwrap_err().to_string();
+        assert!(text.starts_with("emitter 0") && text.contains(&format!("`{field}`")), "{text}");
+    }
+
+    let good = Bisect::default();
+    let settings = [
+        ("tolerance", Bisect { tolerance: f64::NAN, ..good }),
+        ("max_halvings", Bisect { max_halvings: 0, ..good }),
+        ("max_substeps", Bisect { max_substeps: 0, ..good }),
+    ];
+    for (field, bisect) in settings {
+        let settings = Settings { rule: Rule::Bisect(bisect), ..Settings::default() };
+        let text = world.set_settings(settings).unwrap_err().to_string();
+        assert!(text.starts_with("settings") && text.contains(&format!("`{field}`")), "{text}");
+        assert!(World::new(settings).is_err());
+    }
+    assert_eq!(*world.settings(), Settings::default());
+
+    for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let text = world.step(dt).unwrap_err().to_string();
+        assert!(text.starts_with("step") && text.contains("`dt`"), "{text}");
+    }
+}
+
+#[test]
+fn unknown_ids_are_errors_that_name_them() {
+    let mut twin = busy_world(Rule::Discrete);
+    let force = twin.add_force(Gravity::new(DVec3::ZERO)).unwrap();
+    let collider = twin.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)));
+    let (collider, plane) = (collider.unwrap(), twin.colliders()[0]);
+    let mut world = busy_world(Rule::Discrete);
+    let texts = [
+        world.set_force(force, Gravity::new(DVec3::ZERO)).unwrap_err().to_string(),
+        world.set_collider(collider, plane).unwrap_err().to_string(),
+        world.set_pose(collider, plane.pose).unwrap_err().to_string(),
+    ];
+    for (text, name) in texts.iter().zip(["force 2", "collider 2", "collider 2"]) {
+        assert!(text.contains(name), "{text}");
+    }
+}
+
+#[test]
+fn a_collider_put_elsewhere_collides_there() {
+    let mut world = world(Rule::Discrete);
+    let plane = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
+    let plane = world.add_collider(plane).unwrap();
+    let ball = Sphere::new(vec(0.0, 5.0, 0.0), 0.5).with_velocity(vec(0.0, -1.0, 0.0));
+    let ball = world.add_sphere(ball).unwrap();
+    world.set_pose(plane, Pose::at(vec(0.0, 4.0, 0.0))).unwrap();
+    world.step(1.0).unwrap();
+    assert_eq!(world.sphere(ball).unwrap().velocity.y, 1.0);
+    assert_eq!(world.sphere(ball).unwrap().position.y, 4.5);
+}
+
+#[test]
+fn overlaps_are_listed_with_their_depth() {
+    let mut world = world(Rule::Discrete);
+    world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))).unwrap();
+    for (x, y) in [(0.0, 1.0), (0.75, 1.0), (5.0, 0.25), (8.0, 0.5)] {
+        world.add_sphere(Sphere::new(vec(x, y, 0.0), 0.5)).unwrap();
+    }
+    let depths: Vec<f64> = world.overlaps(1e-9).iter().map(|overlap| overlap.depth).collect();
+    assert_eq!(depths, [0.25, 0.25]);
+    assert_eq!(world.overlaps(0.3), []);
+}
