@@ -7,9 +7,12 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::state::State;
 
-/// Hash of a world's state: XXH3 (64 bits) over the bits of every number in it.
+/// Hash of a world's state: XXH3 (64 bits) over the bits of what steps change.
 ///
-/// Equal states have equal hashes on every platform; a difference in one bit changes it.
+/// It covers the time; of every sphere id, position, velocity, radius, mass and restitution; the
+/// places of colliders; and how many spheres each emitter has emitted. Settings, forces and shapes
+/// are not part of it. Equal states have equal hashes on every platform; one changed bit changes
+/// the hash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct StateHash(pub u64);
 
@@ -19,8 +22,9 @@ impl Display for StateHash {
     }
 }
 
-/// Hashes, in this order: time; per sphere its id, position, velocity, radius, mass, restitution;
-/// per collider its position and rotation; per emitter the number of spheres emitted.
+/// Hashes, in this order: time; the number of spheres; per sphere its id, position, velocity,
+/// radius, mass, restitution; per collider its position and rotation; per emitter the number of
+/// spheres emitted.
 pub(crate) fn of_state(state: &State) -> StateHash {
     let mut words = Words(Xxh3Default::new());
     words.number(state.clock.seconds());

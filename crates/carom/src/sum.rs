@@ -2,7 +2,7 @@
 /// as if it had been rounded once (for terms of one sign).
 ///
 /// Source: Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen",
-/// ZAMM 54 (1974), algorithm IV.
+/// ZAMM 54 (1974).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Sum {
     total: f64,

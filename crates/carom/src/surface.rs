@@ -112,7 +112,7 @@ fn bounds(form: &Form) -> Option<Bounds> {
         Form::HalfSpace { .. } => return None,
     };
     // Wider by far more than rounding, so that a surface at the very edge is never passed over.
-    let slack = 1e-12 * (center.abs() + half);
+    let slack = 1e-12 * (center.abs() + half).max_element();
     Some(Bounds::around(center, half + slack))
 }
 

@@ -289,6 +289,11 @@ impl World {
         overlaps
     }
 
+    /// Whether a sphere at `center` with `radius` \[m\] would touch or overlap a solid collider.
+    pub fn meets_collider(&self, center: DVec3, radius: f64) -> bool {
+        contacts::meets_surface(&self.state.now().system, center, radius)
+    }
+
     /// The state as one number, to compare worlds to the bit.
     pub fn state_hash(&self) -> StateHash {
         hash::of_state(&self.state)

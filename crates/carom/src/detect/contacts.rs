@@ -1,5 +1,7 @@
 //! Finding contacts among many spheres, at one instant.
 
+use glam::DVec3;
+
 use super::broad_phase::BroadPhase;
 use super::{ContactState, Separation, classify, sphere_sphere, sphere_surface};
 use crate::bodies::Motion;
@@ -116,7 +118,7 @@ impl Instant<'_> {
 
 /// Bounds of a sphere, widened by `margin` \[m\].
 pub(crate) fn reach(system: &System, motion: &Motion, index: usize, margin: f64) -> Bounds {
-    let half = glam::DVec3::splat(system.spheres.radius[index] + margin);
+    let half = DVec3::splat(system.spheres.radius[index] + margin);
     Bounds::around(motion.position[index], half)
 }
 
@@ -251,6 +253,16 @@ pub(crate) fn of_moved(
     }
 }
 
+/// Whether a sphere at `center` with `radius` \[m\] touches or overlaps a solid surface.
+pub(crate) fn meets_surface(system: &System, center: DVec3, radius: f64) -> bool {
+    let mut near = Vec::new();
+    system.tree.near(&Bounds::around(center, DVec3::splat(radius)), &mut near);
+    near.iter().map(|&index| &system.surfaces[index as usize]).any(|surface| {
+        let separation = sphere_surface(&surface.form, center, radius);
+        !surface.trigger && separation.is_some_and(|separation| separation.distance <= 0.0)
+    })
+}
+
 /// Contacts of all spheres with triggers: at most `tolerance` \[m\] apart, whichever way they move.
 pub(crate) fn of_triggers(
     instant: &Instant,
@@ -287,7 +299,7 @@ fn of_surfaces(
     }
 }
 
-fn at(instant: &Instant, i: u32) -> (u32, glam::DVec3, f64) {
+fn at(instant: &Instant, i: u32) -> (u32, DVec3, f64) {
     (i, instant.motion.position[i as usize], instant.system.spheres.radius[i as usize])
 }
 

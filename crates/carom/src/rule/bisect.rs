@@ -164,8 +164,11 @@ fn give_up(
     advance(system, (current, end), island.members.iter().copied(), rest);
     let instant = at_end(system, end, frame);
     contacts::of_some(&instant, &island.members, parameters.tolerance, search, late_contacts);
-    for contact in late_contacts.iter().filter(|c| is_intersecting(c)) {
-        let Some(impact) = respond::answer(contact, system, end, frame.h) else { continue };
+    for late in late_contacts.iter().filter(|c| is_intersecting(c)) {
+        // The answers before this one may have moved the sphere.
+        let now = at_end(system, end, frame).contact(late.bodies, parameters.tolerance);
+        let Some(contact) = now.filter(is_intersecting) else { continue };
+        let Some(impact) = respond::answer(&contact, system, end, frame.h) else { continue };
         island.impacts.push(impact);
         if let Bodies::Surface { sphere, surface } = contact.bodies {
             let form = &system.surfaces[surface as usize].form;

@@ -112,8 +112,7 @@ impl Islands {
             report.impacts.extend_from_slice(&island.impacts);
             report.unfinished_islands += u32::from(island.unfinished);
         }
-        let order = |a: &Impact, b: &Impact| a.time.total_cmp(&b.time).then(a.between.cmp(&b.between));
-        report.impacts.sort_by(order);
+        report.impacts.sort_by(|a, b| a.time.total_cmp(&b.time));
     }
 
     /// Whether a sphere belongs to an island.

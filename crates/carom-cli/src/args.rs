@@ -1,0 +1,137 @@
+//! The command line and its help.
+
+use std::path::PathBuf;
+
+use carom_scene::{Library, Override};
+use clap::{Parser, Subcommand};
+
+use crate::failure::Failure;
+
+/// Moves spheres exactly: runs scenes of spheres that collide with each other and with fixed
+/// surfaces.
+#[derive(Debug, Parser)]
+#[command(name = "carom", version, propagate_version = true)]
+pub struct Args {
+    /// Folder with scene files of your own; may be given several times. The folders in
+    /// $CAROM_SCENES are searched after these, the built-in scenes last.
+    #[arg(long, global = true, value_name = "DIR")]
+    scenes: Vec<PathBuf>,
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+impl Args {
+    /// All scenes that can be found.
+    pub fn library(&self) -> Result<Library, Failure> {
+        let mut library = Library::new();
+        let from_environment = std::env::var_os("CAROM_SCENES").unwrap_or_default();
+        let from_environment = std::env::split_paths(&from_environment);
+        let folders = self.scenes.iter().cloned().chain(from_environment);
+        for folder in folders.filter(|folder| !folder.as_os_str().is_empty()) {
+            library.add_folder(&folder).map_err(|error| Failure::Usage(error.to_string()))?;
+        }
+        Ok(library)
+    }
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// List every scene found: name, description, origin.
+    Scenes {
+        /// Print JSON instead of text.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Check scene files; says what is wrong, and in which line.
+    Check {
+        /// Scene files.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+    },
+    /// Print a scene as TOML, every default written out.
+    Show(Show),
+    /// Run a scene and print what became of it.
+    Run(Box<Run>),
+}
+
+/// Which scene, and what is different in it.
+#[derive(Debug, clap::Args)]
+pub struct Choice {
+    /// Name or title of a scene, or a scene file.
+    scene: String,
+    /// Change a value of the scene, like emitters.0.max_spheres=100; may be given several times.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
+    overrides: Vec<Override>,
+}
+
+impl Choice {
+    /// The scene with its changes, and then those of `more`.
+    pub fn find(
+        &self,
+        library: &Library,
+        more: impl IntoIterator<Item = String>,
+    ) -> Result<carom_scene::Scene, Failure> {
+        let mut overrides = self.overrides.clone();
+        for text in more {
+            overrides.push(text.parse()?);
+        }
+        Ok(library.find(&self.scene, &overrides)?.0)
+    }
+}
+
+fn parse_override(text: &str) -> Result<Override, String> {
+    text.parse().map_err(|error: carom_scene::SceneError| error.to_string())
+}
+
+/// Print a scene.
+#[derive(Debug, clap::Args)]
+pub struct Show {
+    /// Which scene.
+    #[command(flatten)]
+    pub choice: Choice,
+    /// Write out every sphere that generators make.
+    #[arg(long)]
+    pub expand: bool,
+}
+
+/// Run a scene.
+#[derive(Debug, clap::Args)]
+pub struct Run {
+    /// Which scene.
+    #[command(flatten)]
+    pub choice: Choice,
+    /// Step rule, instead of the scene's own.
+    #[arg(long, value_parser = ["discrete", "bisect"])]
+    pub rule: Option<String>,
+    /// Length of a frame, instead of the scene's own.
+    #[arg(long, value_name = "SECONDS")]
+    pub frame_time: Option<f64>,
+    /// How long to run, instead of the scene's own duration; taken up to whole frames.
+    #[arg(long, conflicts_with = "frames", value_parser = positive)]
+    pub seconds: Option<f64>,
+    /// How many frames to run.
+    #[arg(long)]
+    pub frames: Option<u64>,
+    /// Write the trajectory; the ending tells the format: .csv, .npz (NumPy), or .pvd (a series
+    /// of .vtp files for ParaView).
+    #[arg(long, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// Write only every N-th frame of the trajectory.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    pub every: u64,
+    /// Write every impact to a .csv file.
+    #[arg(long, value_name = "PATH")]
+    pub impacts: Option<PathBuf>,
+    /// Print the summary as JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("a positive number is needed".to_owned()),
+    }
+}

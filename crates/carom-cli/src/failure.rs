@@ -1,0 +1,82 @@
+//! How a command fails: one line on the standard error stream, and an exit code.
+
+use std::io;
+use std::process::ExitCode;
+
+use carom_scene::SceneError;
+use carom_scene::recording::RecordingError;
+
+/// Why a command stops before its end.
+#[derive(Debug)]
+pub enum Failure {
+    /// The command line asks for something that does not exist or makes no sense: code 2.
+    Usage(String),
+    /// Something went wrong on the way: code 1.
+    Fault(String),
+    /// Whoever read the output has heard enough: code 0, silently.
+    OutputClosed,
+    /// Stopped by the user; what was written is complete: code 130, as shells expect.
+    Interrupted,
+}
+
+impl Failure {
+    /// Says what went wrong and with which code to end.
+    pub fn report(self) -> ExitCode {
+        match self {
+            Self::Usage(message) => {
+                eprintln!("carom: {message}");
+                ExitCode::from(2)
+            }
+            Self::Fault(message) => {
+                eprintln!("carom: {message}");
+                ExitCode::from(1)
+            }
+            Self::OutputClosed => ExitCode::SUCCESS,
+            Self::Interrupted => ExitCode::from(130),
+        }
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        let message = error.to_string();
+        match error {
+            SceneError::Unknown { .. } => {
+                Self::Usage(format!("{message} (`carom scenes` lists them all)"))
+            }
+            SceneError::BadOverride { .. } => Self::Usage(message),
+            // A fault in an override is named after it.
+            SceneError::Invalid(fault) if fault.source_name.starts_with("--set ") => {
+                Self::Usage(message)
+            }
+            _ => Self::Fault(message),
+        }
+    }
+}
+
+impl From<RecordingError> for Failure {
+    fn from(error: RecordingError) -> Self {
+        let message = error.to_string();
+        match error {
+            RecordingError::UnknownFormat { .. } => Self::Usage(message),
+            _ => Self::Fault(message),
+        }
+    }
+}
+
+impl From<carom::Error> for Failure {
+    fn from(error: carom::Error) -> Self {
+        Self::Fault(error.to_string())
+    }
+}
+
+/// Errors in writing to the standard output.
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::OutputClosed
+        } else {
+            Self::Fault(format!("cannot write the output: {error}"))
+        }
+    }
+}

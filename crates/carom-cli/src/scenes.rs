@@ -1,0 +1,81 @@
+//! The commands about scenes themselves: list, check, show.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use carom_scene::{Entry, Library, Scene};
+use serde_json::json;
+
+use crate::args::Show;
+use crate::failure::Failure;
+
+/// Lists every scene found.
+pub fn list(library: &Library, json: bool) -> Result<(), Failure> {
+    let entries = library.entries()?;
+    let mut out = io::stdout().lock();
+    if json {
+        let list: Vec<_> = entries.iter().map(as_json).collect();
+        writeln!(out, "{:#}", serde_json::Value::from(list))?;
+        return Ok(());
+    }
+    for Entry { name, source, scene } in &entries {
+        match scene {
+            Ok(scene) => {
+                let title = if scene.title.is_empty() { name } else { &scene.title };
+                writeln!(out, "{name:<12} {title}")?;
+                if !scene.description.is_empty() {
+                    writeln!(out, "{:12} {}", "", scene.description)?;
+                }
+                let origin = if scene.origin.is_empty() { "" } else { " - " };
+                writeln!(out, "{:12} [{source}{origin}{}]", "", scene.origin)?;
+            }
+            Err(error) => writeln!(out, "{name:<12} cannot be read: {error}")?,
+        }
+        writeln!(out)?;
+    }
+    writeln!(out, "{} scenes; `carom run NAME` runs one.", entries.len())?;
+    Ok(())
+}
+
+fn as_json(entry: &Entry) -> serde_json::Value {
+    let source = entry.source.to_string();
+    match &entry.scene {
+        Ok(Scene { name, title, description, origin, .. }) => json!({
+            "name": name,
+            "title": title,
+            "description": description,
+            "origin": origin,
+            "source": source,
+        }),
+        Err(error) => json!({ "name": entry.name, "source": source, "error": error.to_string() }),
+    }
+}
+
+/// Checks scene files; every broken one is told about before the command fails.
+pub fn check(files: &[PathBuf]) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    let mut broken = 0;
+    for file in files {
+        match Scene::from_file(file, &[]) {
+            Ok(scene) => writeln!(out, "{}: ok, \"{}\"", file.display(), scene.name)?,
+            Err(error) => {
+                eprintln!("{error}");
+                broken += 1;
+            }
+        }
+    }
+    match broken {
+        0 => Ok(()),
+        _ => Err(Failure::Fault(format!("{broken} of {} scene files are broken", files.len()))),
+    }
+}
+
+/// Prints a scene as TOML.
+pub fn show(library: &Library, show: &Show) -> Result<(), Failure> {
+    let mut scene = show.choice.find(library, [])?;
+    if show.expand {
+        scene = scene.expanded()?;
+    }
+    io::stdout().lock().write_all(scene.to_toml().as_bytes())?;
+    Ok(())
+}

@@ -1,0 +1,163 @@
+//! What became of a run, in a few lines.
+
+use std::io::{self, Write};
+use std::time::{Duration, Instant};
+
+use carom::{DVec3, World};
+use carom_scene::Scene;
+use serde::Serialize;
+
+/// Watches a run.
+pub struct Observer {
+    began: Instant,
+    stepping: Duration,
+    energy_at_start: f64,
+    momentum_at_start: DVec3,
+    frames: u64,
+    impacts: u64,
+    emitted: u64,
+    retired: u64,
+    unfinished_islands: u64,
+    largest_overlap: f64,
+}
+
+impl Observer {
+    pub fn new(world: &World) -> Self {
+        Self {
+            began: Instant::now(),
+            stepping: Duration::ZERO,
+            energy_at_start: world.total_energy(),
+            momentum_at_start: world.momentum(),
+            frames: 0,
+            impacts: 0,
+            emitted: 0,
+            retired: 0,
+            unfinished_islands: 0,
+            largest_overlap: 0.0,
+        }
+    }
+
+    /// Steps the world, and notes what happened.
+    pub fn step(&mut self, world: &mut World, h: f64) -> Result<(), carom::Error> {
+        let began = Instant::now();
+        let report = world.step(h)?;
+        self.stepping += began.elapsed();
+        self.frames += 1;
+        self.impacts += report.impacts.len() as u64;
+        self.emitted += report.emitted.len() as u64;
+        self.retired += report.retired.len() as u64;
+        self.unfinished_islands += u64::from(report.unfinished_islands);
+        let depths = world.overlaps(0.0).into_iter().map(|overlap| overlap.depth);
+        self.largest_overlap = depths.fold(self.largest_overlap, f64::max);
+        Ok(())
+    }
+}
+
+/// The figures of a run.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    scene: String,
+    rule: String,
+    frame_time: f64,
+    frames: u64,
+    simulated_time: f64,
+    spheres: usize,
+    emitted: u64,
+    retired: u64,
+    impacts: u64,
+    unfinished_islands: u64,
+    energy_at_start: f64,
+    energy_at_end: f64,
+    momentum_at_start: [f64; 3],
+    momentum_at_end: [f64; 3],
+    /// At the ends of frames.
+    largest_overlap: f64,
+    wall_time: f64,
+    stepping_time: f64,
+    state_hash: String,
+}
+
+impl Summary {
+    pub fn new(scene: &Scene, world: &World, observer: Observer) -> Self {
+        let rule = match world.settings().rule {
+            carom::Rule::Discrete => "discrete",
+            carom::Rule::Bisect(_) => "bisect",
+            _ => "other",
+        };
+        Self {
+            scene: scene.name.clone(),
+            rule: rule.to_owned(),
+            frame_time: scene.simulation.frame_time,
+            frames: observer.frames,
+            simulated_time: world.time(),
+            spheres: world.spheres().len(),
+            emitted: observer.emitted,
+            retired: observer.retired,
+            impacts: observer.impacts,
+            unfinished_islands: observer.unfinished_islands,
+            energy_at_start: observer.energy_at_start,
+            energy_at_end: world.total_energy(),
+            momentum_at_start: observer.momentum_at_start.to_array(),
+            momentum_at_end: world.momentum().to_array(),
+            largest_overlap: observer.largest_overlap,
+            wall_time: observer.began.elapsed().as_secs_f64(),
+            stepping_time: observer.stepping.as_secs_f64(),
+            state_hash: world.state_hash().to_string(),
+        }
+    }
+
+    /// Prints the figures as a table, or as JSON.
+    pub fn print(&self, json: bool) -> io::Result<()> {
+        let mut out = io::stdout().lock();
+        if json {
+            serde_json::to_writer_pretty(&mut out, self)?;
+            return writeln!(out);
+        }
+        for (name, value) in self.rows() {
+            writeln!(out, "{name:<16} {value}")?;
+        }
+        Ok(())
+    }
+
+    fn rows(&self) -> Vec<(&'static str, String)> {
+        let start = DVec3::from_array(self.momentum_at_start);
+        let end = DVec3::from_array(self.momentum_at_end);
+        let came_and_went = match (self.emitted, self.retired) {
+            (0, 0) => String::new(),
+            (emitted, retired) => format!(" ({emitted} emitted, {retired} retired)"),
+        };
+        let mut rows = vec![
+            ("scene", self.scene.clone()),
+            ("rule", format!("{}, frames of {:.6} s", self.rule, self.frame_time)),
+            ("simulated time", format!("{:.3} s in {} frames", self.simulated_time, self.frames)),
+            ("spheres", format!("{}{came_and_went}", self.spheres)),
+            ("impacts", self.impacts.to_string()),
+            ("energy", change(self.energy_at_start, self.energy_at_end, "J")),
+            ("momentum", change(start.length(), end.length(), "kg m/s")),
+            ("largest overlap", format!("{:.3e} m at the end of a frame", self.largest_overlap)),
+            (
+                "wall time",
+                format!("{:.3} s, {:.3} s of it physics", self.wall_time, self.stepping_time),
+            ),
+            ("state hash", self.state_hash.clone()),
+        ];
+        if self.unfinished_islands > 0 {
+            let text = format!(
+                "{} groups of spheres went through their bound of contacts in a frame; the rest \
+                 of it was taken in one piece",
+                self.unfinished_islands
+            );
+            rows.push(("warning", text));
+        }
+        rows
+    }
+}
+
+fn change(start: f64, end: f64, unit: &str) -> String {
+    let relative = if start == 0.0 {
+        String::new()
+    } else {
+        format!(", {:+.3e} of the start", (end - start) / start.abs())
+    };
+    format!("{start:.6} -> {end:.6} {unit} ({:+.3e}{relative})", end - start)
+}

@@ -1,0 +1,100 @@
+//! What is wrong with a scene, where in the file, and what was probably meant.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// What can go wrong with scenes.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The scene says something that makes no sense.
+    #[error(transparent)]
+    Invalid(#[from] Fault),
+    /// A file or folder of scenes cannot be read.
+    #[error("cannot read {path}: {source}")]
+    Unreadable {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// No scene has this name or title.
+    #[error("there is no scene \"{name}\"{}", did_you_mean(.nearest))]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// The name most like it.
+        nearest: Option<String>,
+    },
+    /// An override is not of the form `path=value`.
+    #[error("--set {text}: {problem}")]
+    BadOverride {
+        /// The override.
+        text: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+}
+
+/// One thing that is wrong in a scene.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub struct Fault {
+    /// File, or other source of the scene.
+    pub source_name: String,
+    /// Line in the file, from 1; `None` where the value does not come from a file.
+    pub line: Option<usize>,
+    /// Path of the field, like `colliders[1].restitution`; empty for the file as a whole.
+    pub field: String,
+    /// What is wrong.
+    pub problem: String,
+    /// The known name most like an unknown one.
+    pub nearest: Option<String>,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.source_name)?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        if !self.field.is_empty() {
+            write!(f, ": {}", self.field)?;
+        }
+        write!(f, ": {}{}", self.problem, did_you_mean(&self.nearest))
+    }
+}
+
+fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or(String::new(), |name| format!("; did you mean \"{name}\"?"))
+}
+
+/// What is wrong at a path of the scene, before its place in a file is known.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Problem {
+    pub field: String,
+    pub problem: String,
+}
+
+impl Problem {
+    pub fn new(field: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self { field: field.into(), problem: problem.into() }
+    }
+}
+
+/// The candidate most like `name`, if any is like it at all.
+pub(crate) fn nearest<'a>(
+    name: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<String> {
+    // Below this, suggestions are guesses.
+    const SIMILAR: f64 = 0.75;
+    let name = name.to_lowercase();
+    candidates
+        .into_iter()
+        .map(|candidate| (strsim::jaro_winkler(&name, &candidate.to_lowercase()), candidate))
+        .filter(|(similarity, _)| *similarity >= SIMILAR)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate.to_owned())
+}

@@ -1,0 +1,29 @@
+use carom::World;
+
+use crate::error::{Fault, SceneError};
+use crate::scene::Scene;
+
+impl Scene {
+    /// The same scene with every sphere of its generators written out.
+    ///
+    /// # Errors
+    /// As [`Scene::world`].
+    pub fn expanded(&self) -> Result<Self, SceneError> {
+        // Random fillings keep clear of colliders and of the spheres before them.
+        let mut scene = Self { generators: Vec::new(), ..self.clone() };
+        scene.simulation.allow_overlap = true;
+        for (i, generator) in self.generators.iter().enumerate() {
+            let world: World = scene.world()?;
+            let spheres = generator.spheres(&world, &format!("generators[{i}]"));
+            scene.spheres.extend(spheres.map_err(|problem| Fault {
+                source_name: self.name.clone(),
+                line: None,
+                field: problem.field,
+                problem: problem.problem,
+                nearest: None,
+            })?);
+        }
+        scene.simulation.allow_overlap = self.simulation.allow_overlap;
+        Ok(scene)
+    }
+}

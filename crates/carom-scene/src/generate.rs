@@ -1,0 +1,220 @@
+//! Generators of spheres: rows, lattices, random fillings.
+
+use std::collections::HashMap;
+
+use carom::{DVec3, World};
+use rand_core::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+use crate::error::Problem;
+use crate::scene::{Generator, Sphere, Vector};
+use crate::world::{add_sphere, sphere, vector};
+
+/// Places tried for each sphere of a random filling. Random places fill a box to a volume
+/// fraction of 0.38 at most (random sequential addition), and slow down long before.
+const TRIES_PER_SPHERE: u32 = 10_000;
+
+/// What the spheres of a generator have in common.
+pub(crate) fn template(generator: &Generator) -> &Sphere {
+    match generator {
+        Generator::Row { sphere, .. }
+        | Generator::Lattice { sphere, .. }
+        | Generator::Random { sphere, .. } => sphere,
+    }
+}
+
+impl Generator {
+    /// The spheres it stands for, one by one, as they are in a world that holds `others` before.
+    ///
+    /// # Errors
+    /// As for the whole scene.
+    pub(crate) fn spheres(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
+        let at = |place: DVec3, sphere: &Sphere| Sphere {
+            position: (place + vector(sphere.position)).to_array(),
+            ..sphere.clone()
+        };
+        match self {
+            Self::Row { count, start, step, sphere } => {
+                check_count(*count, &format!("{path}.count"))?;
+                let (start, step) = (vector(*start), vector(*step));
+                Ok((0..*count).map(|i| at(start + f64::from(i) * step, sphere)).collect())
+            }
+            Self::Lattice { counts, start, spacing, sphere } => {
+                for count in counts {
+                    check_count(*count, &format!("{path}.counts"))?;
+                }
+                let mut spheres = Vec::new();
+                let [nx, ny, nz] = *counts;
+                for z in 0..nz {
+                    for y in 0..ny {
+                        for x in 0..nx {
+                            let cell = DVec3::new(x.into(), y.into(), z.into());
+                            spheres.push(at(vector(*start) + cell * vector(*spacing), sphere));
+                        }
+                    }
+                }
+                Ok(spheres)
+            }
+            Self::Random { .. } => self.scatter(world, path),
+        }
+    }
+
+    fn scatter(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
+        let Self::Random { count, min, max, seed, speed, radius_range, sphere } = self else {
+            return Ok(Vec::new());
+        };
+        check_count(*count, &format!("{path}.count"))?;
+        if !(speed.is_finite() && *speed >= 0.0) {
+            let text = format!("must be zero or positive, and finite, not {speed}");
+            return Err(Problem::new(format!("{path}.speed"), text));
+        }
+        let [smallest, largest] = radii(sphere, *radius_range, path)?;
+        let (min, room) = (vector(*min), vector(*max) - vector(*min));
+        if !(room.min_element() >= 2.0 * largest && room.is_finite()) {
+            let text = format!("must be above `min` by a diameter at least, not {max:?}");
+            return Err(Problem::new(format!("{path}.max"), text));
+        }
+        let mut numbers = Numbers(Pcg64::seed_from_u64(*seed));
+        let mut placed = Placed::new(world, largest);
+        let mut spheres = Vec::new();
+        for _ in 0..*count {
+            let radius = smallest + (largest - smallest) * numbers.unit();
+            let free = (0..TRIES_PER_SPHERE)
+                .map(|_| min + radius + numbers.vector() * (room - 2.0 * radius))
+                .find(|&center| placed.is_free(center, radius));
+            let Some(center) = free else {
+                let text = format!(
+                    "only {} of {count} spheres find a place at random; ask for fewer, or use a \
+                     lattice",
+                    spheres.len()
+                );
+                return Err(Problem::new(format!("{path}.count"), text));
+            };
+            placed.add(center, radius);
+            let velocity = vector(sphere.velocity) + *speed * numbers.direction();
+            spheres.push(Sphere {
+                position: center.to_array(),
+                velocity: velocity.to_array(),
+                radius: Some(radius),
+                diameter: None,
+                ..sphere.clone()
+            });
+        }
+        Ok(spheres)
+    }
+}
+
+/// Adds the spheres of a generator, written at `path`, to a world.
+pub(crate) fn fill(world: &mut World, generator: &Generator, path: &str) -> Result<(), Problem> {
+    let spheres = generator.spheres(world, path)?;
+    let path = format!("{path}.sphere");
+    spheres.iter().try_for_each(|sphere| add_sphere(world, sphere, &path))
+}
+
+fn check_count(count: u32, path: &str) -> Result<(), Problem> {
+    if count >= 1 { Ok(()) } else { Err(Problem::new(path, "must be at least 1, not 0")) }
+}
+
+/// Smallest and largest radius of a random filling.
+fn radii(template: &Sphere, range: Option<[f64; 2]>, path: &str) -> Result<[f64; 2], Problem> {
+    let Some([smallest, largest]) = range else {
+        let sphere_path = format!("{path}.sphere");
+        let radius = sphere(template, &sphere_path)?.radius;
+        if radius > 0.0 && radius.is_finite() {
+            return Ok([radius, radius]);
+        }
+        let text = format!("must be positive and finite, not {radius}");
+        return Err(Problem::new(format!("{sphere_path}.radius"), text));
+    };
+    if smallest > 0.0 && largest >= smallest && largest.is_finite() {
+        Ok([smallest, largest])
+    } else {
+        let text = format!("must be two positive radii in order, not {range:?}");
+        Err(Problem::new(format!("{path}.radius_range"), text))
+    }
+}
+
+/// Random numbers, the same on every platform.
+struct Numbers(Pcg64);
+
+impl Numbers {
+    /// In [0, 1).
+    fn unit(&mut self) -> f64 {
+        // The top 53 bits: every value is a multiple of 2^-53, so this is exact.
+        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// In the unit cube.
+    fn vector(&mut self) -> DVec3 {
+        DVec3::new(self.unit(), self.unit(), self.unit())
+    }
+
+    /// A unit vector, all directions alike: from the points of a ball.
+    fn direction(&mut self) -> DVec3 {
+        loop {
+            let point = 2.0 * self.vector() - 1.0;
+            let length_squared = point.length_squared();
+            if (1e-6..=1.0).contains(&length_squared) {
+                return point / length_squared.sqrt();
+            }
+        }
+    }
+}
+
+/// Spheres that have their places already, by cells as wide as the largest.
+struct Placed<'a> {
+    world: &'a World,
+    cell_size: f64,
+    cells: HashMap<[i64; 3], Vec<(DVec3, f64)>>,
+}
+
+impl<'a> Placed<'a> {
+    fn new(world: &'a World, largest_to_come: f64) -> Self {
+        let spheres = world.spheres();
+        let largest = spheres.radii().iter().fold(largest_to_come, |max, &r| max.max(r));
+        let mut placed = Self { world, cell_size: 2.0 * largest, cells: HashMap::new() };
+        for (&center, &radius) in spheres.positions().iter().zip(spheres.radii()) {
+            placed.add(center, radius);
+        }
+        placed
+    }
+
+    fn cell(&self, center: DVec3) -> [i64; 3] {
+        (center / self.cell_size).floor().to_array().map(|part| part as i64)
+    }
+
+    fn add(&mut self, center: DVec3, radius: f64) {
+        self.cells.entry(self.cell(center)).or_default().push((center, radius));
+    }
+
+    fn is_free(&self, center: DVec3, radius: f64) -> bool {
+        let [x, y, z] = self.cell(center);
+        let mut near = Vec::new();
+        for x in x - 1..=x + 1 {
+            for y in y - 1..=y + 1 {
+                for z in z - 1..=z + 1 {
+                    near.extend(self.cells.get(&[x, y, z]));
+                }
+            }
+        }
+        let apart = |&(other, r): &(DVec3, f64)| center.distance(other) > radius + r;
+        near.into_iter().flatten().all(apart) && !self.world.meets_collider(center, radius)
+    }
+}
+
+/// The place of a sphere, written out.
+impl Sphere {
+    /// A sphere at rest at a place \[m\], of 1 kg.
+    pub fn at(position: Vector, radius: f64) -> Self {
+        Self {
+            position,
+            velocity: [0.0; 3],
+            radius: Some(radius),
+            diameter: None,
+            mass: None,
+            density: None,
+            restitution: 1.0,
+            color: None,
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Scene files of Carom and recordings of what happens in them.
+//!
+//! A [`Scene`] is what a TOML file says ([`scene`]), checked; [`Scene::world`] makes a
+//! [`carom::World`] of it. A [`Library`] finds scenes by name: built-in ones, those in folders,
+//! and those registered from code. `recording` (feature `recording`) writes trajectories and
+//! impacts.
+//!
+//! ```
+//! let (scene, _) = carom_scene::Library::new().find("simtest1", &[])?;
+//! let mut world = scene.world()?;
+//! world.step(scene.simulation.frame_time)?;
+//! assert_eq!(world.spheres().len(), 1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod builtin;
+mod error;
+mod expand;
+mod generate;
+mod library;
+mod load;
+#[cfg(feature = "recording")]
+pub mod recording;
+pub mod scene;
+mod schema;
+mod world;
+
+pub use builtin::FILES as BUILT_IN_FILES;
+pub use error::{Fault, SceneError};
+pub use library::{Entry, Library, Source};
+pub use load::Override;
+pub use scene::Scene;
+pub use schema::json_schema;

@@ -1,0 +1,166 @@
+//! Finding scenes: built-in ones, those in folders, and those registered from code.
+
+use std::path::{Path, PathBuf};
+
+use crate::builtin;
+use crate::error::{SceneError, nearest};
+use crate::load::{Heading, Override};
+use crate::scene::Scene;
+
+/// Where a scene comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// Part of Carom.
+    BuiltIn,
+    /// A file.
+    File(PathBuf),
+    /// Registered from code.
+    Registered,
+}
+
+impl std::fmt::Display for Source {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::BuiltIn => f.write_str("built-in"),
+            Self::File(path) => path.display().fmt(f),
+            Self::Registered => f.write_str("registered"),
+        }
+    }
+}
+
+/// Scenes by name.
+///
+/// Where several have the same name, a registered one comes before one in a folder, and that
+/// before a built-in one; of two folders the one added first counts.
+#[derive(Debug, Clone, Default)]
+pub struct Library {
+    registered: Vec<Scene>,
+    folders: Vec<PathBuf>,
+}
+
+/// A scene as it is listed: readable, or with what is wrong with it.
+#[derive(Debug)]
+pub struct Entry {
+    /// Name to find it by.
+    pub name: String,
+    /// Where it comes from.
+    pub source: Source,
+    /// The scene itself, or why it cannot be read.
+    pub scene: Result<Scene, SceneError>,
+}
+
+impl Library {
+    /// The built-in scenes.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds the scene files (`*.toml`) of a folder.
+    ///
+    /// # Errors
+    /// [`SceneError::Unreadable`] if the folder cannot be listed.
+    pub fn add_folder(&mut self, folder: &Path) -> Result<(), SceneError> {
+        files_in(folder)?;
+        self.folders.push(folder.to_owned());
+        Ok(())
+    }
+
+    /// Adds a scene put together in code.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] if it makes no sense.
+    pub fn register(&mut self, scene: Scene) -> Result<(), SceneError> {
+        scene.world()?;
+        self.registered.push(scene);
+        Ok(())
+    }
+
+    /// All scenes, in the order in which names are looked up. Folders are read anew each time.
+    ///
+    /// # Errors
+    /// [`SceneError::Unreadable`] if a folder has become unreadable. A broken scene file is no
+    /// error here; its entry says what is wrong.
+    pub fn entries(&self) -> Result<Vec<Entry>, SceneError> {
+        let mut entries = Vec::new();
+        for scene in &self.registered {
+            let (name, scene) = (scene.name.clone(), Ok(scene.clone()));
+            entries.push(Entry { name, source: Source::Registered, scene });
+        }
+        for folder in &self.folders {
+            for path in files_in(folder)? {
+                let scene = Scene::from_file(&path, &[]);
+                let name = match &scene {
+                    Ok(scene) => scene.name.clone(),
+                    Err(_) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+                };
+                entries.push(Entry { name, source: Source::File(path), scene });
+            }
+        }
+        for (file, text) in builtin::FILES {
+            let scene = Scene::from_toml(text, file);
+            let name = file.trim_end_matches(".toml").to_owned();
+            entries.push(Entry { name, source: Source::BuiltIn, scene });
+        }
+        Ok(entries)
+    }
+
+    /// The scene with a name or title (in any case), or in the file of this path, with some
+    /// values changed.
+    ///
+    /// # Errors
+    /// [`SceneError::Unknown`] with the nearest name, or what is wrong with the scene.
+    pub fn find(&self, name: &str, overrides: &[Override]) -> Result<(Scene, Source), SceneError> {
+        let wanted = name.to_lowercase();
+        let is_wanted = |candidate: &str| candidate.to_lowercase() == wanted;
+        let mut known = Vec::new();
+        for scene in &self.registered {
+            if is_wanted(&scene.name) || is_wanted(&scene.title) {
+                return Ok((scene.with(overrides)?, Source::Registered));
+            }
+            known.push(scene.name.clone());
+        }
+        let as_path = Path::new(name);
+        if as_path.extension().is_some_and(|extension| extension == "toml") && as_path.exists() {
+            let scene = Scene::from_file(as_path, overrides)?;
+            return Ok((scene, Source::File(as_path.to_owned())));
+        }
+        for folder in &self.folders {
+            for path in files_in(folder)? {
+                let text = std::fs::read_to_string(&path).unwrap_or_default();
+                let heading: Option<Heading> = toml::from_str(&text).ok();
+                let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                let own = heading.map_or([stem.clone(), stem], |own| [own.name, own.title]);
+                if own.iter().any(|candidate| is_wanted(candidate)) {
+                    return Ok((Scene::from_file(&path, overrides)?, Source::File(path)));
+                }
+                known.extend(own);
+            }
+        }
+        for (file, text) in builtin::FILES {
+            let heading: Heading = toml::from_str(text).map_err(|error| SceneError::Unreadable {
+                path: PathBuf::from(file),
+                source: std::io::Error::other(error),
+            })?;
+            if is_wanted(&heading.name) || is_wanted(&heading.title) {
+                return Ok((Scene::from_toml_with(text, file, overrides)?, Source::BuiltIn));
+            }
+            known.extend([heading.name, heading.title]);
+        }
+        let nearest = nearest(name, known.iter().map(String::as_str));
+        Err(SceneError::Unknown { name: name.to_owned(), nearest })
+    }
+}
+
+/// The scene files of a folder, by name.
+fn files_in(folder: &Path) -> Result<Vec<PathBuf>, SceneError> {
+    let unreadable = |source| SceneError::Unreadable { path: folder.to_owned(), source };
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}

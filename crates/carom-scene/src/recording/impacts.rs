@@ -1,0 +1,88 @@
+//! Impacts as CSV: one row per impact.
+
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use carom::{Impact, Participants};
+
+use super::{RecordingError, digits, unwritable};
+
+/// Columns: time \[s\]; kind and number of body 1 (`sphere` or `collider`) and number of body 2, a
+/// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; impulse \[N s\].
+const HEADER: [&str; 12] = [
+    "t",
+    "kind1",
+    "body1",
+    "ball2",
+    "x",
+    "y",
+    "z",
+    "nx",
+    "ny",
+    "nz",
+    "approach_speed",
+    "impulse",
+];
+
+/// Writes impacts to a CSV file.
+#[derive(Debug)]
+pub struct ImpactTable {
+    path: PathBuf,
+    writer: csv::Writer<File>,
+}
+
+impl ImpactTable {
+    /// Creates the file.
+    ///
+    /// # Errors
+    /// For a place that cannot be written to.
+    pub fn create(path: &Path) -> Result<Self, RecordingError> {
+        let create = || -> io::Result<csv::Writer<File>> {
+            let mut writer = csv::Writer::from_writer(File::create(path)?);
+            writer.write_record(HEADER)?;
+            Ok(writer)
+        };
+        let writer = create().map_err(|source| unwritable(path, source))?;
+        Ok(Self { path: path.to_owned(), writer })
+    }
+
+    /// Writes the impacts of a step that started at `start` \[s\].
+    ///
+    /// # Errors
+    /// If the disk is full or gone.
+    pub fn write(&mut self, start: f64, impacts: &[Impact]) -> Result<(), RecordingError> {
+        let result = impacts.iter().try_for_each(|impact| self.write_row(start, impact));
+        result.map_err(|source| unwritable(&self.path, source))
+    }
+
+    fn write_row(&mut self, start: f64, impact: &Impact) -> io::Result<()> {
+        let (kind, body1, ball2) = match impact.between {
+            Participants::Spheres(first, second) => ("sphere", first.number(), second.number()),
+            Participants::Collider { collider, sphere } => {
+                ("collider", collider.number() as u64, sphere.number())
+            }
+        };
+        self.writer.write_field(digits(start + impact.time))?;
+        self.writer.write_field(kind)?;
+        self.writer.write_field(body1.to_string())?;
+        self.writer.write_field(ball2.to_string())?;
+        for value in [impact.point, impact.normal] {
+            for part in value.to_array() {
+                self.writer.write_field(digits(part))?;
+            }
+        }
+        self.writer.write_field(digits(impact.approach_speed))?;
+        self.writer.write_field(digits(impact.impulse))?;
+        self.writer.write_record(None::<&[u8]>)?;
+        Ok(())
+    }
+
+    /// Completes the file.
+    ///
+    /// # Errors
+    /// If the disk is full or gone.
+    pub fn finish(mut self) -> Result<(), RecordingError> {
+        self.writer.flush().map_err(|source| unwritable(&self.path, source))
+    }
+}

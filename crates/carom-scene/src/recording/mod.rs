@@ -1,0 +1,101 @@
+//! Recordings on disk: trajectories as CSV, NPZ or VTK, impacts as CSV.
+
+mod csv_table;
+mod impacts;
+mod npz;
+mod vtk;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use carom::World;
+use thiserror::Error;
+
+pub use impacts::ImpactTable;
+
+/// Why a recording failed.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RecordingError {
+    /// The ending of the file name names no format.
+    #[error("cannot tell the format of {path}: use {known}", known = ENDINGS)]
+    UnknownFormat {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file cannot be written.
+    #[error("cannot write {path}: {source}")]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+const ENDINGS: &str = ".csv, .npz, or .pvd (a series of .vtp files for ParaView)";
+
+/// Writes the states of a world, frame by frame.
+pub struct Trajectory {
+    path: PathBuf,
+    format: Box<dyn Format>,
+}
+
+/// One format of trajectories.
+trait Format: Send {
+    /// Writes the spheres as they are now.
+    fn write(&mut self, world: &World) -> io::Result<()>;
+
+    /// Completes the file.
+    fn finish(self: Box<Self>) -> io::Result<()>;
+}
+
+impl std::fmt::Debug for Trajectory {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Trajectory").field("path", &self.path).finish_non_exhaustive()
+    }
+}
+
+impl Trajectory {
+    /// Creates the file; its ending tells the format: `.csv`, `.npz`, or `.pvd` / `.vtp`.
+    ///
+    /// # Errors
+    /// For another ending, or a place that cannot be written to.
+    pub fn create(path: &Path) -> Result<Self, RecordingError> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let format: io::Result<Box<dyn Format>> = match ending.as_str() {
+            "csv" => csv_table::CsvTable::create(path).map(|format| Box::new(format) as _),
+            "npz" => npz::Npz::create(path).map(|format| Box::new(format) as _),
+            "pvd" | "vtp" => vtk::Series::create(path).map(|format| Box::new(format) as _),
+            _ => return Err(RecordingError::UnknownFormat { path: path.to_owned() }),
+        };
+        let format = format.map_err(|source| unwritable(path, source))?;
+        Ok(Self { path: path.to_owned(), format })
+    }
+
+    /// Writes the spheres as they are now, in order of their numbers.
+    ///
+    /// # Errors
+    /// If the disk is full or gone.
+    pub fn write(&mut self, world: &World) -> Result<(), RecordingError> {
+        self.format.write(world).map_err(|source| unwritable(&self.path, source))
+    }
+
+    /// Completes the file. Until then it may not be readable.
+    ///
+    /// # Errors
+    /// If the disk is full or gone.
+    pub fn finish(self) -> Result<(), RecordingError> {
+        let Self { path, format } = self;
+        format.finish().map_err(|source| unwritable(&path, source))
+    }
+}
+
+fn unwritable(path: &Path, source: io::Error) -> RecordingError {
+    RecordingError::Unwritable { path: path.to_owned(), source }
+}
+
+/// A number with 17 significant digits: as many as tell any two doubles apart.
+fn digits(value: f64) -> String {
+    format!("{value:.16e}")
+}

@@ -1,0 +1,126 @@
+//! Trajectories as NPZ, for NumPy: one array per quantity, one row per sphere and frame.
+//!
+//! Arrays: `t` and `ball` (rows), `position` and `velocity` (rows, 3), and `frame_start`
+//! (frames + 1): the rows of frame k are `frame_start[k] .. frame_start[k + 1]`.
+
+use std::fs::File;
+use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::path::Path;
+
+use carom::World;
+use npyz::WriterBuilder;
+use zip::write::SimpleFileOptions;
+
+use super::Format;
+
+/// An NPZ file holds one array after the other, frames come one after the other: columns wait in
+/// temporary files (beside the result, where there is room for it) until all frames are known.
+pub(super) struct Npz {
+    file: File,
+    time: Column,
+    ball: Column,
+    position: Column,
+    velocity: Column,
+    frame_start: Vec<u64>,
+}
+
+struct Column {
+    name: &'static str,
+    width: u64,
+    file: BufWriter<File>,
+}
+
+impl Column {
+    fn create(name: &'static str, width: u64, folder: &Path) -> io::Result<Self> {
+        Ok(Self { name, width, file: BufWriter::new(tempfile::tempfile_in(folder)?) })
+    }
+
+    fn push(&mut self, word: u64) -> io::Result<()> {
+        self.file.write_all(&word.to_le_bytes())
+    }
+}
+
+impl Npz {
+    pub fn create(path: &Path) -> io::Result<Self> {
+        let file = File::create(path)?;
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new("."));
+        Ok(Self {
+            file,
+            time: Column::create("t", 1, folder)?,
+            ball: Column::create("ball", 1, folder)?,
+            position: Column::create("position", 3, folder)?,
+            velocity: Column::create("velocity", 3, folder)?,
+            frame_start: vec![0],
+        })
+    }
+
+    fn rows(&self) -> u64 {
+        self.frame_start.last().copied().unwrap_or(0)
+    }
+}
+
+impl Format for Npz {
+    fn write(&mut self, world: &World) -> io::Result<()> {
+        let spheres = world.spheres();
+        for (i, id) in spheres.ids().iter().enumerate() {
+            self.time.push(world.time().to_bits())?;
+            self.ball.push(id.number())?;
+            for part in spheres.positions()[i].to_array() {
+                self.position.push(part.to_bits())?;
+            }
+            for part in spheres.velocities()[i].to_array() {
+                self.velocity.push(part.to_bits())?;
+            }
+        }
+        self.frame_start.push(self.rows() + spheres.len() as u64);
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> io::Result<()> {
+        let rows = self.rows();
+        let Self { file, time, ball, position, velocity, frame_start } = *self;
+        let mut zip = zip::ZipWriter::new(BufWriter::new(file));
+        for column in [time, position, velocity] {
+            append(&mut zip, column, rows, f64::from_le_bytes)?;
+        }
+        append(&mut zip, ball, rows, |bytes| u64::from_le_bytes(bytes) as i64)?;
+        start(&mut zip, "frame_start")?;
+        let mut array = npyz::WriteOptions::new()
+            .default_dtype()
+            .shape(&[frame_start.len() as u64])
+            .writer(&mut zip)
+            .begin_nd()?;
+        array.extend(frame_start.into_iter().map(|row| row as i64))?;
+        array.finish()?;
+        zip.finish()?.flush()
+    }
+}
+
+fn start<W: Write + Seek>(zip: &mut zip::ZipWriter<W>, name: &str) -> io::Result<()> {
+    let options = SimpleFileOptions::default().large_file(true);
+    Ok(zip.start_file(npyz::npz::file_name_from_array_name(name), options)?)
+}
+
+/// Appends a column to the archive, its words read as `T`.
+fn append<T: npyz::AutoSerialize, W: Write + Seek>(
+    zip: &mut zip::ZipWriter<W>,
+    column: Column,
+    rows: u64,
+    value: impl Fn([u8; 8]) -> T,
+) -> io::Result<()> {
+    let Column { name, width, file } = column;
+    start(zip, name)?;
+    let shape = [rows, width];
+    let shape = if width == 1 { &shape[..1] } else { &shape[..] };
+    let mut array = npyz::WriteOptions::new().default_dtype().shape(shape).writer(zip).begin_nd()?;
+    let mut file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
+    file.seek(SeekFrom::Start(0))?;
+    let mut file = BufReader::new(file);
+    let mut word = [0; 8];
+    for _ in 0..rows * width {
+        file.read_exact(&mut word)?;
+        array.push(&value(word))?;
+    }
+    array.finish()
+}

@@ -1,0 +1,97 @@
+//! Trajectories for ParaView: a `.vtp` file per frame, and a `.pvd` file that lists them with
+//! their times.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use carom::{DVec3, World};
+use vtkio::model::{
+    Attribute, Attributes, ByteOrder, DataSet, PolyDataPiece, Version, VertexNumbers, Vtk,
+};
+
+use super::Format;
+
+/// Files `NAME.pvd` and `NAME_000000.vtp`, `NAME_000001.vtp`, ...
+pub(super) struct Series {
+    path: PathBuf,
+    times: Vec<f64>,
+}
+
+impl Series {
+    pub fn create(path: &Path) -> io::Result<Self> {
+        let series = Self { path: path.with_extension("pvd"), times: Vec::new() };
+        series.write_list()?;
+        Ok(series)
+    }
+
+    fn frame_path(&self, frame: usize) -> PathBuf {
+        let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
+        self.path.with_file_name(format!("{stem}_{frame:06}.vtp"))
+    }
+
+    fn write_list(&self) -> io::Result<()> {
+        let mut list = BufWriter::new(File::create(&self.path)?);
+        writeln!(list, r#"<?xml version="1.0"?>"#)?;
+        writeln!(list, r#"<VTKFile type="Collection" version="0.1">"#)?;
+        writeln!(list, "  <Collection>")?;
+        for (frame, time) in self.times.iter().enumerate() {
+            let path = self.frame_path(frame);
+            let file = path.file_name().unwrap_or_default().to_string_lossy();
+            let file = file.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+            writeln!(list, r#"    <DataSet timestep="{time}" file="{file}"/>"#)?;
+        }
+        writeln!(list, "  </Collection>\n</VTKFile>")?;
+        list.flush()
+    }
+}
+
+impl Format for Series {
+    fn write(&mut self, world: &World) -> io::Result<()> {
+        let path = self.frame_path(self.times.len());
+        let mut file = BufWriter::new(File::create(path)?);
+        frame(world).write_xml(&mut file).map_err(|error| match error {
+            vtkio::Error::IO(error) => error,
+            other => io::Error::other(other),
+        })?;
+        file.flush()?;
+        self.times.push(world.time());
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> io::Result<()> {
+        self.write_list()
+    }
+}
+
+/// The spheres as points, with what belongs to each; in ParaView, glyphs of the `diameter` show
+/// them as they are.
+fn frame(world: &World) -> Vtk {
+    let spheres = world.spheres();
+    let count = spheres.len() as u64;
+    let vectors = |values: &[DVec3]| values.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
+    let balls: Vec<u64> = spheres.ids().iter().map(|id| id.number()).collect();
+    let diameters: Vec<f64> = spheres.radii().iter().map(|radius| 2.0 * radius).collect();
+    let point = vec![
+        Attribute::scalars("ball", 1).with_data(balls),
+        Attribute::scalars("diameter", 1).with_data(diameters),
+        Attribute::scalars("mass", 1).with_data(spheres.masses().to_vec()),
+        Attribute::vectors("velocity").with_data(vectors(spheres.velocities())),
+    ];
+    let verts = VertexNumbers::XML {
+        connectivity: (0..count).collect(),
+        offsets: (1..=count).collect(),
+    };
+    Vtk {
+        version: Version::new(),
+        title: String::new(),
+        byte_order: ByteOrder::LittleEndian,
+        data: DataSet::inline(PolyDataPiece {
+            points: vectors(spheres.positions()).into(),
+            verts: Some(verts),
+            data: Attributes { point, cell: Vec::new() },
+            ..PolyDataPiece::default()
+        }),
+        file_path: None,
+    }
+}

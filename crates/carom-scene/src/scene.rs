@@ -1,0 +1,435 @@
+//! What a scene file says: one type per table of the file.
+//!
+//! The doc comments here are the descriptions in the JSON Schema that editors show.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Three numbers x, y, z.
+pub type Vector = [f64; 3];
+/// A rotation as a quaternion x, y, z, w; any length but zero.
+pub type Quaternion = [f64; 4];
+/// Red, green, blue, each in [0, 1] (sRGB).
+pub type Color = [f64; 3];
+
+/// A Carom scene: spheres, what acts on them, what they bounce off, and how to look at it.
+/// Right-handed frame, y up, SI units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Short name, as typed on the command line.
+    pub name: String,
+    /// Name as shown to people; the scene is found by it too.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub title: String,
+    /// What there is to see, in a sentence or two.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub description: String,
+    /// Where the scene comes from.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub origin: String,
+    /// How the scene is stepped.
+    #[serde(default)]
+    pub simulation: Simulation,
+    /// Forces on every sphere; they add up.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub forces: Vec<Force>,
+    /// Single spheres.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub spheres: Vec<Sphere>,
+    /// Rows, lattices and random fillings of spheres, placed after the single ones.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub generators: Vec<Generator>,
+    /// Fixed shapes, in the order in which the rule `discrete` looks at them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub colliders: Vec<Collider>,
+    /// Sources of spheres.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub emitters: Vec<Emitter>,
+    /// Where to look from; fitted to the scene where it is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera: Option<Camera>,
+    /// The light.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sun: Option<Sun>,
+    /// Colours of what has none of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub colors: Option<Colors>,
+}
+
+/// How a scene is stepped.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Simulation {
+    /// The step rule.
+    pub rule: Rule,
+    /// How spheres move under forces.
+    pub integrator: Integrator,
+    /// Length of a frame [s], > 0.
+    pub frame_time: f64,
+    /// How long the scene is worth watching [s], > 0; what `carom run` takes unless told.
+    pub duration: f64,
+    /// Whether spheres collide with one another; with colliders they always do.
+    pub spheres_collide: bool,
+    /// Restitution of a contact from that of its two bodies.
+    pub restitution_rule: RestitutionRule,
+    /// Whether spheres may overlap each other or colliders at the start.
+    pub allow_overlap: bool,
+    /// Parameters of the rule `bisect`.
+    pub bisect: Bisect,
+}
+
+impl Default for Simulation {
+    fn default() -> Self {
+        Self {
+            rule: Rule::default(),
+            integrator: Integrator::default(),
+            frame_time: 1.0 / 60.0,
+            duration: 10.0,
+            spheres_collide: true,
+            restitution_rule: RestitutionRule::default(),
+            allow_overlap: false,
+            bisect: Bisect::default(),
+        }
+    }
+}
+
+/// A step rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rule {
+    /// Move every sphere by the frame, then answer what overlaps (the course's rule).
+    Discrete,
+    /// Wind back what intersects and find the time of contact by bisection (the tutorial's rule).
+    #[default]
+    Bisect,
+}
+
+/// How spheres move under forces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Integrator {
+    /// Velocity first, then position with the new velocity. First order.
+    #[default]
+    SemiImplicitEuler,
+    /// Position with the old velocity, then velocity. First order.
+    ExplicitEuler,
+    /// Second order.
+    VelocityVerlet,
+    /// Fourth order.
+    RungeKutta4,
+}
+
+/// Restitution of a contact from that of its two bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RestitutionRule {
+    /// Their product: with a sphere of 1, the collider's value governs.
+    #[default]
+    Product,
+    /// The smaller one.
+    Minimum,
+    /// The larger one.
+    Maximum,
+    /// Their mean.
+    Average,
+}
+
+/// Parameters of the rule `bisect`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Bisect {
+    /// Distance of surfaces that counts as touching [m], >= 0.
+    pub tolerance: f64,
+    /// Halvings in search of a contact, >= 1.
+    pub max_halvings: u32,
+    /// Bound on the contacts of a group of spheres in a frame, per sphere, >= 1.
+    pub max_substeps: u32,
+    /// Which spheres go through the pieces into which a contact cuts the frame.
+    pub wind_back: WindBack,
+}
+
+impl Default for Bisect {
+    fn default() -> Self {
+        let carom::Bisect { tolerance, max_halvings, max_substeps, .. } = carom::Bisect::default();
+        Self { tolerance, max_halvings, max_substeps, wind_back: WindBack::default() }
+    }
+}
+
+/// Which spheres go through the pieces into which a contact cuts the frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum WindBack {
+    /// Those that take part in contacts of the same group.
+    #[default]
+    Touched,
+    /// All, as the tutorial does; slow for many spheres.
+    All,
+}
+
+/// A force on every sphere.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Force {
+    /// The same force on every sphere, whatever its mass.
+    Constant {
+        /// [N]
+        force: Vector,
+    },
+    /// The same acceleration for every sphere.
+    Gravity {
+        /// [m/s²]
+        acceleration: Vector,
+    },
+    /// Drag against the velocity and proportional to it.
+    ViscousDrag {
+        /// [kg/s], >= 0
+        coefficient: f64,
+    },
+}
+
+/// A sphere, or what the spheres of a generator or an emitter have in common.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sphere {
+    /// Centre [m]; in a generator or an emitter an offset from the place it gives.
+    #[serde(default)]
+    pub position: Vector,
+    /// Velocity [m/s]; in an emitter in the emitter's frame.
+    #[serde(default)]
+    pub velocity: Vector,
+    /// Radius [m], > 0. Give this or `diameter`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Diameter [m], > 0. Give this or `radius`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diameter: Option<f64>,
+    /// Mass [kg], > 0; 1 unless this or `density` is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass: Option<f64>,
+    /// Density [kg/m³], > 0, instead of `mass`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
+    /// Coefficient of restitution in [0, 1].
+    #[serde(default = "one")]
+    pub restitution: f64,
+    /// Colour; by density or the scene's own where it is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn yes() -> bool {
+    true
+}
+
+fn is_true(value: &bool) -> bool {
+    *value
+}
+
+fn is_false(value: &bool) -> bool {
+    !*value
+}
+
+/// Places for many spheres.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Generator {
+    /// Spheres one after the other along a line.
+    Row {
+        /// How many, >= 1.
+        count: u32,
+        /// Centre of the first [m].
+        start: Vector,
+        /// From each centre to the next [m].
+        step: Vector,
+        /// What they have in common.
+        sphere: Sphere,
+    },
+    /// Spheres on a box-shaped lattice; x runs fastest, then y, then z.
+    Lattice {
+        /// How many along x, y and z, each >= 1.
+        counts: [u32; 3],
+        /// Centre of the first [m].
+        start: Vector,
+        /// Distance of neighbours along x, y and z [m].
+        spacing: Vector,
+        /// What they have in common.
+        sphere: Sphere,
+    },
+    /// Spheres scattered in a box, none overlapping another sphere or a collider.
+    Random {
+        /// How many, >= 1.
+        count: u32,
+        /// Lower corner of the box that holds the whole spheres [m].
+        min: Vector,
+        /// Upper corner of the box [m].
+        max: Vector,
+        /// The same seed gives the same scene.
+        seed: u64,
+        /// Speed [m/s], >= 0, in a random direction, on top of the common velocity.
+        #[serde(default)]
+        speed: f64,
+        /// Smallest and largest radius [m], evenly distributed, instead of the common one.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        radius_range: Option<[f64; 2]>,
+        /// What they have in common.
+        sphere: Sphere,
+    },
+}
+
+/// A fixed shape that spheres bounce off.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Collider {
+    /// What it is called.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// Its form.
+    pub shape: Shape,
+    /// Where its centre is [m].
+    #[serde(default)]
+    pub position: Vector,
+    /// How it is turned.
+    #[serde(default = "unturned")]
+    pub rotation: Quaternion,
+    /// Coefficient of restitution in [0, 1].
+    #[serde(default = "one")]
+    pub restitution: f64,
+    /// A trigger reports contact and deflects nothing.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub trigger: bool,
+    /// Whether it is drawn.
+    #[serde(default = "yes", skip_serializing_if = "is_true")]
+    pub visible: bool,
+    /// Its colour; the scene's own for surfaces where it is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+}
+
+fn unturned() -> Quaternion {
+    [0.0, 0.0, 0.0, 1.0]
+}
+
+/// Form of a collider in its own frame.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Shape {
+    /// A sphere.
+    Sphere {
+        /// [m], > 0
+        radius: f64,
+    },
+    /// A rectangle in its local xz plane that faces local +y; from behind spheres pass it.
+    Rectangle {
+        /// Full length along local x [m], > 0.
+        size_x: f64,
+        /// Full length along local z [m], > 0.
+        size_z: f64,
+    },
+    /// Everything below the local xz plane.
+    HalfSpace,
+    /// A box of six rectangles that face outward.
+    Box {
+        /// Full lengths along local x, y, z [m], each > 0.
+        size: Vector,
+    },
+}
+
+/// Emits a sphere at the times 0, period, 2 period, ...
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Emitter {
+    /// What it is called.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// Where spheres appear [m].
+    #[serde(default)]
+    pub position: Vector,
+    /// How the emitter, and with it the velocity of its spheres, is turned.
+    #[serde(default = "unturned")]
+    pub rotation: Quaternion,
+    /// Time between two spheres [s], > 0.
+    pub period: f64,
+    /// With this many of its spheres alive, the oldest makes place; no limit where it is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_spheres: Option<u32>,
+    /// What is emitted.
+    pub sphere: Sphere,
+}
+
+/// Where to look from. The camera looks along its local -z.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Camera {
+    /// [m]
+    pub position: Vector,
+    /// Rotation of the camera.
+    #[serde(default = "unturned")]
+    pub rotation: Quaternion,
+    /// Vertical field of view [degrees], in (0, 180).
+    #[serde(default = "sixty")]
+    pub vertical_fov_degrees: f64,
+    /// Nearest distance drawn [m], > 0.
+    #[serde(default = "near")]
+    pub near: f64,
+    /// Farthest distance drawn [m], > near.
+    #[serde(default = "far")]
+    pub far: f64,
+}
+
+fn sixty() -> f64 {
+    60.0
+}
+
+fn near() -> f64 {
+    0.3
+}
+
+fn far() -> f64 {
+    1000.0
+}
+
+/// The light. It travels along its local -z.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sun {
+    /// Rotation of the light.
+    pub rotation: Quaternion,
+    /// Colour of the light.
+    pub color: Color,
+    /// Brightness, >= 0; 1 is plain daylight.
+    #[serde(default = "one")]
+    pub intensity: f64,
+}
+
+/// Colours of what has none of its own.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Colors {
+    /// Behind everything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub background: Option<Color>,
+    /// Colliders.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colliders: Option<Color>,
+    /// Spheres whose density is not listed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spheres: Option<Color>,
+    /// Spheres by their density.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub densities: Vec<DensityColor>,
+}
+
+/// The colour of spheres of one density.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DensityColor {
+    /// [kg/m³], > 0
+    pub density: f64,
+    /// Their colour.
+    pub color: Color,
+}
