@@ -29,7 +29,8 @@ pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
     let mut world = scene.world()?;
     let interrupted = interruption()?;
     let observer = Observer::new(&world);
-    let (observer, result) = step_all(&mut world, (frames, h), (&interrupted, observer), &mut outputs);
+    let (observer, result) =
+        step_all(&mut world, (frames, h), (&interrupted, observer), &mut outputs);
     // Whatever happened, what was written so far is made readable.
     let finished = outputs.finish();
     result?;

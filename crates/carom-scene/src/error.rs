@@ -91,10 +91,12 @@ pub(crate) fn nearest<'a>(
     // Below this, suggestions are guesses.
     const SIMILAR: f64 = 0.75;
     let name = name.to_lowercase();
-    candidates
-        .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(&name, &candidate.to_lowercase()), candidate))
-        .filter(|(similarity, _)| *similarity >= SIMILAR)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| candidate.to_owned())
+    let mut best = (SIMILAR, None);
+    for candidate in candidates {
+        let similarity = strsim::jaro_winkler(&name, &candidate.to_lowercase());
+        if similarity > best.0 {
+            best = (similarity, Some(candidate.to_owned()));
+        }
+    }
+    best.1
 }

@@ -137,10 +137,11 @@ impl Library {
             }
         }
         for (file, text) in builtin::FILES {
-            let heading: Heading = toml::from_str(text).map_err(|error| SceneError::Unreadable {
-                path: PathBuf::from(file),
-                source: std::io::Error::other(error),
-            })?;
+            let heading: Heading =
+                toml::from_str(text).map_err(|error| SceneError::Unreadable {
+                    path: PathBuf::from(file),
+                    source: std::io::Error::other(error),
+                })?;
             if is_wanted(&heading.name) || is_wanted(&heading.title) {
                 return Ok((Scene::from_toml_with(text, file, overrides)?, Source::BuiltIn));
             }

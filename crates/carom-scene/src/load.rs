@@ -104,8 +104,8 @@ impl Scene {
             let line = error.span().map(|span| line_at(text, span.start));
             fault(source_name, line, "", error.message())
         })?;
-        let mut table: Table = toml::from_str(text)
-            .map_err(|error| fault(source_name, None, "", error.message()))?;
+        let mut table: Table =
+            toml::from_str(text).map_err(|error| fault(source_name, None, "", error.message()))?;
         for changed in overrides {
             changed.apply(&mut table)?;
         }
@@ -121,11 +121,12 @@ impl Scene {
                 }
             }
         };
-        let scene: Self = serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
-            let path = error.path().to_string();
-            let path = if path == "." { String::new() } else { path };
-            place(Problem::new(path, error.into_inner().message().trim()))
-        })?;
+        let scene: Self =
+            serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
+                let path = error.path().to_string();
+                let path = if path == "." { String::new() } else { path };
+                place(Problem::new(path, error.into_inner().message().trim()))
+            })?;
         world::build(&scene).map_err(place)?;
         Ok(scene)
     }

@@ -210,9 +210,11 @@ fn check_numbers(scene: &Scene) -> Result<(), Problem> {
     }
     let densities = scene.colors.iter().flat_map(|colors| &colors.densities).enumerate();
     for (i, DensityColor { density, .. }) in densities {
-        check(*density > 0.0 && density.is_finite(), &format!("colors.densities[{i}].density"), || {
-            format!("must be positive and finite, not {density}")
-        })?;
+        check(
+            *density > 0.0 && density.is_finite(),
+            &format!("colors.densities[{i}].density"),
+            || format!("must be positive and finite, not {density}"),
+        )?;
     }
     Ok(())
 }

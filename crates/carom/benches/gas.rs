@@ -34,8 +34,8 @@ fn gas(count: usize, rule: Rule) -> World {
     let edge = (count as f64 * carom::volume(RADIUS) / VOLUME_FRACTION).cbrt();
     let (center, half) = (DVec3::splat(0.5 * edge), 0.5 * edge);
     for normal in [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z] {
-        let pose = Pose::at(center - half * normal)
-            .rotated(DQuat::from_rotation_arc(DVec3::Y, normal));
+        let pose =
+            Pose::at(center - half * normal).rotated(DQuat::from_rotation_arc(DVec3::Y, normal));
         world.add_collider(Collider::new(Shape::HalfSpace, pose)).expect("a good wall");
     }
     let per_side = (count as f64).cbrt().ceil() as usize;

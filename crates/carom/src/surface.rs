@@ -10,7 +10,18 @@ pub(crate) struct Surface {
     pub form: Form,
     pub collider: ColliderId,
     pub restitution: f64,
-    pub trigger: bool,
+    pub role: Role,
+}
+
+/// What a surface is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// Spheres bounce off it.
+    Deflects,
+    /// It reports contact and deflects nothing.
+    Reports,
+    /// It only tells whether a sphere is inside: the volume of a box, whose faces deflect.
+    Encloses,
 }
 
 /// Geometry of a surface, in the world.
@@ -19,6 +30,17 @@ pub(crate) enum Form {
     Sphere { center: DVec3, radius: f64 },
     Rectangle(Rectangle),
     HalfSpace { point: DVec3, normal: DVec3 },
+    Box(SolidBox),
+}
+
+/// A solid box in the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SolidBox {
+    pub center: DVec3,
+    /// Directions of its edges, orthonormal.
+    pub axes: [DVec3; 3],
+    /// Half the lengths along the axes \[m\].
+    pub half: DVec3,
 }
 
 /// A one-sided rectangle in the world. The three axes are orthonormal.
@@ -37,49 +59,53 @@ pub(crate) struct Rectangle {
     pub half_z: f64,
 }
 
-/// Appends the surfaces of a collider (those of a box in the order -x, +x, -y, +y, -z, +z).
+/// Appends the surfaces of a collider. Those of a solid box are its volume and then its faces, in
+/// the order -x, +x, -y, +y, -z, +z.
 pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surface>) {
-    let Collider { restitution, trigger, .. } = *collider;
-    for_each_form(collider, |form| {
-        surfaces.push(Surface { form, collider: id, restitution, trigger });
-    });
+    let Collider { shape, pose, restitution, trigger } = *collider;
+    let center = pose.position;
+    let rotation = pose.rotation.normalize();
+    let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
+    let mut add = |form, role| {
+        let role = if trigger { Role::Reports } else { role };
+        surfaces.push(Surface { form, collider: id, restitution, role });
+    };
+    match shape {
+        Shape::Sphere { radius } => add(Form::Sphere { center, radius }, Role::Deflects),
+        Shape::HalfSpace => add(Form::HalfSpace { point: center, normal: y }, Role::Deflects),
+        Shape::Rectangle { size_x, size_z } => {
+            let (half_x, half_z) = (0.5 * size_x, 0.5 * size_z);
+            let rectangle = Rectangle { center, axis_x: x, axis_z: z, normal: y, half_x, half_z };
+            add(Form::Rectangle(rectangle), Role::Deflects);
+        }
+        Shape::Box { size } => {
+            let solid = SolidBox { center, axes, half: 0.5 * size };
+            add(Form::Box(solid), Role::Encloses);
+            if !trigger {
+                for face in solid.faces() {
+                    add(Form::Rectangle(face), Role::Deflects);
+                }
+            }
+        }
+    }
 }
 
-fn for_each_form(collider: &Collider, mut visit: impl FnMut(Form)) {
-    let center = collider.pose.position;
-    let rotation = collider.pose.rotation.normalize();
-    let [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
-    match collider.shape {
-        Shape::Sphere { radius } => visit(Form::Sphere { center, radius }),
-        Shape::HalfSpace => visit(Form::HalfSpace { point: center, normal: y }),
-        Shape::Rectangle { size_x, size_z } => visit(Form::Rectangle(Rectangle {
-            center,
-            axis_x: x,
-            axis_z: z,
-            normal: y,
-            half_x: 0.5 * size_x,
-            half_z: 0.5 * size_z,
-        })),
-        Shape::Box { size } => {
-            let half = 0.5 * size;
-            let mut face = |normal: DVec3, height, axis_x, half_x, axis_z, half_z| {
-                let center = center + height * normal;
-                visit(Form::Rectangle(Rectangle {
-                    center,
-                    axis_x,
-                    axis_z,
-                    normal,
-                    half_x,
-                    half_z,
-                }));
-            };
-            face(-x, half.x, y, half.y, z, half.z);
-            face(x, half.x, y, half.y, z, half.z);
-            face(-y, half.y, x, half.x, z, half.z);
-            face(y, half.y, x, half.x, z, half.z);
-            face(-z, half.z, x, half.x, y, half.y);
-            face(z, half.z, x, half.x, y, half.y);
-        }
+impl SolidBox {
+    /// The six faces, outward.
+    fn faces(&self) -> [Rectangle; 6] {
+        std::array::from_fn(|number| {
+            let axis = number / 2;
+            let (first, second) = [(1, 2), (0, 2), (0, 1)][axis];
+            let normal = if number % 2 == 0 { -self.axes[axis] } else { self.axes[axis] };
+            Rectangle {
+                center: self.center + self.half[axis] * normal,
+                axis_x: self.axes[first],
+                axis_z: self.axes[second],
+                normal,
+                half_x: self.half[first],
+                half_z: self.half[second],
+            }
+        })
     }
 }
 
@@ -110,6 +136,9 @@ fn bounds(form: &Form) -> Option<Bounds> {
         Form::Sphere { center, radius } => (center, DVec3::splat(radius)),
         Form::Rectangle(r) => (r.center, r.half_x * r.axis_x.abs() + r.half_z * r.axis_z.abs()),
         Form::HalfSpace { .. } => return None,
+        Form::Box(SolidBox { center, axes: [x, y, z], half }) => {
+            (center, half.x * x.abs() + half.y * y.abs() + half.z * z.abs())
+        }
     };
     // Wider by far more than rounding, so that a surface at the very edge is never passed over.
     let slack = 1e-12 * (center.abs() + half).max_element();

@@ -14,11 +14,7 @@ fn require(
     requirement: &'static str,
     value: impl Display,
 ) -> Check {
-    if holds {
-        Ok(())
-    } else {
-        Err(InvalidValue { field, requirement, value: value.to_string() })
-    }
+    if holds { Ok(()) } else { Err(InvalidValue { field, requirement, value: value.to_string() }) }
 }
 
 /// Finite and > 0.

@@ -280,12 +280,18 @@ impl World {
     }
 
     /// Spheres that overlap each other (where spheres collide) or a solid collider by more than
-    /// `tolerance` \[m\], in order of their bodies.
+    /// `tolerance` \[m\], in order of their bodies, each two bodies once.
     pub fn overlaps(&self, tolerance: f64) -> Vec<Overlap> {
         let mut overlaps = Vec::new();
-        contacts::of_overlaps(&self.state.now(), tolerance, &mut Search::default(), |contact| {
-            overlaps.push(Overlap::of(contact, &self.state.now().system));
+        let now = self.state.now();
+        contacts::of_overlaps(&now, tolerance, &mut Search::default(), |contact| {
+            overlaps.push(Overlap::of(contact, &now.system));
         });
+        // A box has several surfaces: the deepest overlap counts.
+        let order =
+            |a: &Overlap, b: &Overlap| a.between.cmp(&b.between).then(b.depth.total_cmp(&a.depth));
+        overlaps.sort_by(order);
+        overlaps.dedup_by_key(|overlap| overlap.between);
         overlaps
     }
 

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use carom::contact_time::{self, Bisection, Probe};
 use carom::{
-    Bisect, Collider, DVec3, Force, Gravity, Integrator, Pose, Rule, Settings, Shape, Sphere,
-    SphereState, WindBack, World,
+    Bisect, Collider, DQuat, DVec3, Force, Gravity, Integrator, Pose, Rule, Settings, Shape,
+    Sphere, SphereState, WindBack, World,
 };
 use common::{Numbers, assert_close, assert_close_vec, bisect, bisect_all, vec, world};
 
@@ -106,7 +106,9 @@ fn collisions_of_different_pairs_in_one_frame_happen_at_their_own_times() {
         let mut world = world(rule);
         for (y, gap) in [(0.0, 0.25), (10.0, 0.75)] {
             let left = on_axis(0.0, 1.0);
-            world.add_sphere(Sphere { position: left.position + vec(0.0, y, 0.0), ..left }).unwrap();
+            world
+                .add_sphere(Sphere { position: left.position + vec(0.0, y, 0.0), ..left })
+                .unwrap();
             world.add_sphere(Sphere::new(vec(1.0 + gap, y, 0.0), 0.5)).unwrap();
         }
         world.step(1.0).unwrap();
@@ -399,6 +401,22 @@ fn reaching_the_bound_of_substeps_is_reported_and_nothing_sinks_through() {
         assert_close(world.sphere(ball).unwrap().position.y, 0.5, 1e-3);
     }
     assert!(unfinished > 0);
+}
+
+#[test]
+fn a_ball_that_rests_in_a_corner_stays_outside_of_both_walls() {
+    let mut world = world(bisect());
+    world.add_force(Gravity::new(vec(-3.0, -9.0, 0.0))).unwrap();
+    let wall = DQuat::from_rotation_arc(DVec3::Y, DVec3::X);
+    for pose in [Pose::at(DVec3::ZERO), Pose::at(DVec3::ZERO).rotated(wall)] {
+        world.add_collider(Collider::new(Shape::HalfSpace, pose).with_restitution(0.2)).unwrap();
+    }
+    let ball = world.add_sphere(Sphere::new(vec(0.5, 0.5, 0.0), 0.5)).unwrap();
+    for _ in 0..600 {
+        world.step(0.02).unwrap();
+        // What gravity does in a frame: g h^2.
+        assert_close_vec(world.sphere(ball).unwrap().position, vec(0.5, 0.5, 0.0), 0.004);
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The four contact states, and the distances they rest on, for each pair of shapes.
 
-use carom::detect::{ContactState, Separation, classify, sphere_half_space, sphere_sphere};
 use carom::DVec3;
+use carom::detect::{ContactState, Separation, classify, sphere_half_space, sphere_sphere};
 
 const TOLERANCE: f64 = 1e-6;
 

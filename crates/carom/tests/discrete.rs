@@ -42,7 +42,8 @@ fn touching_a_face_is_contact_and_touching_a_sphere_is_not() {
     let (_, ball) = throw(&mut world, vec(0.0, 1.0, 0.0), vec(0.0, -4.0, 0.0));
     assert_eq!(ball.velocity.y, 4.0);
 
-    let mut world = world_around(Collider::new(Shape::Sphere { radius: 1.0 }, Pose::at(DVec3::ZERO)));
+    let mut world =
+        world_around(Collider::new(Shape::Sphere { radius: 1.0 }, Pose::at(DVec3::ZERO)));
     let (_, ball) = throw(&mut world, vec(0.0, 2.0, 0.0), vec(0.0, -4.0, 0.0));
     assert_eq!(ball.velocity.y, -4.0);
 }
@@ -144,6 +145,19 @@ fn a_box_bounces_on_each_of_its_six_faces() {
         let (_, ball) = throw(&mut world, DVec3::ONE + (height + 0.75) * normal, -4.0 * normal);
         assert_eq!(ball.velocity, 4.0 * normal);
         assert_close_vec(ball.position, DVec3::ONE + (height + 0.5) * normal, 1e-15);
+    }
+}
+
+#[test]
+fn a_trigger_box_reports_a_sphere_once_at_its_edge_and_inside() {
+    let size = vec(4.0, 4.0, 4.0);
+    let trigger = Collider::new(Shape::Box { size }, Pose::at(DVec3::ZERO)).as_trigger();
+    for (position, inside) in
+        [(vec(2.3, 2.3, 0.0), true), (vec(0.1, 0.3, 0.2), true), (vec(2.4, 2.4, 0.0), false)]
+    {
+        let mut world = world_around(trigger);
+        throw(&mut world, position, DVec3::ZERO);
+        assert_eq!(world.report().triggers.len(), usize::from(inside), "{position}");
     }
 }
 

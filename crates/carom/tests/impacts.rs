@@ -23,7 +23,9 @@ fn elastic_head_on_of_equal_masses_swaps_velocities() {
     let (world, [first, second]) = head_on(first, second);
     assert_eq!(first.velocity, vec(-1.0, 0.0, 0.0));
     assert_eq!(second.velocity, vec(1.0, 0.0, 0.0));
-    let [impact] = world.report().impacts[..] else { panic!("one impact, not {:?}", world.report()) };
+    let [impact] = world.report().impacts[..] else {
+        panic!("one impact, not {:?}", world.report())
+    };
     assert_eq!((impact.time, impact.approach_speed, impact.impulse), (0.25, 2.0, 2.0));
     assert_eq!((impact.point, impact.normal), (vec(0.75, 0.0, 0.0), DVec3::X));
     assert!(matches!(impact.between, Participants::Spheres(a, b) if a < b));

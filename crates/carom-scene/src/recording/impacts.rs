@@ -10,20 +10,8 @@ use super::{RecordingError, digits, unwritable};
 
 /// Columns: time \[s\]; kind and number of body 1 (`sphere` or `collider`) and number of body 2, a
 /// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; impulse \[N s\].
-const HEADER: [&str; 12] = [
-    "t",
-    "kind1",
-    "body1",
-    "ball2",
-    "x",
-    "y",
-    "z",
-    "nx",
-    "ny",
-    "nz",
-    "approach_speed",
-    "impulse",
-];
+const HEADER: [&str; 12] =
+    ["t", "kind1", "body1", "ball2", "x", "y", "z", "nx", "ny", "nz", "approach_speed", "impulse"];
 
 /// Writes impacts to a CSV file.
 #[derive(Debug)]

@@ -113,7 +113,8 @@ fn append<T: npyz::AutoSerialize, W: Write + Seek>(
     start(zip, name)?;
     let shape = [rows, width];
     let shape = if width == 1 { &shape[..1] } else { &shape[..] };
-    let mut array = npyz::WriteOptions::new().default_dtype().shape(shape).writer(zip).begin_nd()?;
+    let mut array =
+        npyz::WriteOptions::new().default_dtype().shape(shape).writer(zip).begin_nd()?;
     let mut file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
     file.seek(SeekFrom::Start(0))?;
     let mut file = BufReader::new(file);

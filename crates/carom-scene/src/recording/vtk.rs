@@ -78,10 +78,8 @@ fn frame(world: &World) -> Vtk {
         Attribute::scalars("mass", 1).with_data(spheres.masses().to_vec()),
         Attribute::vectors("velocity").with_data(vectors(spheres.velocities())),
     ];
-    let verts = VertexNumbers::XML {
-        connectivity: (0..count).collect(),
-        offsets: (1..=count).collect(),
-    };
+    let verts =
+        VertexNumbers::XML { connectivity: (0..count).collect(), offsets: (1..=count).collect() };
     Vtk {
         version: Version::new(),
         title: String::new(),

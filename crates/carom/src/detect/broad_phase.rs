@@ -219,11 +219,7 @@ fn cell_of(place: DVec3, cells_per_metre: f64) -> [i32; 3] {
 }
 
 fn shifted(cell: [i32; 3], by: [i32; 3]) -> Option<[i32; 3]> {
-    Some([
-        cell[0].checked_add(by[0])?,
-        cell[1].checked_add(by[1])?,
-        cell[2].checked_add(by[2])?,
-    ])
+    Some([cell[0].checked_add(by[0])?, cell[1].checked_add(by[1])?, cell[2].checked_add(by[2])?])
 }
 
 /// Bucket of a cell in a table of `buckets`, a power of two: a hash of the block of cells it lies

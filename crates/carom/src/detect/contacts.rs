@@ -6,7 +6,7 @@ use super::broad_phase::BroadPhase;
 use super::{ContactState, Separation, classify, sphere_sphere, sphere_surface};
 use crate::bodies::Motion;
 use crate::integrate;
-use crate::surface::{Bounds, Surface};
+use crate::surface::{Bounds, Role};
 use crate::system::System;
 
 /// Up to this many spheres the loop over all pairs is faster than arranging them first.
@@ -57,8 +57,7 @@ impl Instant<'_> {
         let radii = [self.system.spheres.radius[i], self.system.spheres.radius[j]];
         let separation = sphere_sphere([position[i], position[j]], radii);
         let normal = separation.normal;
-        let acceleration =
-            |k| integrate::acceleration(&self.system, self.motion, k, self.time);
+        let acceleration = |k| integrate::acceleration(&self.system, self.motion, k, self.time);
         let state = classify(
             separation.distance,
             tolerance,
@@ -75,15 +74,10 @@ impl Instant<'_> {
         let center = self.motion.position[i];
         let separation = sphere_surface(form, center, self.system.spheres.radius[i])?;
         let normal = separation.normal;
-        let state = classify(
-            separation.distance,
-            tolerance,
-            self.motion.velocity[i].dot(normal),
-            || {
-                integrate::acceleration(&self.system, self.motion, i, self.time)
-                    .dot(normal)
-            },
-        );
+        let state =
+            classify(separation.distance, tolerance, self.motion.velocity[i].dot(normal), || {
+                integrate::acceleration(&self.system, self.motion, i, self.time).dot(normal)
+            });
         Some(Contact { bodies: Bodies::Surface { sphere, surface }, separation, state })
     }
 
@@ -95,19 +89,19 @@ impl Instant<'_> {
         }
     }
 
-    /// Visits every surface, for which `wanted` holds, near a sphere with its contact.
+    /// Visits every surface, of roles for which `wanted` holds, near a sphere with its contact.
     fn for_each_surface(
         &self,
         sphere: u32,
         tolerance: f64,
         near: &mut Vec<u32>,
-        wanted: impl Fn(&Surface) -> bool,
+        wanted: impl Fn(Role) -> bool,
         mut visit: impl FnMut(Contact),
     ) {
         let i = sphere as usize;
         self.system.tree.near(&reach(&self.system, self.motion, i, tolerance), near);
         for &surface in near.iter() {
-            if wanted(&self.system.surfaces[surface as usize])
+            if wanted(self.system.surfaces[surface as usize].role)
                 && let Some(contact) = self.surface(sphere, surface, tolerance)
             {
                 visit(contact);
@@ -187,11 +181,17 @@ pub(crate) fn of_overlaps(
     of_overlapping_pairs(instant, tolerance, search, &mut pairs);
     pairs.iter().for_each(&mut visit);
     for sphere in 0..instant.system.spheres.id.len() as u32 {
-        instant.for_each_surface(sphere, 0.0, &mut search.near, |s| !s.trigger, |contact| {
-            if contact.separation.distance < -tolerance {
-                visit(&contact);
-            }
-        });
+        instant.for_each_surface(
+            sphere,
+            0.0,
+            &mut search.near,
+            |role| role != Role::Reports,
+            |contact| {
+                if contact.separation.distance < -tolerance {
+                    visit(&contact);
+                }
+            },
+        );
     }
 }
 
@@ -218,10 +218,7 @@ pub(crate) fn of_some(
     contacts.sort_unstable_by_key(|contact| contact.bodies);
 }
 
-fn for_each_pair(
-    spheres: impl Iterator<Item = u32> + Clone,
-    mut visit: impl FnMut(u32, u32),
-) {
+fn for_each_pair(spheres: impl Iterator<Item = u32> + Clone, mut visit: impl FnMut(u32, u32)) {
     let mut rest = spheres;
     while let Some(i) = rest.next() {
         rest.clone().for_each(|j| visit(i, j));
@@ -259,7 +256,8 @@ pub(crate) fn meets_surface(system: &System, center: DVec3, radius: f64) -> bool
     system.tree.near(&Bounds::around(center, DVec3::splat(radius)), &mut near);
     near.iter().map(|&index| &system.surfaces[index as usize]).any(|surface| {
         let separation = sphere_surface(&surface.form, center, radius);
-        !surface.trigger && separation.is_some_and(|separation| separation.distance <= 0.0)
+        surface.role != Role::Reports
+            && separation.is_some_and(|separation| separation.distance <= 0.0)
     })
 }
 
@@ -270,15 +268,21 @@ pub(crate) fn of_triggers(
     near: &mut Vec<u32>,
     mut visit: impl FnMut(Contact),
 ) {
-    if !instant.system.surfaces.iter().any(|surface| surface.trigger) {
+    if !instant.system.surfaces.iter().any(|surface| surface.role == Role::Reports) {
         return;
     }
     for sphere in 0..instant.system.spheres.id.len() as u32 {
-        instant.for_each_surface(sphere, tolerance, near, |s| s.trigger, |contact| {
-            if contact.separation.distance <= tolerance {
-                visit(contact);
-            }
-        });
+        instant.for_each_surface(
+            sphere,
+            tolerance,
+            near,
+            |role| role == Role::Reports,
+            |contact| {
+                if contact.separation.distance <= tolerance {
+                    visit(contact);
+                }
+            },
+        );
     }
 }
 
@@ -293,9 +297,15 @@ fn of_surfaces(
         return;
     }
     for sphere in members {
-        instant.for_each_surface(sphere, tolerance, near, |s| !s.trigger, |contact| {
-            keep(contact, contacts);
-        });
+        instant.for_each_surface(
+            sphere,
+            tolerance,
+            near,
+            |role| role == Role::Deflects,
+            |contact| {
+                keep(contact, contacts);
+            },
+        );
     }
 }
 

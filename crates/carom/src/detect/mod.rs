@@ -6,6 +6,7 @@ pub(crate) mod broad_phase;
 mod classify;
 pub(crate) mod contacts;
 mod separation;
+mod sphere_box;
 mod sphere_half_space;
 mod sphere_rectangle;
 mod sphere_sphere;
@@ -14,6 +15,7 @@ use glam::DVec3;
 
 pub use classify::{ContactState, classify};
 pub use separation::Separation;
+pub(crate) use sphere_box::sphere_box;
 pub use sphere_half_space::sphere_half_space;
 pub(crate) use sphere_rectangle::sphere_rectangle;
 pub use sphere_sphere::sphere_sphere;
@@ -31,5 +33,6 @@ pub(crate) fn sphere_surface(form: &Form, center: DVec3, radius: f64) -> Option<
         Form::HalfSpace { point, normal } => {
             Some(sphere_half_space((*point, *normal), center, radius))
         }
+        Form::Box(solid) => Some(sphere_box(solid, center, radius)),
     }
 }

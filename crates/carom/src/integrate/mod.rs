@@ -39,22 +39,12 @@ struct Kinematics {
 }
 
 /// Acceleration \[m/s²\] of the sphere at `index` in the state `motion` at `time` \[s\].
-pub(crate) fn acceleration(
-    system: &System,
-    motion: &Motion,
-    index: usize,
-    time: f64,
-) -> DVec3 {
+pub(crate) fn acceleration(system: &System, motion: &Motion, index: usize, time: f64) -> DVec3 {
     let at = Kinematics { position: motion.position[index], velocity: motion.velocity[index] };
     acceleration_at(system, index, at, time)
 }
 
-fn acceleration_at(
-    system: &System,
-    index: usize,
-    at: Kinematics,
-    time: f64,
-) -> DVec3 {
+fn acceleration_at(system: &System, index: usize, at: Kinematics, time: f64) -> DVec3 {
     let Kinematics { position, velocity } = at;
     let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
     let state = SphereState { position, velocity, radius, mass };

@@ -31,8 +31,5 @@ struct Slope {
 }
 
 fn along(start: Kinematics, h: f64, slope: Slope) -> Kinematics {
-    Kinematics {
-        position: start.position + h * slope.x,
-        velocity: start.velocity + h * slope.v,
-    }
+    Kinematics { position: start.position + h * slope.x, velocity: start.velocity + h * slope.v }
 }

@@ -47,7 +47,12 @@ pub(super) fn step(
     islands.reset(everyone.len());
     buffers.reset(motion);
     advance(system, (motion, &mut buffers.end), everyone, frame);
-    contacts::of_everyone(&at_end(system, &buffers.end, frame), parameters.tolerance, search, contacts);
+    contacts::of_everyone(
+        &at_end(system, &buffers.end, frame),
+        parameters.tolerance,
+        search,
+        contacts,
+    );
 
     if parameters.wind_back == WindBack::All && contacts.iter().any(is_intersecting) {
         islands.join_all();
@@ -62,9 +67,14 @@ pub(super) fn step(
     }
 
     islands.report(report);
-    contacts::of_triggers(&at_end(system, &buffers.end, frame), parameters.tolerance, near, |contact| {
-        report.triggers.extend(TriggerContact::of(&contact, system));
-    });
+    contacts::of_triggers(
+        &at_end(system, &buffers.end, frame),
+        parameters.tolerance,
+        near,
+        |contact| {
+            report.triggers.extend(TriggerContact::of(&contact, system));
+        },
+    );
     let colliding = contacts.iter().filter(|contact| contact.state == ContactState::Colliding);
     respond::sequentially(colliding, system, &mut buffers.end, (frame.h, &mut report.impacts));
     std::mem::swap(motion, &mut buffers.end);

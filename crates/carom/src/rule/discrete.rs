@@ -9,7 +9,7 @@ use crate::detect::{ContactState, Separation, sphere_surface};
 use crate::integrate;
 use crate::report::{StepReport, TriggerContact};
 use crate::respond;
-use crate::surface::Form;
+use crate::surface::{Form, Role};
 use crate::system::{Interval, System};
 
 /// Advances all spheres by one frame (`docs/physics.md`, rule `discrete`).
@@ -21,8 +21,7 @@ pub(super) fn step(
     report: &mut StepReport,
 ) {
     for index in 0..system.spheres.id.len() {
-        let (position, velocity) =
-            integrate::advance(system, motion, index, frame);
+        let (position, velocity) = integrate::advance(system, motion, index, frame);
         motion.position[index] = position;
         motion.velocity[index] = velocity;
         meet_surfaces(system, motion, (index, frame.h), &mut scratch.near, report);
@@ -54,9 +53,13 @@ fn meet_surfaces(
         }
         let bodies = Bodies::Surface { sphere: index as u32, surface: number };
         let contact = Contact { bodies, separation, state: ContactState::Intersecting };
-        if surface.trigger {
-            report.triggers.extend(TriggerContact::of(&contact, system));
-            continue;
+        match surface.role {
+            Role::Deflects => {}
+            Role::Reports => {
+                report.triggers.extend(TriggerContact::of(&contact, system));
+                continue;
+            }
+            Role::Encloses => continue,
         }
         let Some(impact) = respond::answer(&contact, system, motion, time) else { continue };
         report.impacts.push(impact);
@@ -72,7 +75,7 @@ fn meet_surfaces(
 fn is_contact(form: &Form, separation: &Separation) -> bool {
     match form {
         Form::Sphere { .. } => separation.distance < 0.0,
-        Form::Rectangle(_) | Form::HalfSpace { .. } => separation.distance <= 0.0,
+        Form::Rectangle(_) | Form::HalfSpace { .. } | Form::Box(_) => separation.distance <= 0.0,
     }
 }
 

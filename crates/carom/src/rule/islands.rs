@@ -91,14 +91,12 @@ impl Islands {
 
     /// Islands whose way through the frame is to be found (again), ready for it.
     pub fn unsettled(&mut self) -> impl Iterator<Item = &mut Island> {
-        self.list.iter_mut().filter(|island| island.is_unsettled()).map(
-            |island| {
-                island.members.sort_unstable();
-                island.impacts.clear();
-                island.unfinished = false;
-                island
-            },
-        )
+        self.list.iter_mut().filter(|island| island.is_unsettled()).map(|island| {
+            island.members.sort_unstable();
+            island.impacts.clear();
+            island.unfinished = false;
+            island
+        })
     }
 
     /// Whether any island's way through the frame is to be found.

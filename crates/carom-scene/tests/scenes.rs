@@ -1,0 +1,160 @@
+//! Built-in scenes: each can be found, is what its description says, and runs under every rule.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use carom::{DVec3, World};
+use carom_scene::{BUILT_IN_FILES, Library, Scene, json_schema};
+
+fn scene(name: &str) -> Scene {
+    Library::new().find(name, &[]).unwrap().0
+}
+
+/// Runs a scene, with `watch` looking at the world after each frame.
+fn run(scene: &Scene, seconds: f64, mut watch: impl FnMut(&World)) -> World {
+    let mut world = scene.world().unwrap();
+    for _ in 0..(seconds / scene.simulation.frame_time).round() as usize {
+        world.step(scene.simulation.frame_time).unwrap();
+        watch(&world);
+    }
+    world
+}
+
+fn repository() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+#[test]
+fn every_file_in_the_folder_is_built_in() {
+    let files = std::fs::read_dir(repository().join("scenes")).unwrap();
+    let files: BTreeSet<String> = files
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".toml"))
+        .collect();
+    let built_in: BTreeSet<String> = BUILT_IN_FILES.iter().map(|f| f.0.to_owned()).collect();
+    assert_eq!(files, built_in);
+}
+
+#[test]
+fn every_scene_is_found_by_name_and_title_in_any_case() {
+    let library = Library::new();
+    let entries = library.entries().unwrap();
+    let names: BTreeSet<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
+    assert_eq!(names.len(), entries.len());
+    for entry in &entries {
+        let scene = entry.scene.as_ref().unwrap();
+        assert_eq!(scene.name, entry.name);
+        assert!(!scene.title.is_empty() && !scene.description.is_empty());
+        for name in [&scene.name, &scene.title, &scene.title.to_uppercase()] {
+            assert_eq!(&library.find(name, &[]).unwrap().0, scene);
+        }
+    }
+}
+
+#[test]
+fn every_scene_runs_under_every_rule() {
+    for (file, text) in BUILT_IN_FILES {
+        for rule in ["simulation.rule=discrete", "simulation.rule=bisect"] {
+            let scene = Scene::from_toml_with(text, file, &[rule.parse().unwrap()]).unwrap();
+            let world = run(&scene, 2.0, |_| {});
+            assert!(!world.spheres().is_empty());
+        }
+    }
+}
+
+#[test]
+fn scenes_repeat_bit_for_bit() {
+    for (file, text) in BUILT_IN_FILES {
+        let scene = Scene::from_toml(text, file).unwrap();
+        let hashes = [(); 2].map(|()| run(&scene, 2.0, |_| {}).state_hash());
+        assert_eq!(hashes[0], hashes[1], "{file}");
+    }
+}
+
+#[test]
+fn state_hashes_of_all_scenes_are_the_same_everywhere() {
+    let hashes: Vec<String> = BUILT_IN_FILES
+        .iter()
+        .map(|(file, text)| {
+            let scene = Scene::from_toml(text, file).unwrap();
+            format!("{file} {}", run(&scene, 10.0, |_| {}).state_hash())
+        })
+        .collect();
+    // Pinned. They may change only with the physics or the scenes; the changelog says so then.
+    let expected = include_str!("state_hashes.txt");
+    assert_eq!(hashes.join("\n"), expected.trim_end());
+}
+
+#[test]
+fn nothing_touches_in_tutorial_1_and_the_dense_are_bent_the_least() {
+    let mut impacts = 0;
+    let world = run(&scene("tutorial1"), 3.0, |world| impacts += world.report().impacts.len());
+    assert_eq!(impacts, 0);
+    let drift: Vec<f64> = world.spheres().positions()[..3].iter().map(|x| x.x).collect();
+    assert!(drift[0] > drift[1] && drift[1] > drift[2], "{drift:?}");
+}
+
+#[test]
+fn every_pair_of_tutorial_2_collides_once_and_keeps_momentum_and_energy() {
+    let mut impacts = 0;
+    let scene = scene("tutorial2");
+    let start = scene.world().unwrap();
+    let end = run(&scene, 6.0, |world| impacts += world.report().impacts.len());
+    assert_eq!(impacts, scene.spheres.len() / 2);
+    let (energy, momentum) = (start.kinetic_energy(), start.momentum());
+    assert!((end.kinetic_energy() - energy).abs() <= 1e-13 * energy);
+    assert!((end.momentum() - momentum).length() <= 1e-13 * momentum.length());
+    let densities: BTreeSet<u64> =
+        scene.spheres.iter().map(|sphere| sphere.density.unwrap() as u64).collect();
+    assert_eq!(densities, BTreeSet::from([1000, 2000, 3000]));
+}
+
+#[test]
+fn in_tutorial_3_as_many_balls_leave_the_cradle_as_come_in() {
+    let scene = scene("tutorial3");
+    let world = run(&scene, 5.0, |_| {});
+    for (z, balls_in) in [(-6.0, 1), (-3.0, 2), (0.0, 3)] {
+        let spheres = world.spheres();
+        let mut row: Vec<(f64, f64)> = spheres
+            .positions()
+            .iter()
+            .zip(spheres.velocities())
+            .filter(|(x, _)| x.z == z)
+            .map(|(x, v)| (x.x, v.x))
+            .collect();
+        row.sort_by(|a, b| a.0.total_cmp(&b.0));
+        assert_eq!(row.len(), 5);
+        for (i, (_, speed)) in row.iter().enumerate() {
+            let expected = if i >= 5 - balls_in { 2.0 } else { 0.0 };
+            assert!((speed - expected).abs() < 1e-12, "{balls_in} in: {row:?}");
+        }
+    }
+}
+
+#[test]
+fn in_tutorial_4_a_hundred_spheres_scatter_from_the_fixed_one() {
+    let scene = scene("tutorial4");
+    let mut hits = BTreeSet::new();
+    let world = run(&scene, 5.0, |world| {
+        for impact in &world.report().impacts {
+            if let carom::Participants::Collider { sphere, .. } = impact.between {
+                hits.insert(sphere);
+            }
+        }
+    });
+    assert!(world.spheres().len() >= 100);
+    assert!(hits.len() >= 100, "{}", hits.len());
+    // All have left it, on every side.
+    let positions = world.spheres().positions();
+    assert!(positions.iter().all(|x| x.length() > 3.0));
+    for direction in [DVec3::X, DVec3::NEG_X, DVec3::Z, DVec3::NEG_Z] {
+        assert!(positions.iter().any(|x| x.dot(direction) > 3.0));
+    }
+}
+
+#[test]
+fn the_committed_schema_is_current() {
+    let path = repository().join("scenes/scene.schema.json");
+    let committed = std::fs::read_to_string(path).unwrap_or_default();
+    assert!(committed == json_schema(), "run `cargo xtask schema` and commit the result");
+}
