@@ -1,5 +1,7 @@
 //! `cargo xtask`: sets up what is missing, then demonstrates, checks, or brings files up to date.
 
+#![warn(clippy::unwrap_used)]
+
 mod architecture;
 mod demo;
 mod schema;

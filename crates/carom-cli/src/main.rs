@@ -1,5 +1,7 @@
 //! `carom`: runs scenes of moving spheres from the command line.
 
+#![warn(clippy::unwrap_used)]
+
 mod args;
 mod failure;
 mod run;

@@ -65,9 +65,9 @@ pub struct Simulation {
     pub rule: Rule,
     /// How spheres move under forces.
     pub integrator: Integrator,
-    /// Length of a frame [s], > 0.
+    /// Length of a frame, in s, > 0.
     pub frame_time: f64,
-    /// How long the scene is worth watching [s], > 0; what `carom run` takes unless told.
+    /// Time worth watching, in s, > 0: what `carom run` takes unless told.
     pub duration: f64,
     /// Whether spheres collide with one another; with colliders they always do.
     pub spheres_collide: bool,
@@ -139,7 +139,7 @@ pub enum RestitutionRule {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bisect {
-    /// Distance of surfaces that counts as touching [m], >= 0.
+    /// Distance of surfaces that counts as touching, in m, >= 0.
     pub tolerance: f64,
     /// Halvings in search of a contact, >= 1.
     pub max_halvings: u32,
@@ -173,17 +173,17 @@ pub enum WindBack {
 pub enum Force {
     /// The same force on every sphere, whatever its mass.
     Constant {
-        /// [N]
+        /// In N.
         force: Vector,
     },
     /// The same acceleration for every sphere.
     Gravity {
-        /// [m/s²]
+        /// In m/s².
         acceleration: Vector,
     },
     /// Drag against the velocity and proportional to it.
     ViscousDrag {
-        /// [kg/s], >= 0
+        /// In kg/s, >= 0
         coefficient: f64,
     },
 }
@@ -192,22 +192,22 @@ pub enum Force {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
-    /// Centre [m]; in a generator or an emitter an offset from the place it gives.
+    /// Centre, in m; in a generator or an emitter an offset from the place it gives.
     #[serde(default)]
     pub position: Vector,
-    /// Velocity [m/s]; in an emitter in the emitter's frame.
+    /// Velocity, in m/s; in an emitter in the emitter's frame.
     #[serde(default)]
     pub velocity: Vector,
-    /// Radius [m], > 0. Give this or `diameter`.
+    /// Radius, in m, > 0. Give this or `diameter`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
-    /// Diameter [m], > 0. Give this or `radius`.
+    /// Diameter, in m, > 0. Give this or `radius`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diameter: Option<f64>,
-    /// Mass [kg], > 0; 1 unless this or `density` is given.
+    /// Mass, in kg, > 0; 1 unless this or `density` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass: Option<f64>,
-    /// Density [kg/m³], > 0, instead of `mass`.
+    /// Density, in kg/m³, > 0, instead of `mass`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
     /// Coefficient of restitution in [0, 1].
@@ -242,9 +242,9 @@ pub enum Generator {
     Row {
         /// How many, >= 1.
         count: u32,
-        /// Centre of the first [m].
+        /// Centre of the first, in m.
         start: Vector,
-        /// From each centre to the next [m].
+        /// From each centre to the next, in m.
         step: Vector,
         /// What they have in common.
         sphere: Sphere,
@@ -253,9 +253,9 @@ pub enum Generator {
     Lattice {
         /// How many along x, y and z, each >= 1.
         counts: [u32; 3],
-        /// Centre of the first [m].
+        /// Centre of the first, in m.
         start: Vector,
-        /// Distance of neighbours along x, y and z [m].
+        /// Distance of neighbours along x, y and z, in m.
         spacing: Vector,
         /// What they have in common.
         sphere: Sphere,
@@ -264,16 +264,16 @@ pub enum Generator {
     Random {
         /// How many, >= 1.
         count: u32,
-        /// Lower corner of the box that holds the whole spheres [m].
+        /// Lower corner of the box that holds the whole spheres, in m.
         min: Vector,
-        /// Upper corner of the box [m].
+        /// Upper corner of the box, in m.
         max: Vector,
         /// The same seed gives the same scene.
         seed: u64,
-        /// Speed [m/s], >= 0, in a random direction, on top of the common velocity.
+        /// Speed, in m/s, >= 0, in a random direction, on top of the common velocity.
         #[serde(default)]
         speed: f64,
-        /// Smallest and largest radius [m], evenly distributed, instead of the common one.
+        /// Smallest and largest radius, in m, evenly distributed, instead of the common one.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         radius_range: Option<[f64; 2]>,
         /// What they have in common.
@@ -290,7 +290,7 @@ pub struct Collider {
     pub name: String,
     /// Its form.
     pub shape: Shape,
-    /// Where its centre is [m].
+    /// Where its centre is, in m.
     #[serde(default)]
     pub position: Vector,
     /// How it is turned.
@@ -320,21 +320,21 @@ fn unturned() -> Quaternion {
 pub enum Shape {
     /// A sphere.
     Sphere {
-        /// [m], > 0
+        /// In m, > 0
         radius: f64,
     },
     /// A rectangle in its local xz plane that faces local +y; from behind spheres pass it.
     Rectangle {
-        /// Full length along local x [m], > 0.
+        /// Full length along local x, in m, > 0.
         size_x: f64,
-        /// Full length along local z [m], > 0.
+        /// Full length along local z, in m, > 0.
         size_z: f64,
     },
     /// Everything below the local xz plane.
     HalfSpace,
     /// A box of six rectangles that face outward.
     Box {
-        /// Full lengths along local x, y, z [m], each > 0.
+        /// Full lengths along local x, y, z, in m, each > 0.
         size: Vector,
     },
 }
@@ -346,13 +346,13 @@ pub struct Emitter {
     /// What it is called.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// Where spheres appear [m].
+    /// Where spheres appear, in m.
     #[serde(default)]
     pub position: Vector,
     /// How the emitter, and with it the velocity of its spheres, is turned.
     #[serde(default = "unturned")]
     pub rotation: Quaternion,
-    /// Time between two spheres [s], > 0.
+    /// Time between two spheres, in s, > 0.
     pub period: f64,
     /// With this many of its spheres alive, the oldest makes place; no limit where it is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -365,18 +365,18 @@ pub struct Emitter {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
-    /// [m]
+    /// In m.
     pub position: Vector,
     /// Rotation of the camera.
     #[serde(default = "unturned")]
     pub rotation: Quaternion,
-    /// Vertical field of view [degrees], in (0, 180).
+    /// Vertical field of view, in degrees, in (0, 180).
     #[serde(default = "sixty")]
     pub vertical_fov_degrees: f64,
-    /// Nearest distance drawn [m], > 0.
+    /// Nearest distance drawn, in m, > 0.
     #[serde(default = "near")]
     pub near: f64,
-    /// Farthest distance drawn [m], > near.
+    /// Farthest distance drawn, in m, > near.
     #[serde(default = "far")]
     pub far: f64,
 }
@@ -428,7 +428,7 @@ pub struct Colors {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DensityColor {
-    /// [kg/m³], > 0
+    /// In kg/m³, > 0
     pub density: f64,
     /// Their colour.
     pub color: Color,

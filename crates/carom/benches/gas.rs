@@ -4,6 +4,8 @@
 //! twentieth of its radius. `cargo bench -p carom` prints the time of one frame; divide by the
 //! number of spheres.
 
+#![allow(clippy::disallowed_methods, missing_docs)]
+
 use carom::{Collider, DQuat, DVec3, Pose, Rule, Settings, Shape, Sphere, World};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 

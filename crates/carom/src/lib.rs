@@ -15,6 +15,8 @@
 //! every platform: only `+ - * /` and `sqrt` are used, in a fixed order
 //! ([`World::state_hash`]). The formulas and their sources are in `docs/physics.md`.
 
+#![warn(clippy::unwrap_used)]
+
 mod bodies;
 mod clock;
 mod collider;

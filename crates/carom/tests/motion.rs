@@ -1,6 +1,9 @@
 //! Motion without contacts, against the closed forms of the schemes themselves (to round-off)
 //! and against the continuous solution (to measure the order). Says nothing about contacts.
 
+// What is expected need not have the same bits everywhere.
+#![allow(clippy::disallowed_methods)]
+
 mod common;
 
 use carom::{ConstantForce, Gravity, Integrator, Sphere, ViscousDrag, World};

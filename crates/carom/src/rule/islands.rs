@@ -91,12 +91,14 @@ impl Islands {
 
     /// Islands whose way through the frame is to be found (again), ready for it.
     pub fn unsettled(&mut self) -> impl Iterator<Item = &mut Island> {
-        self.list.iter_mut().filter(|island| island.is_unsettled()).map(|island| {
+        let mut unsettled: Vec<_> =
+            self.list.iter_mut().filter(|island| island.is_unsettled()).collect();
+        for island in &mut unsettled {
             island.members.sort_unstable();
             island.impacts.clear();
             island.unfinished = false;
-            island
-        })
+        }
+        unsettled.into_iter()
     }
 
     /// Whether any island's way through the frame is to be found.

@@ -1,0 +1,357 @@
+//! The command `carom` as a user meets it: files, tables, exit codes, and one clear line for
+//! everything that goes wrong.
+
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+const CAROM: &str = env!("CARGO_BIN_EXE_carom");
+
+fn carom() -> Command {
+    let mut command = Command::new(CAROM);
+    command.env_remove("CAROM_SCENES");
+    command
+}
+
+fn run(arguments: &[&str]) -> Output {
+    carom().args(arguments).output().unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+/// Runs successfully and gives the standard output.
+#[track_caller]
+fn good(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {errors}");
+    assert_eq!(errors, "", "a pipe sees no progress bar and no noise");
+    stdout(&output)
+}
+
+/// Fails with this code; gives the one line on the standard error stream.
+#[track_caller]
+fn bad(arguments: &[&str], code: i32) -> String {
+    let output = run(arguments);
+    let errors = String::from_utf8(output.stderr.clone()).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {errors}");
+    assert!(!errors.contains("panicked"), "{errors}");
+    errors
+}
+
+#[track_caller]
+fn bad_line(arguments: &[&str], code: i32) -> String {
+    let errors = bad(arguments, code);
+    assert_eq!(errors.lines().count(), 1, "{errors}");
+    errors
+}
+
+fn summary(arguments: &[&str]) -> Value {
+    serde_json::from_str(&good(&[arguments, &["--json"]].concat())).unwrap()
+}
+
+fn path(folder: &tempfile::TempDir, name: &str) -> String {
+    folder.path().join(name).to_str().unwrap().to_owned()
+}
+
+fn rows(path: &str) -> (csv::StringRecord, Vec<Vec<String>>) {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let rows = reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect());
+    (header, rows.collect())
+}
+
+#[test]
+fn a_run_prints_its_table() {
+    let table = good(&["run", "simtest1", "--seconds", "2"]);
+    for (row, value) in [
+        ("scene", "simtest1"),
+        ("rule", "discrete, frames of 0.020000 s"),
+        ("simulated time", "2.000 s in 100 frames"),
+        ("spheres", "3 (3 emitted, 0 retired)"),
+        ("impacts", ""),
+        ("energy", "J"),
+        ("momentum", "kg m/s"),
+        ("largest overlap", "m"),
+        ("wall time", "s"),
+        ("state hash", ""),
+    ] {
+        let line = table.lines().find(|line| line.starts_with(row));
+        assert!(line.is_some_and(|line| line.contains(value)), "{row}: {table}");
+    }
+}
+
+#[test]
+fn frames_seconds_rule_and_overrides_do_what_they_say() {
+    let frames = |arguments: &[&str]| summary(arguments)["frames"].as_u64().unwrap();
+    assert_eq!(frames(&["run", "simtest1", "--frames", "7"]), 7);
+    assert_eq!(frames(&["run", "simtest1", "--seconds", "0.1"]), 5);
+    assert_eq!(frames(&["run", "simtest1", "--seconds", "0.11"]), 6);
+    assert_eq!(frames(&["run", "simtest1", "--seconds", "1", "--frame-time", "0.25"]), 4);
+    assert_eq!(frames(&["run", "simtest1", "--frames", "0"]), 0);
+    let bisect = summary(&["run", "simtest1", "--rule", "bisect", "--frames", "5"]);
+    assert_eq!(bisect["rule"], "bisect");
+    let heavy = ["run", "simtest1", "--frames", "50", "--set", "emitters.0.sphere.mass=4"];
+    assert_ne!(summary(&heavy)["state_hash"], summary(&heavy[..4])["state_hash"]);
+}
+
+#[test]
+fn the_trajectory_as_csv_has_a_row_per_ball_and_frame_with_17_digits() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "t.csv");
+    good(&["run", "simtest1", "--seconds", "1", "--out", &file]);
+    let (header, rows) = rows(&file);
+    assert_eq!(header, vec!["t", "ball", "x", "y", "z", "vx", "vy", "vz"]);
+    // The second ball comes in frame 36, at 0.7 s.
+    assert_eq!(rows.len(), 50 + 15);
+    let number = |field: &str| field.parse::<f64>().unwrap();
+    assert_eq!(number(&rows[0][0]), 0.02);
+    assert_eq!(rows[49 + 15][1], "1");
+    // v = -g t of the scheme; 17 digits tell doubles apart.
+    assert_eq!(rows[0][6], "-4.0000000000000002e-1");
+    assert!(
+        rows[34]
+            .iter()
+            .skip(2)
+            .all(|field| { field.split('e').next().unwrap().trim_start_matches('-').len() == 18 })
+    );
+}
+
+#[test]
+fn every_thins_the_trajectory() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "t.csv");
+    good(&["run", "tutorial2", "--frames", "20", "--every", "6", "--out", &file]);
+    assert_eq!(rows(&file).1.len(), 3 * 10);
+}
+
+#[test]
+fn the_trajectory_as_npz_holds_the_same_numbers_as_the_csv() {
+    let folder = tempfile::tempdir().unwrap();
+    let (table, archive) = (path(&folder, "t.csv"), path(&folder, "t.npz"));
+    for file in [&table, &archive] {
+        good(&["run", "simtest3", "--seconds", "2", "--out", file]);
+    }
+    let (_, rows) = rows(&table);
+    let mut zip = zip::ZipArchive::new(std::fs::File::open(&archive).unwrap()).unwrap();
+    let mut array = |name: &str| {
+        let mut bytes = Vec::new();
+        zip.by_name(&format!("{name}.npy")).unwrap().read_to_end(&mut bytes).unwrap();
+        bytes
+    };
+    let floats = |bytes: Vec<u8>| {
+        let array = npyz::NpyFile::new(&bytes[..]).unwrap();
+        (array.shape().to_vec(), array.into_vec::<f64>().unwrap())
+    };
+    let integers =
+        |bytes: Vec<u8>| npyz::NpyFile::new(&bytes[..]).unwrap().into_vec::<i64>().unwrap();
+    let count = rows.len() as u64;
+    let (shape, times) = floats(array("t"));
+    assert_eq!(shape, [count]);
+    let (shape, positions) = floats(array("position"));
+    assert_eq!(shape, [count, 3]);
+    let (_, velocities) = floats(array("velocity"));
+    let balls = integers(array("ball"));
+    let starts = integers(array("frame_start"));
+    assert_eq!((starts.len(), starts[0], starts[100]), (101, 0, count as i64));
+    for (i, row) in rows.iter().enumerate() {
+        assert_eq!(row[0].parse::<f64>().unwrap(), times[i]);
+        assert_eq!(row[1].parse::<i64>().unwrap(), balls[i]);
+        for k in 0..3 {
+            assert_eq!(row[2 + k].parse::<f64>().unwrap(), positions[3 * i + k]);
+            assert_eq!(row[5 + k].parse::<f64>().unwrap(), velocities[3 * i + k]);
+        }
+    }
+}
+
+#[test]
+fn the_trajectory_as_vtk_is_a_series_with_a_list_of_its_times() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "run.pvd");
+    good(&["run", "tutorial2", "--frames", "10", "--every", "5", "--out", &file]);
+    let list = std::fs::read_to_string(&file).unwrap();
+    let listed: Vec<&str> = list.lines().filter(|line| line.contains("<DataSet")).collect();
+    assert_eq!(listed.len(), 2);
+    assert!(listed[1].contains("timestep=\"0.16666666666666666\" file=\"run_000001.vtp\""));
+    let frame = vtkio::Vtk::import(folder.path().join("run_000001.vtp")).unwrap();
+    let vtkio::model::DataSet::PolyData { pieces, .. } = frame.data else { panic!("poly data") };
+    let vtkio::model::Piece::Inline(piece) = &pieces[0] else { panic!("inline") };
+    assert_eq!(piece.points.len(), 3 * 10);
+    assert_eq!(piece.data.point.len(), 4);
+}
+
+#[test]
+fn the_impact_table_has_a_row_for_each_impact() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "impacts.csv");
+    let summary = summary(&["run", "tutorial4", "--seconds", "2", "--impacts", &file]);
+    let (header, rows) = rows(&file);
+    assert_eq!(rows.len() as u64, summary["impacts"].as_u64().unwrap());
+    assert!(rows.len() > 100);
+    let column = |name: &str| header.iter().position(|field| field == name).unwrap();
+    let times: Vec<f64> = rows.iter().map(|row| row[column("t")].parse().unwrap()).collect();
+    assert!(times.is_sorted() && times[0] > 0.0 && times[rows.len() - 1] <= 2.0);
+    for row in &rows {
+        assert!(["sphere", "collider"].contains(&row[column("kind1")].as_str()));
+        assert!(row[column("approach_speed")].parse::<f64>().unwrap() > 0.0);
+        assert!(row[column("impulse")].parse::<f64>().unwrap() > 0.0);
+    }
+}
+
+#[test]
+fn scenes_are_listed_with_name_description_and_origin() {
+    let list = good(&["scenes"]);
+    for part in ["simtest6", "maze", "Newton's cradle", "Course project 4, SimTest3", "built-in"] {
+        assert!(list.contains(part), "{part}: {list}");
+    }
+    let json: Value = serde_json::from_str(&good(&["scenes", "--json"])).unwrap();
+    assert_eq!(json[0]["name"], "simtest1");
+}
+
+#[test]
+fn what_show_prints_is_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let hash = |scene: &str| summary(&["run", scene, "--frames", "60"])["state_hash"].clone();
+    for arguments in [
+        ["show", "tutorial4", "--set", "title=x"],
+        ["show", "tutorial4", "--expand", "--set=title=x"],
+    ] {
+        let file = path(&folder, "shown.toml");
+        std::fs::write(&file, good(&arguments)).unwrap();
+        assert!(good(&["check", &file]).contains("ok, \"tutorial4\""));
+        assert_eq!(hash(&file), hash("tutorial4"));
+    }
+}
+
+#[test]
+fn scenes_of_a_users_own_are_found_in_folders() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("own.toml"), "name = \"own\"\n[[spheres]]\nradius = 1\n")
+        .unwrap();
+    let directory = folder.path().to_str().unwrap();
+    assert!(good(&["scenes", "--scenes", directory]).contains("own.toml"));
+    good(&["run", "own", "--scenes", directory, "--frames", "3"]);
+    let output = carom()
+        .args(["run", "own", "--frames", "3"])
+        .env("CAROM_SCENES", directory)
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    assert!(bad_line(&["run", "own"], 2).contains("there is no scene \"own\""));
+}
+
+#[test]
+fn bad_usage_ends_with_code_2_and_says_what_was_meant() {
+    assert!(bad_line(&["run", "simtst1"], 2).contains("did you mean \"simtest1\"?"));
+    assert!(bad_line(&["run", "simtest1", "--set", "emitters.9.period=1"], 2).contains("no 9"));
+    assert!(
+        bad_line(&["run", "simtest1", "--set", "simulation.frametime=1"], 2)
+            .contains("did you mean \"frame_time\"?")
+    );
+    assert!(
+        bad_line(&["run", "simtest1", "--frame-time=-1"], 2)
+            .contains("frame_time: must be positive")
+    );
+    assert!(bad_line(&["run", "simtest1", "--out", "t.txt"], 2).contains(".csv, .npz, or .pvd"));
+    assert!(bad_line(&["scenes", "--scenes", "/nowhere/at/all"], 2).contains("/nowhere/at/all"));
+    assert!(
+        bad_line(&["run", "simtest1", "--frame-time", "1e-300", "--seconds", "1"], 2)
+            .contains("frames")
+    );
+    for arguments in [
+        &["run"][..],
+        &["run", "simtest1", "--rule", "magic"],
+        &["run", "simtest1", "--seconds", "-1"],
+        &["run", "simtest1", "--seconds", "1", "--frames", "2"],
+        &["run", "simtest1", "--every", "0"],
+        &["run", "simtest1", "--set", "novalue"],
+        &["fly"],
+    ] {
+        bad(arguments, 2);
+    }
+}
+
+#[test]
+fn what_goes_wrong_on_the_way_ends_with_code_1_and_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let nowhere = path(&folder, "missing/t.csv");
+    let text = bad_line(&["run", "simtest1", "--out", &nowhere], 1);
+    assert!(text.contains(&format!("cannot write {nowhere}")), "{text}");
+    assert!(bad_line(&["run", "simtest1", "--impacts", &nowhere], 1).contains("cannot write"));
+
+    let broken = path(&folder, "broken.toml");
+    std::fs::write(&broken, "name = \"broken\"\n\n[[spheres]]\nradius = -1\n").unwrap();
+    let text = bad_line(&["run", &broken], 1);
+    assert!(text.contains("broken.toml:4: spheres[0].radius: must be positive"), "{text}");
+    let text = bad(&["check", &broken, &nowhere], 1);
+    assert!(text.contains("broken.toml:4") && text.contains("cannot read"), "{text}");
+
+    // A scene that blows up: drag far too stiff for the frame.
+    let stiff = ["run", "tutorial1", "--set", "forces.1.coefficient=1e9", "--seconds", "60"];
+    assert!(bad_line(&stiff, 1).contains("no longer finite"));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_one_clear_line_in_every_format() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["t.csv", "t.npz", "t.pvd"] {
+        let file = folder.path().join(name);
+        std::os::unix::fs::symlink("/dev/full", &file).unwrap();
+        let file = file.to_str().unwrap();
+        let text = bad_line(&["run", "simtest1", "--out", file], 1);
+        assert!(text.contains("cannot write") && text.contains("No space left"), "{text}");
+    }
+    let impacts = folder.path().join("i.csv");
+    std::os::unix::fs::symlink("/dev/full", &impacts).unwrap();
+    let text = bad_line(&["run", "simtest1", "--impacts", impacts.to_str().unwrap()], 1);
+    assert!(text.contains("No space left"), "{text}");
+}
+
+/// Starts a run too long to end by itself, and interrupts it as Ctrl-C would.
+#[cfg(unix)]
+fn interrupted_run(file: &Path) -> Output {
+    let child = carom()
+        .args(["run", "simtest1", "--seconds", "1e7", "--out"])
+        .arg(file)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+#[cfg(unix)]
+fn ctrl_c_ends_the_run_with_what_was_written_readable() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["t.csv", "t.npz"] {
+        let file = folder.path().join(name);
+        let output = interrupted_run(&file);
+        assert_eq!(output.status.code(), Some(130));
+        assert!(stdout(&output).contains("state hash"));
+        if name == "t.csv" {
+            let (_, rows) = rows(file.to_str().unwrap());
+            assert!(rows.len() > 1000 && rows.iter().all(|row| row.len() == 8));
+        } else {
+            let zip = zip::ZipArchive::new(std::fs::File::open(&file).unwrap()).unwrap();
+            assert_eq!(zip.len(), 5);
+        }
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_reader_that_has_heard_enough_is_no_error() {
+    let script = format!("'{CAROM}' scenes | head -n 1; echo ${{PIPESTATUS[0]}}");
+    let output = Command::new("bash").args(["-c", &script]).output().unwrap();
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(stdout(&output).lines().last(), Some("0"));
+}
