@@ -1,0 +1,26 @@
+//! An emitter that is tilted, and keeps eight spheres alive: who comes, who goes.
+
+use carom::{DQuat, DVec3, Emitter, Error, Gravity, Rule, Settings, Sphere, World};
+
+fn main() -> Result<(), Error> {
+    let mut world = World::new(Settings { rule: Rule::Discrete, ..Settings::default() })?;
+    world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
+    world.add_emitter(Emitter {
+        sphere: Sphere::new(DVec3::ZERO, 0.05).with_velocity(DVec3::new(0.0, 6.0, 0.0)),
+        position: DVec3::ZERO,
+        rotation: DQuat::from_rotation_z(-0.2),
+        period: 0.1,
+        max_spheres: Some(8),
+    })?;
+    for _ in 0..60 {
+        let report = world.step(0.02)?;
+        let names = |ids: &[carom::SphereId]| {
+            ids.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+        };
+        let (came, went) = (names(&report.emitted), names(&report.retired));
+        if !came.is_empty() {
+            println!("{:5.2} s: came {came:<4} went {went:<4}", world.time());
+        }
+    }
+    Ok(())
+}
