@@ -132,8 +132,8 @@ impl Summary {
             ("simulated time", format!("{:.3} s in {} frames", self.simulated_time, self.frames)),
             ("spheres", format!("{}{came_and_went}", self.spheres)),
             ("impacts", self.impacts.to_string()),
-            ("energy", change(self.energy_at_start, self.energy_at_end, "J")),
-            ("momentum", change(start.length(), end.length(), "kg m/s")),
+            ("energy", energy_change(self.energy_at_start, self.energy_at_end)),
+            ("momentum", momentum_change(start, end)),
             ("largest overlap", format!("{:.3e} m at the end of a frame", self.largest_overlap)),
             (
                 "wall time",
@@ -153,11 +153,17 @@ impl Summary {
     }
 }
 
-fn change(start: f64, end: f64, unit: &str) -> String {
+fn energy_change(start: f64, end: f64) -> String {
     let relative = if start == 0.0 {
         String::new()
     } else {
         format!(", {:+.3e} of the start", (end - start) / start.abs())
     };
-    format!("{start:.6} -> {end:.6} {unit} ({:+.3e}{relative})", end - start)
+    format!("{start:.6} -> {end:.6} J ({:+.3e}{relative})", end - start)
+}
+
+/// Sizes of the momentum, and the size of its change as a vector.
+fn momentum_change(start: DVec3, end: DVec3) -> String {
+    let (size, change) = ([start.length(), end.length()], (end - start).length());
+    format!("{:.6} -> {:.6} kg m/s (change {change:.3e})", size[0], size[1])
 }

@@ -37,3 +37,10 @@ pub(crate) struct Interval {
     /// Its length \[s\].
     pub h: f64,
 }
+
+impl Interval {
+    /// What is left after a part \[s\] of it.
+    pub fn after(self, elapsed: f64) -> Self {
+        Self { time: self.time + elapsed, h: self.h - elapsed }
+    }
+}

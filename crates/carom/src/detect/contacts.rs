@@ -225,23 +225,26 @@ fn for_each_pair(spheres: impl Iterator<Item = u32> + Clone, mut visit: impl FnM
     }
 }
 
+/// Spheres that are elsewhere than [`of_everyone`] last saw them.
+pub(crate) struct Moved<'a> {
+    pub list: &'a [u32],
+    pub contains: &'a dyn Fn(u32) -> bool,
+}
+
 /// Contacts that are not `Separate` of moved spheres with anyone and with solid surfaces.
-///
-/// `moved` lists the spheres that are elsewhere than [`of_everyone`] last saw them, `is_moved`
-/// tells them.
 pub(crate) fn of_moved(
     instant: &Instant,
-    (moved, is_moved): (&[u32], impl Fn(u32) -> bool),
+    moved: &Moved,
     tolerance: f64,
     search: &mut Search,
     contacts: &mut Vec<Contact>,
 ) {
-    of_some(instant, moved, tolerance, search, contacts);
+    of_some(instant, moved.list, tolerance, search, contacts);
     if instant.system.settings.spheres_collide {
-        for &i in moved {
+        for &i in moved.list {
             let (_, center, radius) = at(instant, i);
             search.everyone.for_each_near(center, radius + tolerance, |j| {
-                if !is_moved(j) {
+                if !(moved.contains)(j) {
                     keep(instant.pair(i, j, tolerance), contacts);
                 }
             });
@@ -265,7 +268,7 @@ pub(crate) fn meets_surface(system: &System, center: DVec3, radius: f64) -> bool
 pub(crate) fn of_triggers(
     instant: &Instant,
     tolerance: f64,
-    near: &mut Vec<u32>,
+    search: &mut Search,
     mut visit: impl FnMut(Contact),
 ) {
     if !instant.system.surfaces.iter().any(|surface| surface.role == Role::Reports) {
@@ -275,7 +278,7 @@ pub(crate) fn of_triggers(
         instant.for_each_surface(
             sphere,
             tolerance,
-            near,
+            &mut search.near,
             |role| role == Role::Reports,
             |contact| {
                 if contact.separation.distance <= tolerance {

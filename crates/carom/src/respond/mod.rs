@@ -13,16 +13,14 @@ use crate::report::{Impact, Participants};
 use crate::system::System;
 
 /// Answers contacts one after the other: each that still closes when its turn comes gets its
-/// impulse, and `impacts` a record with this `time` \[s\] since the start of the step.
+/// impulse. The impacts bear this `time` \[s\] since the start of the step. Lazy.
 pub(crate) fn sequentially<'a>(
     contacts: impl Iterator<Item = &'a Contact>,
     system: &System,
     motion: &mut Motion,
-    (time, impacts): (f64, &mut Vec<Impact>),
-) {
-    for contact in contacts {
-        impacts.extend(answer(contact, system, motion, time));
-    }
+    time: f64,
+) -> impl Iterator<Item = Impact> {
+    contacts.filter_map(move |contact| answer(contact, system, motion, time))
 }
 
 /// Answers one contact; `None`, and nothing changed, if the bodies are not closing.

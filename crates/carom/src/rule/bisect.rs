@@ -5,11 +5,21 @@ use super::{Bisect, Scratch, WindBack, discrete};
 use crate::bodies::Motion;
 use crate::contact_time::{self, Probe};
 use crate::detect::ContactState;
-use crate::detect::contacts::{self, Bodies, Contact, Instant, Search};
+use crate::detect::contacts::{self, Contact, Instant, Moved, Search};
 use crate::integrate;
 use crate::report::{StepReport, TriggerContact};
 use crate::respond;
 use crate::system::{Interval, System};
+
+/// What every part of the rule reads: the world, and the frame that it takes.
+#[derive(Clone, Copy)]
+struct Frame<'a> {
+    system: System<'a>,
+    parameters: Bisect,
+    interval: Interval,
+    /// States at the beginning.
+    start: &'a Motion,
+}
 
 /// Working memory of the rule. Each [`Motion`] has a place for every sphere.
 #[derive(Debug, Clone, Default)]
@@ -28,6 +38,7 @@ pub(super) struct Buffers {
     moved: Vec<u32>,
     /// Spheres that take part in the intersections of the island at work, ascending.
     involved: Vec<u32>,
+    search: Search,
 }
 
 /// Advances all spheres by one frame (`docs/physics.md`, rule `bisect`).
@@ -36,23 +47,21 @@ pub(super) struct Buffers {
 /// frame again by [`wind`]. Where an island then meets a sphere outside, the two join and go
 /// through the frame together, until nothing intersects any more.
 pub(super) fn step(
-    (system, parameters): (&System, &Bisect),
+    system: &System,
+    parameters: Bisect,
     motion: &mut Motion,
-    frame: Interval,
+    interval: Interval,
     scratch: &mut Scratch,
     report: &mut StepReport,
 ) {
-    let Scratch { near, search, contacts, islands, bisect: buffers } = scratch;
+    let Scratch { contacts, islands, bisect: buffers, .. } = scratch;
+    let frame = Frame { system: *system, parameters, interval, start: motion };
     let everyone = 0..system.spheres.id.len() as u32;
     islands.reset(everyone.len());
     buffers.reset(motion);
-    advance(system, (motion, &mut buffers.end), everyone, frame);
-    contacts::of_everyone(
-        &at_end(system, &buffers.end, frame),
-        parameters.tolerance,
-        search,
-        contacts,
-    );
+    advance(system, motion, &mut buffers.end, everyone, interval);
+    let end = frame.end(&buffers.end);
+    contacts::of_everyone(&end, parameters.tolerance, &mut buffers.search, contacts);
 
     if parameters.wind_back == WindBack::All && contacts.iter().any(is_intersecting) {
         islands.join_all();
@@ -60,23 +69,16 @@ pub(super) fn step(
     islands.join(contacts);
     while islands.any_unsettled() {
         for island in islands.unsettled() {
-            wind((system, parameters), island, (motion, frame), buffers, search);
+            wind(&frame, island, buffers);
         }
-        renew_contacts((system, parameters), (islands, frame), buffers, search, contacts);
+        renew_contacts(&frame, islands, buffers, contacts);
         islands.join(contacts);
     }
 
     islands.report(report);
-    contacts::of_triggers(
-        &at_end(system, &buffers.end, frame),
-        parameters.tolerance,
-        near,
-        |contact| {
-            report.triggers.extend(TriggerContact::of(&contact, system));
-        },
-    );
+    report_triggers(&frame, buffers, report);
     let colliding = contacts.iter().filter(|contact| contact.state == ContactState::Colliding);
-    respond::sequentially(colliding, system, &mut buffers.end, (frame.h, &mut report.impacts));
+    report.impacts.extend(respond::sequentially(colliding, system, &mut buffers.end, interval.h));
     std::mem::swap(motion, &mut buffers.end);
 }
 
@@ -85,62 +87,49 @@ pub(super) fn step(
 ///
 /// The states of its spheres at the end of the frame, before the answer to contacts that begin
 /// there, are left in `buffers.end`.
-fn wind(
-    (system, parameters): (&System, &Bisect),
-    island: &mut Island,
-    (start, frame): (&Motion, Interval),
-    buffers: &mut Buffers,
-    search: &mut Search,
-) {
-    let members = &island.members;
-    for &i in members {
+fn wind(frame: &Frame, island: &mut Island, buffers: &mut Buffers) {
+    let Frame { system, parameters, interval, start } = frame;
+    for &i in &island.members {
         buffers.current.copy(start, i as usize);
     }
     let mut elapsed = 0.0;
-    for _ in 0..parameters.max_substeps as usize * members.len() {
-        let rest = Interval { time: frame.time + elapsed, h: frame.h - elapsed };
-        advance(system, (&buffers.current, &mut buffers.end), members.iter().copied(), rest);
-        let end = at_end(system, &buffers.end, frame);
-        contacts::of_some(&end, members, parameters.tolerance, search, &mut buffers.late_contacts);
-        if !buffers.late_contacts.iter().any(is_intersecting) {
+    for _ in 0..parameters.max_substeps as usize * island.members.len() {
+        let rest = interval.after(elapsed);
+        let Buffers { end, current, late_contacts, search, .. } = buffers;
+        advance(system, current, end, island.members.iter().copied(), rest);
+        let tolerance = parameters.tolerance;
+        contacts::of_some(&frame.end(end), &island.members, tolerance, search, late_contacts);
+        if !late_contacts.iter().any(is_intersecting) {
             island.settled = true;
             return;
         }
-        let until_contact = find_first_contact((system, parameters), rest, buffers, search);
+        let until_contact = find_first_contact(frame, rest, buffers);
+        let Buffers { current, trial_contacts, .. } = buffers;
         let piece = Interval { time: rest.time, h: until_contact };
-        advance_in_place(system, &mut buffers.current, members, piece);
+        advance_in_place(system, current, &island.members, piece);
         elapsed += until_contact;
-        respond::sequentially(
-            buffers.trial_contacts.iter(),
-            system,
-            &mut buffers.current,
-            (elapsed, &mut island.impacts),
-        );
+        let answered = respond::sequentially(trial_contacts.iter(), system, current, elapsed);
+        island.impacts.extend(answered);
     }
-    let rest = Interval { time: frame.time + elapsed, h: frame.h - elapsed };
-    give_up((system, parameters), island, (rest, frame), buffers, search);
+    give_up(frame, island, interval.after(elapsed), buffers);
 }
 
 /// Time \[s\] from the beginning of `rest` to the first contact in it, by bisection, moving only
 /// the spheres that take part in an intersection at its end (`late_contacts`).
 ///
 /// The contacts to be answered there are left in `buffers.trial_contacts`.
-fn find_first_contact(
-    (system, parameters): (&System, &Bisect),
-    rest: Interval,
-    buffers: &mut Buffers,
-    search: &mut Search,
-) -> f64 {
-    let Buffers { current, trial, trial_contacts, late_contacts, involved, .. } = buffers;
+fn find_first_contact(frame: &Frame, rest: Interval, buffers: &mut Buffers) -> f64 {
+    let Frame { system, parameters: Bisect { tolerance, max_halvings, .. }, .. } = *frame;
+    let Buffers { current, trial, trial_contacts, late_contacts, involved, search, .. } = buffers;
     involved.clear();
     involved.extend(late_contacts.iter().filter(|c| is_intersecting(c)).flat_map(Contact::spheres));
     involved.sort_unstable();
     involved.dedup();
-    let found = contact_time::bisect(rest.h, parameters.max_halvings, |t| {
+    let found = contact_time::bisect(rest.h, max_halvings, |t| {
         let piece = Interval { time: rest.time, h: t };
-        advance(system, (current, trial), involved.iter().copied(), piece);
-        let instant = Instant { system: *system, motion: trial, time: rest.time + t };
-        contacts::of_some(&instant, involved, parameters.tolerance, search, trial_contacts);
+        advance(&system, current, trial, involved.iter().copied(), piece);
+        let instant = Instant { system, motion: trial, time: rest.time + t };
+        contacts::of_some(&instant, involved, tolerance, search, trial_contacts);
         if trial_contacts.iter().any(is_intersecting) {
             late_contacts.clone_from(trial_contacts);
             Probe::After
@@ -153,39 +142,28 @@ fn find_first_contact(
     if found.last == Probe::Before {
         // The halvings are used up just before the contact. It is answered here, for the bodies
         // that were seen to intersect just after it.
-        let instant = Instant { system: *system, motion: trial, time: rest.time + found.time };
+        let instant = Instant { system, motion: trial, time: rest.time + found.time };
         let late = late_contacts.iter().filter(|c| is_intersecting(c));
         trial_contacts.clear();
-        trial_contacts.extend(late.filter_map(|c| instant.contact(c.bodies, parameters.tolerance)));
+        trial_contacts.extend(late.filter_map(|c| instant.contact(c.bodies, tolerance)));
     }
     found.time
 }
 
 /// Ends the way of an island that went through its bound of substeps: takes the rest of the frame
 /// in one piece and answers what then overlaps as the rule `discrete` does.
-fn give_up(
-    (system, parameters): (&System, &Bisect),
-    island: &mut Island,
-    (rest, frame): (Interval, Interval),
-    buffers: &mut Buffers,
-    search: &mut Search,
-) {
-    let Buffers { current, end, late_contacts, .. } = buffers;
-    advance(system, (current, end), island.members.iter().copied(), rest);
-    let instant = at_end(system, end, frame);
-    contacts::of_some(&instant, &island.members, parameters.tolerance, search, late_contacts);
+fn give_up(frame: &Frame, island: &mut Island, rest: Interval, buffers: &mut Buffers) {
+    let Frame { system, parameters: Bisect { tolerance, .. }, interval, .. } = *frame;
+    let Buffers { current, end, late_contacts, search, .. } = buffers;
+    advance(&system, current, end, island.members.iter().copied(), rest);
+    contacts::of_some(&frame.end(end), &island.members, tolerance, search, late_contacts);
     for late in late_contacts.iter().filter(|c| is_intersecting(c)) {
         // The answers before this one may have moved the sphere.
-        let now = at_end(system, end, frame).contact(late.bodies, parameters.tolerance);
+        let now = frame.end(end).contact(late.bodies, tolerance);
         let Some(contact) = now.filter(is_intersecting) else { continue };
-        let Some(impact) = respond::answer(&contact, system, end, frame.h) else { continue };
+        let Some(impact) = respond::answer(&contact, &system, end, interval.h) else { continue };
         island.impacts.push(impact);
-        if let Bodies::Surface { sphere, surface } = contact.bodies {
-            let form = &system.surfaces[surface as usize].form;
-            let i = sphere as usize;
-            let radius = system.spheres.radius[i];
-            discrete::put_on_surface((form, &contact.separation), radius, &mut end.position[i]);
-        }
+        discrete::put_on_surface(&contact, &system, end);
     }
     island.settled = true;
     island.unfinished = true;
@@ -194,22 +172,29 @@ fn give_up(
 /// Brings the contacts at the end of the frame up to date after islands went through it: those of
 /// lone spheres stand.
 fn renew_contacts(
-    (system, parameters): (&System, &Bisect),
-    (islands, frame): (&Islands, Interval),
+    frame: &Frame,
+    islands: &Islands,
     buffers: &mut Buffers,
-    search: &mut Search,
     contacts: &mut Vec<Contact>,
 ) {
-    let Buffers { end, moved, trial_contacts, .. } = buffers;
+    let Buffers { end, moved, trial_contacts, search, .. } = buffers;
     moved.clear();
     moved.extend(islands.members());
-    let instant = at_end(system, end, frame);
     let is_moved = |sphere| islands.contain(sphere);
-    let tolerance = parameters.tolerance;
-    contacts::of_moved(&instant, (moved, is_moved), tolerance, search, trial_contacts);
+    let moved = Moved { list: moved, contains: &is_moved };
+    let tolerance = frame.parameters.tolerance;
+    contacts::of_moved(&frame.end(end), &moved, tolerance, search, trial_contacts);
     contacts.retain(|contact| !contact.spheres().any(is_moved));
     contacts.append(trial_contacts);
     contacts.sort_unstable_by_key(|contact| contact.bodies);
+}
+
+fn report_triggers(frame: &Frame, buffers: &mut Buffers, report: &mut StepReport) {
+    let Buffers { end, search, .. } = buffers;
+    let end = frame.end(end);
+    contacts::of_triggers(&end, frame.parameters.tolerance, search, |contact| {
+        report.triggers.extend(TriggerContact::of(&contact, &frame.system));
+    });
 }
 
 impl Buffers {
@@ -221,18 +206,26 @@ impl Buffers {
     }
 }
 
-fn is_intersecting(contact: &Contact) -> bool {
-    contact.state == ContactState::Intersecting
+impl<'a> Frame<'a> {
+    /// The instant at its end, with all spheres in the states `end`.
+    fn end<'b>(&'b self, end: &'b Motion) -> Instant<'b>
+    where
+        'a: 'b,
+    {
+        let Interval { time, h } = self.interval;
+        Instant { system: self.system, motion: end, time: time + h }
+    }
 }
 
-fn at_end<'a>(system: &System<'a>, end: &'a Motion, frame: Interval) -> Instant<'a> {
-    Instant { system: *system, motion: end, time: frame.time + frame.h }
+fn is_intersecting(contact: &Contact) -> bool {
+    contact.state == ContactState::Intersecting
 }
 
 /// Moves spheres without contacts over `interval`, from `start` to `end`.
 fn advance(
     system: &System,
-    (start, end): (&Motion, &mut Motion),
+    start: &Motion,
+    end: &mut Motion,
     spheres: impl Iterator<Item = u32>,
     interval: Interval,
 ) {

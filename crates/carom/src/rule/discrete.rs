@@ -1,7 +1,5 @@
 //! The rule `discrete`: move, then answer what overlaps at the end of the frame.
 
-use glam::DVec3;
-
 use super::Scratch;
 use crate::bodies::Motion;
 use crate::detect::contacts::{self, Bodies, Contact, Instant};
@@ -21,10 +19,9 @@ pub(super) fn step(
     report: &mut StepReport,
 ) {
     for index in 0..system.spheres.id.len() {
-        let (position, velocity) = integrate::advance(system, motion, index, frame);
-        motion.position[index] = position;
-        motion.velocity[index] = velocity;
-        meet_surfaces(system, motion, (index, frame.h), &mut scratch.near, report);
+        (motion.position[index], motion.velocity[index]) =
+            integrate::advance(system, motion, index, frame);
+        meet_surfaces(system, motion, index as u32, &mut scratch.near, (frame.h, report));
     }
     meet_each_other(system, motion, frame, scratch, report);
 }
@@ -34,26 +31,19 @@ pub(super) fn step(
 fn meet_surfaces(
     system: &System,
     motion: &mut Motion,
-    (index, time): (usize, f64),
+    sphere: u32,
     near: &mut Vec<u32>,
-    report: &mut StepReport,
+    (time, report): (f64, &mut StepReport),
 ) {
     let find_near = |motion: &Motion, near: &mut Vec<u32>| {
-        system.tree.near(&contacts::reach(system, motion, index, 0.0), near);
+        system.tree.near(&contacts::reach(system, motion, sphere as usize, 0.0), near);
     };
     find_near(motion, near);
     let mut next = 0;
-    while let Some(&number) = near.get(next) {
+    while let Some(&surface) = near.get(next) {
         next += 1;
-        let surface = &system.surfaces[number as usize];
-        let (center, radius) = (motion.position[index], system.spheres.radius[index]);
-        let Some(separation) = sphere_surface(&surface.form, center, radius) else { continue };
-        if !is_contact(&surface.form, &separation) {
-            continue;
-        }
-        let bodies = Bodies::Surface { sphere: index as u32, surface: number };
-        let contact = Contact { bodies, separation, state: ContactState::Intersecting };
-        match surface.role {
+        let Some(contact) = overlap(system, motion, sphere, surface) else { continue };
+        match system.surfaces[surface as usize].role {
             Role::Deflects => {}
             Role::Reports => {
                 report.triggers.extend(TriggerContact::of(&contact, system));
@@ -63,32 +53,37 @@ fn meet_surfaces(
         }
         let Some(impact) = respond::answer(&contact, system, motion, time) else { continue };
         report.impacts.push(impact);
-        if put_on_surface((&surface.form, &separation), radius, &mut motion.position[index]) {
+        if put_on_surface(&contact, system, motion) {
             // The sphere moved: other surfaces may be near now. Go on with those that follow.
             find_near(motion, near);
-            next = near.partition_point(|&other| other <= number);
+            next = near.partition_point(|&other| other <= surface);
         }
     }
 }
 
-/// Contact with a rounded surface needs overlap; with a flat one, touching is enough.
-fn is_contact(form: &Form, separation: &Separation) -> bool {
-    match form {
+/// The contact of a sphere with a surface, if they meet by this rule: with a rounded surface they
+/// must overlap, with a flat one touching is enough.
+fn overlap(system: &System, motion: &Motion, sphere: u32, surface: u32) -> Option<Contact> {
+    let i = sphere as usize;
+    let form = &system.surfaces[surface as usize].form;
+    let separation = sphere_surface(form, motion.position[i], system.spheres.radius[i])?;
+    let meets = match form {
         Form::Sphere { .. } => separation.distance < 0.0,
         Form::Rectangle(_) | Form::HalfSpace { .. } | Form::Box(_) => separation.distance <= 0.0,
-    }
+    };
+    let bodies = Bodies::Surface { sphere, surface };
+    meets.then_some(Contact { bodies, separation, state: ContactState::Intersecting })
 }
 
 /// Puts a sphere that hit a flat surface onto it, in place of the normal force that would keep
-/// it there; on rounded surfaces it is left where it is. Tells whether it was moved.
-pub(super) fn put_on_surface(
-    (form, separation): (&Form, &Separation),
-    radius: f64,
-    position: &mut DVec3,
-) -> bool {
-    let is_flat = !matches!(form, Form::Sphere { .. });
+/// it there; spheres at rounded surfaces and pairs of spheres are left where they are. Tells
+/// whether it was moved.
+pub(super) fn put_on_surface(contact: &Contact, system: &System, motion: &mut Motion) -> bool {
+    let Bodies::Surface { sphere, surface } = contact.bodies else { return false };
+    let is_flat = !matches!(system.surfaces[surface as usize].form, Form::Sphere { .. });
     if is_flat {
-        *position = separation.point + radius * separation.normal;
+        let Separation { point, normal, .. } = contact.separation;
+        motion.position[sphere as usize] = point + system.spheres.radius[sphere as usize] * normal;
     }
     is_flat
 }
@@ -104,5 +99,5 @@ fn meet_each_other(
     let Scratch { search, contacts, .. } = scratch;
     let end = Instant { system: *system, motion, time: frame.time + frame.h };
     contacts::of_overlapping_pairs(&end, 0.0, search, contacts);
-    respond::sequentially(contacts.iter(), system, motion, (frame.h, &mut report.impacts));
+    report.impacts.extend(respond::sequentially(contacts.iter(), system, motion, frame.h));
 }

@@ -92,8 +92,8 @@ pub(crate) fn step(
 ) {
     match system.settings.rule {
         Rule::Discrete => discrete::step(system, motion, frame, scratch, report),
-        Rule::Bisect(ref parameters) => {
-            bisect::step((system, parameters), motion, frame, scratch, report);
+        Rule::Bisect(parameters) => {
+            bisect::step(system, parameters, motion, frame, scratch, report);
         }
     }
 }
