@@ -7,12 +7,16 @@ use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::error::Problem;
-use crate::scene::{Generator, Sphere, Vector};
+use crate::scene::{Generator, Sphere};
 use crate::world::{add_sphere, sphere, vector};
 
 /// Places tried for each sphere of a random filling. Random places fill a box to a volume
 /// fraction of 0.38 at most (random sequential addition), and slow down long before.
 const TRIES_PER_SPHERE: u32 = 10_000;
+
+/// More spheres than this in one generator are a slip of the keyboard, and would fill the memory
+/// (about 1 GB for the world alone).
+const MOST_SPHERES: u64 = 10_000_000;
 
 /// What the spheres of a generator have in common.
 pub(crate) fn template(generator: &Generator) -> &Sphere {
@@ -35,14 +39,13 @@ impl Generator {
         };
         match self {
             Self::Row { count, start, step, sphere } => {
-                check_count(*count, &format!("{path}.count"))?;
+                check_count((*count).into(), &format!("{path}.count"))?;
                 let (start, step) = (vector(*start), vector(*step));
                 Ok((0..*count).map(|i| at(start + f64::from(i) * step, sphere)).collect())
             }
             Self::Lattice { counts, start, spacing, sphere } => {
-                for count in counts {
-                    check_count(*count, &format!("{path}.counts"))?;
-                }
+                let total = counts.iter().fold(1_u64, |total, &n| total.saturating_mul(n.into()));
+                check_count(total, &format!("{path}.counts"))?;
                 let mut spheres = Vec::new();
                 let [nx, ny, nz] = *counts;
                 for z in 0..nz {
@@ -63,7 +66,7 @@ impl Generator {
         let Self::Random { count, min, max, seed, speed, radius_range, sphere } = self else {
             return Ok(Vec::new());
         };
-        check_count(*count, &format!("{path}.count"))?;
+        check_count((*count).into(), &format!("{path}.count"))?;
         if !(speed.is_finite() && *speed >= 0.0) {
             let text = format!("must be zero or positive, and finite, not {speed}");
             return Err(Problem::new(format!("{path}.speed"), text));
@@ -111,8 +114,11 @@ pub(crate) fn fill(world: &mut World, generator: &Generator, path: &str) -> Resu
     spheres.iter().try_for_each(|sphere| add_sphere(world, sphere, &path))
 }
 
-fn check_count(count: u32, path: &str) -> Result<(), Problem> {
-    if count >= 1 { Ok(()) } else { Err(Problem::new(path, "must be at least 1, not 0")) }
+fn check_count(count: u64, path: &str) -> Result<(), Problem> {
+    if (1..=MOST_SPHERES).contains(&count) {
+        return Ok(());
+    }
+    Err(Problem::new(path, format!("must make 1 to {MOST_SPHERES} spheres, not {count}")))
 }
 
 /// Smallest and largest radius of a random filling.
@@ -199,22 +205,5 @@ impl<'a> Placed<'a> {
         }
         let apart = |&(other, r): &(DVec3, f64)| center.distance(other) > radius + r;
         near.into_iter().flatten().all(apart) && !self.world.meets_collider(center, radius)
-    }
-}
-
-/// The place of a sphere, written out.
-impl Sphere {
-    /// A sphere at rest at a place \[m\], of 1 kg.
-    pub fn at(position: Vector, radius: f64) -> Self {
-        Self {
-            position,
-            velocity: [0.0; 3],
-            radius: Some(radius),
-            diameter: None,
-            mass: None,
-            density: None,
-            restitution: 1.0,
-            color: None,
-        }
     }
 }

@@ -67,6 +67,19 @@ impl Library {
 
     /// Adds a scene put together in code.
     ///
+    /// ```
+    /// use carom_scene::Library;
+    /// use carom_scene::scene::{Scene, Sphere};
+    ///
+    /// let mut scene = Scene::new("two");
+    /// scene.description = "Two spheres, side by side.".to_owned();
+    /// scene.spheres = vec![Sphere::at([-1.0, 0.0, 0.0], 0.5), Sphere::at([1.0, 0.0, 0.0], 0.5)];
+    /// let mut library = Library::new();
+    /// library.register(scene)?;
+    /// assert_eq!(library.find("two", &[])?.0.spheres.len(), 2);
+    /// # Ok::<(), carom_scene::SceneError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`SceneError::Invalid`] if it makes no sense.
     pub fn register(&mut self, scene: Scene) -> Result<(), SceneError> {

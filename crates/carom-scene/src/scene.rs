@@ -57,6 +57,27 @@ pub struct Scene {
     pub colors: Option<Colors>,
 }
 
+impl Scene {
+    /// An empty scene of this name, to be filled by code.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            title: String::new(),
+            description: String::new(),
+            origin: String::new(),
+            simulation: Simulation::default(),
+            forces: Vec::new(),
+            spheres: Vec::new(),
+            generators: Vec::new(),
+            colliders: Vec::new(),
+            emitters: Vec::new(),
+            camera: None,
+            sun: None,
+            colors: None,
+        }
+    }
+}
+
 /// How a scene is stepped.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -216,6 +237,22 @@ pub struct Sphere {
     /// Colour; by density or the scene's own where it is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
+}
+
+impl Sphere {
+    /// A sphere at rest at a place \[m\], of 1 kg.
+    pub fn at(position: Vector, radius: f64) -> Self {
+        Self {
+            position,
+            velocity: [0.0; 3],
+            radius: Some(radius),
+            diameter: None,
+            mass: None,
+            density: None,
+            restitution: 1.0,
+            color: None,
+        }
+    }
 }
 
 fn one() -> f64 {

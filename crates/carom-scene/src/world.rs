@@ -5,8 +5,8 @@ use carom::{DQuat, DVec3, InvalidValue, Mass, Pose, Settings, World};
 use crate::error::Problem;
 use crate::generate;
 use crate::scene::{
-    Bisect, Collider, Color, Emitter, Force, Integrator, Quaternion, RestitutionRule, Rule, Scene,
-    Shape, Simulation, Sphere, Vector, WindBack,
+    Bisect, Collider, Color, DensityColor, Emitter, Force, Integrator, Quaternion, RestitutionRule,
+    Rule, Scene, Shape, Simulation, Sphere, Vector, WindBack,
 };
 
 /// Spheres that overlap by less than this part of a metre count as touching: coordinates
@@ -218,8 +218,6 @@ fn check_numbers(scene: &Scene) -> Result<(), Problem> {
     }
     Ok(())
 }
-
-use crate::scene::DensityColor;
 
 /// Every colour in a scene, with its path.
 fn colors(scene: &Scene) -> Vec<(String, Color)> {

@@ -78,7 +78,7 @@ fn every_mistake_is_told_with_its_line_and_field() {
         ("size_x = 10", "size_x = 0", "test.toml:24: colliders[0].shape.size_x: must be positive"),
         ("period = 0.5", "period = 0", "test.toml:28: emitters[0].period: must be positive"),
         ("mass = 2", "mass = -2", "test.toml:30: emitters[0].sphere.mass: must be positive"),
-        ("count = 3", "count = 0", "test.toml:13: generators[0].count: must be at least 1"),
+        ("count = 3", "count = 0", "test.toml:13: generators[0].count: must make 1 to"),
         ("density = 2.0", "density = -2.0", "test.toml:16: generators[0].sphere.density"),
         ("[0, -9.81, 0]", "[0, nan, 0]", "test.toml:5: forces[0].acceleration: must be finite"),
         ("name = \"test\"", "name = \"\"", "test.toml:1: name: must not be empty"),
@@ -198,6 +198,8 @@ fn random_fillings_overlap_nothing_and_repeat_by_their_seed() {
     assert_ne!(hash(8), world.state_hash());
     let full = RANDOM.replacen("count = 600", "count = 600000", 1);
     assert!(refusal(&full).contains("generators[0].count: only "), "{}", refusal(&full));
+    let endless = RANDOM.replacen("count = 600", "count = 4000000000", 1);
+    assert!(refusal(&endless).contains("generators[0].count: must make 1 to"));
     let narrow = RANDOM.replacen("max = [8, 8, 8]", "max = [8, -4.5, 8]", 1);
     assert!(refusal(&narrow).contains(":12: generators[0].max: must be above `min`"));
 }
