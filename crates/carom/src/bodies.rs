@@ -95,10 +95,14 @@ impl Sphere {
         validate::finite("position", self.position)?;
         validate::finite("velocity", self.velocity)?;
         validate::positive("radius", self.radius)?;
-        if let Mass::Density(density) = self.mass {
-            validate::positive("density", density)?;
+        match self.mass {
+            Mass::Kilograms(mass) => validate::positive("mass", mass)?,
+            // So small or large a sphere that its mass is no number is refused here, too.
+            Mass::Density(density) => {
+                validate::positive("density", density)?;
+                validate::positive("density times volume", self.kilograms())?;
+            }
         }
-        validate::positive("mass", self.kilograms())?;
         validate::unit_interval("restitution", self.restitution)
     }
 }
@@ -229,13 +233,24 @@ impl Spheres {
         self.motion.velocity[index] = sphere.velocity;
     }
 
-    /// Takes a sphere out; those after it move up, so that ids stay ascending.
-    pub(crate) fn remove(&mut self, index: usize) {
-        self.properties.id.remove(index);
-        self.properties.radius.remove(index);
-        self.properties.mass.remove(index);
-        self.properties.restitution.remove(index);
-        self.motion.position.remove(index);
-        self.motion.velocity.remove(index);
+    /// Takes spheres out; those after them move up, so that ids stay ascending.
+    pub(crate) fn remove_all(&mut self, ids: &[SphereId]) {
+        let mut going = ids.to_vec();
+        going.sort_unstable();
+        let stays: Vec<bool> =
+            self.ids().iter().map(|id| going.binary_search(id).is_err()).collect();
+        let Self { properties, motion } = self;
+        keep(&mut properties.id, &stays);
+        keep(&mut properties.radius, &stays);
+        keep(&mut properties.mass, &stays);
+        keep(&mut properties.restitution, &stays);
+        keep(&mut motion.position, &stays);
+        keep(&mut motion.velocity, &stays);
     }
+}
+
+/// Keeps the items that stay.
+fn keep<T>(items: &mut Vec<T>, stays: &[bool]) {
+    let mut stays = stays.iter();
+    items.retain(|_| stays.next().is_some_and(|stays| *stays));
 }

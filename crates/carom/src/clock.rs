@@ -10,7 +10,14 @@ impl Clock {
         self.0.value()
     }
 
-    pub fn advance(&mut self, h: f64) {
+    /// The same clock, `h` \[s\] later.
+    pub fn after(mut self, h: f64) -> Self {
         self.0.add(h);
+        self
+    }
+
+    /// All that its future depends on.
+    pub fn parts(&self) -> [f64; 2] {
+        self.0.parts()
     }
 }

@@ -32,6 +32,10 @@ pub fn bisect(h: f64, max_halvings: u32, mut probe: impl FnMut(f64) -> Probe) ->
     let mut found = Bisection { time: h, last: Probe::After };
     for _ in 0..max_halvings {
         let time = floor + 0.5 * (ceiling - floor);
+        if time == floor || time == ceiling {
+            // Numbers are not dense enough for another halving.
+            break;
+        }
         found = Bisection { time, last: probe(time) };
         match found.last {
             Probe::At => break,

@@ -7,6 +7,7 @@ use glam::{DQuat, DVec3};
 
 use crate::bodies::{Sphere, SphereId, Spheres};
 use crate::error::InvalidValue;
+use crate::numbered::Numbered;
 use crate::validate;
 
 /// A sphere is due when its time is at most this much after the start of a frame \[s\], so that
@@ -47,7 +48,11 @@ impl Emitter {
         self.sphere.validate()?;
         validate::finite("position", self.position)?;
         validate::rotation("rotation", self.rotation)?;
-        validate::positive("period", self.period)?;
+        if self.period.is_nan() || self.period <= DUE_TOLERANCE || self.period.is_infinite() {
+            let value = self.period.to_string();
+            let requirement = "finite and longer than 1e-9 s";
+            return Err(InvalidValue { field: "period", requirement, value });
+        }
         self.max_spheres.map_or(Ok(()), |max| validate::at_least_one("max_spheres", max))
     }
 
@@ -85,7 +90,7 @@ impl EmitterState {
 
     /// Refuses a period so short that one frame would have to emit spheres without end.
     pub fn validate_at(&self, time: f64) -> Result<(), InvalidValue> {
-        let due = (time - self.start) / self.emitter.period - self.emitted as f64;
+        let due = (time + DUE_TOLERANCE - self.start) / self.emitter.period - self.emitted as f64;
         if due < MAX_PER_FRAME {
             return Ok(());
         }
@@ -97,47 +102,49 @@ impl EmitterState {
     }
 }
 
+/// What came into the world and what left it for that.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Emission {
+    /// Ascending.
+    pub emitted: Vec<SphereId>,
+    /// In the order of leaving.
+    pub retired: Vec<SphereId>,
+}
+
 /// Whether any emitter has a sphere due in the frame that starts at `time` \[s\].
-pub(crate) fn any_due(emitters: &[EmitterState], time: f64) -> bool {
-    emitters.iter().any(|state| state.is_due(time))
+pub(crate) fn any_due(emitters: &Numbered<EmitterState>, time: f64) -> bool {
+    emitters.iter().any(|(_, state)| state.is_due(time))
 }
 
 /// Emits every sphere that is due in the frame that starts at `time` \[s\], emitter by emitter.
-///
-/// Appends what came and what went to `came` and `went`.
 pub(crate) fn emit(
-    emitters: &mut [EmitterState],
-    (spheres, next_id): (&mut Spheres, &mut u64),
+    emitters: &mut Numbered<EmitterState>,
+    spheres: &mut Spheres,
+    next_id: &mut u64,
     time: f64,
-    (came, went): (&mut Vec<SphereId>, &mut Vec<SphereId>),
-) {
-    for state in emitters {
+) -> Emission {
+    let mut emission = Emission::default();
+    for state in emitters.values_mut() {
+        // Spheres that were removed by hand no longer count.
+        state.ring.retain(|id| spheres.index_of(*id).is_some());
+        let sphere = state.emitter.emitted();
+        let max = state.emitter.max_spheres.map(|max| max as usize);
         while state.is_due(time) {
-            retire_oldest(state, spheres, went);
+            if max.is_some_and(|max| state.ring.len() >= max) {
+                emission.retired.extend(state.ring.pop_front());
+            }
             let id = SphereId(*next_id);
             *next_id += 1;
-            spheres.push(id, &state.emitter.emitted());
-            if state.emitter.max_spheres.is_some() {
+            spheres.push(id, &sphere);
+            emission.emitted.push(id);
+            if max.is_some() {
                 state.ring.push_back(id);
             }
             state.emitted += 1;
-            came.push(id);
         }
     }
-}
-
-/// Removes the oldest spheres of an emitter until there is place for one more.
-fn retire_oldest(state: &mut EmitterState, spheres: &mut Spheres, went: &mut Vec<SphereId>) {
-    let Some(max) = state.emitter.max_spheres else {
-        return;
-    };
-    // Spheres that were removed by hand no longer count.
-    state.ring.retain(|id| spheres.index_of(*id).is_some());
-    while state.ring.len() >= max as usize {
-        let Some(oldest) = state.ring.pop_front() else { return };
-        if let Some(index) = spheres.index_of(oldest) {
-            spheres.remove(index);
-            went.push(oldest);
-        }
+    if !emission.retired.is_empty() {
+        spheres.remove_all(&emission.retired);
     }
+    emission
 }

@@ -10,9 +10,9 @@ use crate::state::State;
 /// Hash of a world's state: XXH3 (64 bits) over the bits of what steps change.
 ///
 /// It covers the time; of every sphere id, position, velocity, radius, mass and restitution; the
-/// places of colliders; and how many spheres each emitter has emitted. Settings, forces and shapes
-/// are not part of it. Equal states have equal hashes on every platform; one changed bit changes
-/// the hash.
+/// places of colliders; and what each emitter has emitted. Settings, forces, shapes and other
+/// parameters are not part of it: it compares worlds that were set up alike. Equal states have
+/// equal hashes on every platform; one changed bit changes the hash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct StateHash(pub u64);
 
@@ -22,12 +22,14 @@ impl Display for StateHash {
     }
 }
 
-/// Hashes, in this order: time; the number of spheres; per sphere its id, position, velocity,
-/// radius, mass, restitution; per collider its position and rotation; per emitter the number of
-/// spheres emitted.
+/// Hashes, in this order: the two parts of the clock's sum; the next id; the number of spheres; per
+/// sphere its id, position, velocity, radius, mass, restitution; the number of colliders; per
+/// collider its position and rotation; per emitter its start, the number of spheres emitted, and
+/// the number and ids of those that still count.
 pub(crate) fn of_state(state: &State) -> StateHash {
     let mut words = Words(Xxh3Default::new());
-    words.number(state.clock.seconds());
+    state.clock.parts().into_iter().for_each(|part| words.number(part));
+    words.integer(state.next_id);
     let spheres = &state.spheres;
     words.integer(spheres.len() as u64);
     for (i, id) in spheres.ids().iter().enumerate() {
@@ -38,12 +40,16 @@ pub(crate) fn of_state(state: &State) -> StateHash {
         words.number(spheres.masses()[i]);
         words.number(spheres.restitutions()[i]);
     }
-    for collider in state.colliders.list() {
+    words.integer(state.colliders.list().iter().len() as u64);
+    for (_, collider) in state.colliders.list().iter() {
         words.vector(collider.pose.position);
         collider.pose.rotation.to_array().into_iter().for_each(|part| words.number(part));
     }
-    for emitter in &state.emitters {
+    for (_, emitter) in state.emitters.iter() {
+        words.number(emitter.start);
         words.integer(emitter.emitted);
+        words.integer(emitter.ring.len() as u64);
+        emitter.ring.iter().for_each(|id| words.integer(id.number()));
     }
     StateHash(words.0.digest())
 }

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::bodies::Spheres;
 use crate::forces::{Force, SphereState};
+use crate::numbered::Numbered;
 use crate::sum::Sum;
 
 /// Kinetic energy \[J\], `Σ m v² / 2`.
@@ -15,14 +16,18 @@ pub fn kinetic_energy(spheres: &Spheres) -> f64 {
 }
 
 /// Potential energy \[J\] of all spheres in all forces that have one, at `time` \[s\].
-pub(crate) fn potential_energy(spheres: &Spheres, forces: &[Arc<dyn Force>], time: f64) -> f64 {
+pub(crate) fn potential_energy(
+    spheres: &Spheres,
+    forces: &Numbered<Arc<dyn Force>>,
+    time: f64,
+) -> f64 {
     let mut sum = Sum::default();
     for (i, (&position, &velocity)) in
         spheres.positions().iter().zip(spheres.velocities()).enumerate()
     {
         let (radius, mass) = (spheres.radii()[i], spheres.masses()[i]);
         let state = SphereState { position, velocity, radius, mass };
-        for force in forces {
+        for (_, force) in forces.iter() {
             sum.add(force.potential_energy(&state, time));
         }
     }

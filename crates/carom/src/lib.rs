@@ -20,6 +20,7 @@
 mod bodies;
 mod clock;
 mod collider;
+mod colliders;
 pub mod contact_time;
 pub mod detect;
 mod emitter;
@@ -27,7 +28,9 @@ mod error;
 mod forces;
 mod hash;
 mod integrate;
+mod interval;
 mod invariants;
+mod numbered;
 mod report;
 pub mod respond;
 mod rule;

@@ -18,8 +18,9 @@ pub struct StepReport {
     pub emitted: Vec<SphereId>,
     /// Spheres that emitters took out again to make place.
     pub retired: Vec<SphereId>,
-    /// Groups of spheres for which rule `bisect` reached its bound of substeps: the rest of their
-    /// frame was taken in one piece, and what then overlapped was answered as in `discrete`.
+    /// Groups of spheres in which, under the rule `bisect`, two bodies met as often as they may in a
+    /// frame: the rest of it was taken in one piece, and what then overlapped was answered as in
+    /// `discrete`.
     pub unfinished_islands: u32,
 }
 

@@ -37,7 +37,7 @@ impl Settings {
             Rule::Bisect(parameters) => {
                 validate::non_negative("tolerance", parameters.tolerance)?;
                 validate::at_least_one("max_halvings", parameters.max_halvings)?;
-                validate::at_least_one("max_substeps", parameters.max_substeps)
+                validate::at_least_one("max_impacts", parameters.max_impacts)
             }
         }
     }

@@ -20,6 +20,11 @@ impl Sum {
         self.total = total;
     }
 
+    /// The rounded total, and what its roundings lost.
+    pub fn parts(&self) -> [f64; 2] {
+        [self.total, self.lost]
+    }
+
     pub fn value(&self) -> f64 {
         self.total + self.lost
     }

@@ -7,16 +7,17 @@ use glam::DVec3;
 use crate::bodies::{Motion, Sphere, SphereId, Spheres};
 use crate::collider::{Collider, ColliderId, Pose};
 use crate::detect::contacts::{self, Search};
-use crate::emitter::{self, Emitter, EmitterId, EmitterState};
-use crate::error::{Error, Subject};
+use crate::emitter::{self, Emission, Emitter, EmitterId, EmitterState};
+use crate::error::{Error, InvalidValue, Subject};
 use crate::forces::{Force, ForceId};
 use crate::hash::{self, StateHash};
+use crate::interval::Interval;
 use crate::invariants;
+use crate::numbered::Numbered;
 use crate::report::{Overlap, StepReport};
 use crate::rule::{self, Scratch};
 use crate::settings::Settings;
 use crate::state::State;
-use crate::system::Interval;
 use crate::validate;
 
 /// Spheres, what acts on them, and what they bounce off.
@@ -51,6 +52,25 @@ pub struct World {
 #[derive(Debug, Clone)]
 pub struct Snapshot(State);
 
+/// What an emission changes, to return to if the step fails.
+struct BeforeEmission {
+    emitters: Numbered<EmitterState>,
+    spheres: Spheres,
+    next_id: u64,
+}
+
+impl BeforeEmission {
+    fn of(state: &State) -> Self {
+        let State { emitters, spheres, next_id, .. } = state;
+        Self { emitters: emitters.clone(), spheres: spheres.clone(), next_id: *next_id }
+    }
+
+    fn restore(self, state: &mut State) {
+        let Self { emitters, spheres, next_id } = self;
+        (state.emitters, state.spheres, state.next_id) = (emitters, spheres, next_id);
+    }
+}
+
 impl World {
     /// An empty world, at time 0.
     ///
@@ -72,6 +92,13 @@ impl World {
         self.state.check_emitters()?;
         self.report.clear();
 
+        let clock = self.state.clock.after(dt);
+        if !clock.seconds().is_finite() {
+            let requirement = "so short that the time stays finite";
+            let invalid = InvalidValue { field: "dt", requirement, value: dt.to_string() };
+            return Err(invalid.about(Subject::Step));
+        }
+
         let before_emission = self.emit();
         self.start.copy_all(&self.state.spheres.motion);
         let frame = Interval { time: self.time(), h: dt };
@@ -80,26 +107,27 @@ impl World {
 
         if let Err(error) = self.state.check_finite() {
             match before_emission {
-                Some(state) => self.state = state,
+                Some(before) => before.restore(&mut self.state),
                 None => std::mem::swap(&mut self.state.spheres.motion, &mut self.start),
             }
             self.report.clear();
             return Err(error);
         }
-        self.state.clock.advance(dt);
+        self.state.clock = clock;
         Ok(&self.report)
     }
 
-    /// Emits the spheres that are due; if there are any, gives the state before it.
-    fn emit(&mut self) -> Option<State> {
+    /// Emits the spheres that are due; if there are any, gives what was before.
+    fn emit(&mut self) -> Option<BeforeEmission> {
         let time = self.time();
-        let before = emitter::any_due(&self.state.emitters, time).then(|| self.state.clone());
-        if before.is_some() {
-            let State { emitters, spheres, next_id, .. } = &mut self.state;
-            let StepReport { emitted, retired, .. } = &mut self.report;
-            emitter::emit(emitters, (spheres, next_id), time, (emitted, retired));
+        if !emitter::any_due(&self.state.emitters, time) {
+            return None;
         }
-        before
+        let before = BeforeEmission::of(&self.state);
+        let State { emitters, spheres, next_id, .. } = &mut self.state;
+        let Emission { emitted, retired } = emitter::emit(emitters, spheres, next_id, time);
+        (self.report.emitted, self.report.retired) = (emitted, retired);
+        Some(before)
     }
 
     /// What happened in the last step.
@@ -171,7 +199,7 @@ impl World {
     pub fn remove_sphere(&mut self, id: SphereId) -> Result<Sphere, Error> {
         let index = self.index_of(id)?;
         let sphere = self.state.spheres.get(index);
-        self.state.spheres.remove(index);
+        self.state.spheres.remove_all(&[id]);
         Ok(sphere)
     }
 
@@ -184,10 +212,15 @@ impl World {
     /// # Errors
     /// [`Error::Invalid`] if the force refuses its own parameters.
     pub fn add_force(&mut self, force: impl Force + 'static) -> Result<ForceId, Error> {
-        let id = ForceId(self.state.forces.len());
+        let id = ForceId(self.state.forces.next_number());
         force.validate().map_err(|invalid| invalid.about(Subject::Force(id)))?;
         self.state.forces.push(Arc::new(force));
         Ok(id)
+    }
+
+    /// All forces, in the order in which they are added up.
+    pub fn forces(&self) -> impl ExactSizeIterator<Item = (ForceId, &dyn Force)> {
+        self.state.forces.iter().map(|(number, force)| (ForceId(number), &**force))
     }
 
     /// Puts a force in the place of another; the next evaluation uses it.
@@ -196,10 +229,20 @@ impl World {
     /// [`Error::Unknown`] if there is no such force, [`Error::Invalid`] if the new one refuses
     /// its own parameters.
     pub fn set_force(&mut self, id: ForceId, force: impl Force + 'static) -> Result<(), Error> {
-        let place = self.state.forces.get_mut(id.0).ok_or(Error::Unknown(Subject::Force(id)))?;
+        let unknown = Error::Unknown(Subject::Force(id));
+        let place = self.state.forces.get_mut(id.0).ok_or(unknown)?;
         force.validate().map_err(|invalid| invalid.about(Subject::Force(id)))?;
         *place = Arc::new(force);
         Ok(())
+    }
+
+    /// Takes a force out of the world.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is no such force.
+    pub fn remove_force(&mut self, id: ForceId) -> Result<(), Error> {
+        let removed = self.state.forces.remove(id.0);
+        removed.map(drop).ok_or(Error::Unknown(Subject::Force(id)))
     }
 
     /// Adds a collider, after those already there.
@@ -207,28 +250,35 @@ impl World {
     /// # Errors
     /// [`Error::Invalid`] for a number that makes no sense.
     pub fn add_collider(&mut self, collider: Collider) -> Result<ColliderId, Error> {
-        let id = ColliderId(self.state.colliders.list().len());
+        let id = ColliderId(self.state.colliders.list().next_number());
         collider.validate().map_err(|invalid| invalid.about(Subject::Collider(id)))?;
         self.state.colliders.push(collider);
         Ok(id)
     }
 
-    /// All colliders; an id's number is the index.
-    pub fn colliders(&self) -> &[Collider] {
-        self.state.colliders.list()
+    /// All colliders, in their order.
+    pub fn colliders(&self) -> impl ExactSizeIterator<Item = (ColliderId, &Collider)> {
+        self.state.colliders.list().iter().map(|(number, it)| (ColliderId(number), it))
     }
 
-    /// Changes a collider.
+    /// One collider.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is no such collider.
+    pub fn collider(&self, id: ColliderId) -> Result<Collider, Error> {
+        let collider = self.state.colliders.list().get(id.0).copied();
+        collider.ok_or(Error::Unknown(Subject::Collider(id)))
+    }
+
+    /// Changes a collider. It keeps its place in the order.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is no such collider, [`Error::Invalid`] for a number that
     /// makes no sense.
     pub fn set_collider(&mut self, id: ColliderId, collider: Collider) -> Result<(), Error> {
-        if id.0 >= self.colliders().len() {
-            return Err(Error::Unknown(Subject::Collider(id)));
-        }
+        self.collider(id)?;
         collider.validate().map_err(|invalid| invalid.about(Subject::Collider(id)))?;
-        self.state.colliders.set(id.0, collider);
+        self.state.colliders.set(id, collider);
         Ok(())
     }
 
@@ -237,9 +287,15 @@ impl World {
     /// # Errors
     /// As [`Self::set_collider`].
     pub fn set_pose(&mut self, id: ColliderId, pose: Pose) -> Result<(), Error> {
-        let collider = self.colliders().get(id.0).copied();
-        let collider = collider.ok_or(Error::Unknown(Subject::Collider(id)))?;
-        self.set_collider(id, Collider { pose, ..collider })
+        self.set_collider(id, Collider { pose, ..self.collider(id)? })
+    }
+
+    /// Takes a collider out of the world and returns it.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is no such collider.
+    pub fn remove_collider(&mut self, id: ColliderId) -> Result<Collider, Error> {
+        self.state.colliders.remove(id).ok_or(Error::Unknown(Subject::Collider(id)))
     }
 
     /// Adds an emitter; its first sphere is due now.
@@ -247,11 +303,43 @@ impl World {
     /// # Errors
     /// [`Error::Invalid`] for a number that makes no sense.
     pub fn add_emitter(&mut self, emitter: Emitter) -> Result<EmitterId, Error> {
-        let id = EmitterId(self.state.emitters.len());
+        let id = EmitterId(self.state.emitters.next_number());
         emitter.validate().map_err(|invalid| invalid.about(Subject::Emitter(id)))?;
         let time = self.time();
         self.state.emitters.push(EmitterState::new(emitter, time));
         Ok(id)
+    }
+
+    /// All emitters, in the order in which they emit.
+    pub fn emitters(&self) -> impl ExactSizeIterator<Item = (EmitterId, &Emitter)> {
+        self.state.emitters.iter().map(|(number, state)| (EmitterId(number), &state.emitter))
+    }
+
+    /// Changes an emitter. It emits the new kind of sphere from the next one on; with another
+    /// period it starts anew, now.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is no such emitter, [`Error::Invalid`] for a number that
+    /// makes no sense.
+    pub fn set_emitter(&mut self, id: EmitterId, emitter: Emitter) -> Result<(), Error> {
+        let time = self.time();
+        let unknown = Error::Unknown(Subject::Emitter(id));
+        let state = self.state.emitters.get_mut(id.0).ok_or(unknown)?;
+        emitter.validate().map_err(|invalid| invalid.about(Subject::Emitter(id)))?;
+        if emitter.period != state.emitter.period {
+            (state.start, state.emitted) = (time, 0);
+        }
+        state.emitter = emitter;
+        Ok(())
+    }
+
+    /// Takes an emitter out of the world and returns it; its spheres stay.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is no such emitter.
+    pub fn remove_emitter(&mut self, id: EmitterId) -> Result<Emitter, Error> {
+        let removed = self.state.emitters.remove(id.0);
+        removed.map(|state| state.emitter).ok_or(Error::Unknown(Subject::Emitter(id)))
     }
 
     /// Kinetic energy \[J\].

@@ -391,7 +391,7 @@ fn newtons_cradle_passes_the_motion_of_the_balls_in_on_to_as_many_out() {
 }
 
 #[test]
-fn reaching_the_bound_of_substeps_is_reported_and_nothing_sinks_through() {
+fn reaching_the_bound_of_impacts_is_reported_and_nothing_sinks_through() {
     let mut world = world(bisect());
     world.add_force(Gravity::new(vec(0.0, -9.81, 0.0))).unwrap();
     let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(0.0);
@@ -404,6 +404,35 @@ fn reaching_the_bound_of_substeps_is_reported_and_nothing_sinks_through() {
         assert_close(world.sphere(ball).unwrap().position.y, 0.5, 1e-3);
     }
     assert!(unfinished > 0);
+}
+
+#[test]
+fn a_resting_pile_meets_a_bounded_number_of_times() {
+    // Two touching layers on a floor: everything rests on everything.
+    let mut world = world(bisect());
+    world.add_force(Gravity::new(vec(0.0, -9.81, 0.0))).unwrap();
+    world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))).unwrap();
+    for i in 0..50u32 {
+        let (layer, x, z) = (f64::from(i / 25), f64::from(i % 5), f64::from(i / 5 % 5));
+        let place = vec(x + 0.5 * layer, 0.5 + layer * 0.5f64.sqrt(), z + 0.5 * layer);
+        world.add_sphere(Sphere::new(place, 0.5).with_restitution(0.5)).unwrap();
+    }
+    for _ in 0..5 {
+        let report = world.step(1.0 / 60.0).unwrap();
+        // 32 times each of at most 6 contacts per sphere (12 neighbours, shared), and the floor.
+        assert!(report.impacts.len() <= 33 * (6 * 50 + 25), "{}", report.impacts.len());
+    }
+}
+
+#[test]
+fn halving_stops_where_numbers_are_not_dense_enough() {
+    let mut probes = 0;
+    let found = contact_time::bisect(1.0, u32::MAX, |t| {
+        probes += 1;
+        if t < 0.3 { Probe::Before } else { Probe::After }
+    });
+    assert!(probes < 60);
+    assert_close(found.time, 0.3, f64::EPSILON);
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! The four contact states, and the distances they rest on, for each pair of shapes.
+//! The four contact states, and the distances of the public shapes they rest on. Rectangles and
+//! boxes are tested by what spheres do at them, in `discrete.rs` and `bisect.rs`.
 
 use carom::DVec3;
 use carom::detect::{ContactState, Separation, classify, sphere_half_space, sphere_sphere};

@@ -81,6 +81,17 @@ fn the_oldest_makes_place_when_max_spheres_are_alive() {
 }
 
 #[test]
+fn when_more_are_due_at_once_than_may_live_the_last_ones_live() {
+    let mut world = world(Rule::Discrete);
+    world.add_emitter(emitter(0.001, Some(3))).unwrap();
+    world.step(1.0).unwrap();
+    let report = world.step(1.0).unwrap();
+    assert_eq!((report.emitted.len(), report.retired.len()), (1000, 998));
+    let numbers: Vec<u64> = world.spheres().ids().iter().map(|id| id.number()).collect();
+    assert_eq!(numbers, [998, 999, 1000]);
+}
+
+#[test]
 fn a_sphere_removed_by_hand_makes_place_too() {
     let mut world = world(Rule::Discrete);
     world.add_emitter(emitter(1.0, Some(2))).unwrap();
@@ -94,7 +105,9 @@ fn a_sphere_removed_by_hand_makes_place_too() {
 #[test]
 fn a_runaway_emitter_is_an_error_that_names_the_period() {
     let mut world = world(Rule::Discrete);
-    world.add_emitter(emitter(1e-12, None)).unwrap();
+    // Shorter than the tolerance of when a sphere is due, it would emit without end at once.
+    assert!(world.add_emitter(emitter(1e-10, None)).unwrap_err().to_string().contains("`period`"));
+    world.add_emitter(emitter(1e-8, None)).unwrap();
     world.step(0.02).unwrap();
     let before = world.state_hash();
     let error = world.step(0.02).unwrap_err().to_string();

@@ -54,9 +54,9 @@ fn collider() -> impl Strategy<Value = Collider> {
 
 fn settings() -> impl Strategy<Value = Settings> {
     let bisect = (0.0..1e-3, 1..12u32, 1..20u32, any::<bool>()).prop_map(
-        |(tolerance, max_halvings, max_substeps, all)| {
+        |(tolerance, max_halvings, max_impacts, all)| {
             let wind_back = if all { WindBack::All } else { WindBack::Touched };
-            Rule::Bisect(Bisect { tolerance, max_halvings, max_substeps, wind_back })
+            Rule::Bisect(Bisect { tolerance, max_halvings, max_impacts, wind_back })
         },
     );
     let rule = prop_oneof![Just(Rule::Discrete), bisect];
@@ -92,6 +92,25 @@ fn emitter() -> impl Strategy<Value = Emitter> {
             max_spheres,
         },
     )
+}
+
+/// Numbers that no field takes.
+fn bad_number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        Just(f64::NAN),
+        Just(f64::INFINITY),
+        Just(f64::NEG_INFINITY),
+        (1e-300..1e300).prop_map(|x: f64| -x),
+    ]
+}
+
+/// A vector with one part that is not finite.
+fn bad_vector() -> impl Strategy<Value = DVec3> {
+    let part = prop_oneof![Just(f64::NAN), Just(f64::INFINITY), Just(f64::NEG_INFINITY)];
+    (vector(1e3), 0..3usize, part).prop_map(|(mut vector, axis, part)| {
+        vector[axis] = part;
+        vector
+    })
 }
 
 proptest! {
@@ -134,6 +153,64 @@ proptest! {
             prop_assert!(spheres.velocities().iter().all(|v| v.is_finite()));
             prop_assert!(spheres.ids().is_sorted());
         }
+    }
+
+    #[test]
+    fn bad_numbers_are_refused_with_the_name_of_their_field(
+        sphere in sphere(),
+        collider in collider(),
+        emitter in emitter(),
+        (number, place) in (bad_number(), bad_vector()),
+    ) {
+        let turned = DQuat::from_xyzw(place.x, place.y, place.z, 0.5);
+        let spheres = [
+            ("position", Sphere { position: place, ..sphere }),
+            ("velocity", Sphere { velocity: place, ..sphere }),
+            ("radius", Sphere { radius: number, ..sphere }),
+            ("mass", sphere.with_mass(number)),
+            ("density", sphere.with_density(number)),
+            ("restitution", sphere.with_restitution(number)),
+        ];
+        let of_shape = |shape| Collider { shape, ..collider };
+        let colliders = [
+            ("position", Collider { pose: Pose { position: place, ..collider.pose }, ..collider }),
+            ("rotation", Collider { pose: collider.pose.rotated(turned), ..collider }),
+            ("restitution", collider.with_restitution(number)),
+            ("radius", of_shape(Shape::Sphere { radius: number })),
+            ("size_x", of_shape(Shape::Rectangle { size_x: number, size_z: 1.0 })),
+            ("size_z", of_shape(Shape::Rectangle { size_x: 1.0, size_z: number })),
+            ("size.x", of_shape(Shape::Box { size: DVec3::new(number, 1.0, 1.0) })),
+            ("size.y", of_shape(Shape::Box { size: DVec3::new(1.0, number, 1.0) })),
+            ("size.z", of_shape(Shape::Box { size: DVec3::new(1.0, 1.0, number) })),
+        ];
+        let mut emitters = vec![
+            ("position", Emitter { position: place, ..emitter }),
+            ("rotation", Emitter { rotation: turned, ..emitter }),
+            ("period", Emitter { period: number, ..emitter }),
+        ];
+        emitters.extend(spheres.map(|(field, sphere)| (field, Emitter { sphere, ..emitter })));
+
+        let mut world = World::default();
+        let before = world.state_hash();
+        let mut refusals = Vec::new();
+        for (field, sphere) in spheres {
+            refusals.push((field, world.add_sphere(sphere).err()));
+        }
+        for (field, collider) in colliders {
+            refusals.push((field, world.add_collider(collider).err()));
+        }
+        for (field, emitter) in emitters {
+            refusals.push((field, world.add_emitter(emitter).err()));
+        }
+        refusals.push(("force", world.add_force(ConstantForce::new(place)).err()));
+        refusals.push(("acceleration", world.add_force(Gravity::new(place)).err()));
+        refusals.push(("coefficient", world.add_force(ViscousDrag::new(number)).err()));
+        refusals.push(("dt", world.step(number).err()));
+        for (field, refusal) in refusals {
+            let text = refusal.map(|error| error.to_string()).unwrap_or_default();
+            prop_assert!(text.contains(&format!("`{field}` must be")), "{field}: {text}");
+        }
+        prop_assert_eq!(world.state_hash(), before);
     }
 
     #[test]

@@ -101,10 +101,21 @@ impl BroadPhase {
         }
     }
 
-    /// Calls `visit` for each sphere within reach of a sphere at `center` with `radius` \[m\].
-    pub fn for_each_near(&self, center: DVec3, radius: f64, mut visit: impl FnMut(u32)) {
-        for level in &self.levels {
-            level.near(center, radius + self.margin, &mut visit);
+    /// Calls `visit` once for each pair of one sphere here and one in `others` within reach of each
+    /// other, in no useful order.
+    pub fn for_each_pair_with(&self, others: &Self, mut visit: impl FnMut(u32, u32)) {
+        for own in &self.levels {
+            for other in &others.levels {
+                if own.is_cheaper_to_look_into(other) {
+                    for entry in &other.entries {
+                        own.near(entry.center, entry.reach, |index| visit(index, entry.index));
+                    }
+                } else {
+                    for entry in &own.entries {
+                        other.near(entry.center, entry.reach, |index| visit(entry.index, index));
+                    }
+                }
+            }
         }
     }
 }
@@ -165,6 +176,18 @@ impl Level {
                 }
             }
         }
+    }
+
+    /// Whether all spheres of `other` find their partners here with less work than the other way
+    /// round: few spheres look into many cells, or many into few.
+    fn is_cheaper_to_look_into(&self, other: &Self) -> bool {
+        let cost = |seeking: &Self, sought: &Self| {
+            let span = 2.0 * (seeking.largest_reach + sought.largest_reach);
+            let across = span * sought.cells_per_metre + 1.0;
+            let cells = (across * across * across).min(sought.entries.len() as f64);
+            seeking.entries.len() as f64 * cells.max(1.0)
+        };
+        cost(other, self) <= cost(self, other)
     }
 
     /// Visits the spheres of this level within `reach` \[m\] of `center`.
@@ -282,17 +305,24 @@ mod tests {
         broad_phase.rebuild(spheres.iter().copied(), tolerance);
         let expected = all_pairs(spheres, tolerance);
         assert_eq!(found_pairs(&broad_phase), expected);
-        for &(i, center, radius) in spheres {
-            let mut near = Vec::new();
-            broad_phase.for_each_near(center, radius, |j| near.push(j));
-            near.retain(|&j| j != i);
-            near.sort_unstable();
-            let partner = |&(a, b): &(u32, u32)| (a == i).then_some(b).or((b == i).then_some(a));
-            let mut partners: Vec<u32> = expected.iter().filter_map(partner).collect();
-            partners.sort_unstable();
-            assert_eq!(near, partners);
-        }
+        check_between(spheres, &expected, tolerance);
         expected.len()
+    }
+
+    /// The pairs between two parts of the spheres, however large the parts are.
+    fn check_between(spheres: &[(u32, DVec3, f64)], all: &[(u32, u32)], tolerance: f64) {
+        for size in [1, 20, spheres.len() / 2] {
+            let (mut some, mut others) = (BroadPhase::default(), BroadPhase::default());
+            some.rebuild(spheres[..size].iter().copied(), tolerance);
+            others.rebuild(spheres[size..].iter().copied(), tolerance);
+            let mut found = Vec::new();
+            some.for_each_pair_with(&others, |i, j| found.push((i, j)));
+            found.sort_unstable();
+            let is_between =
+                |pair: &&(u32, u32)| (pair.0 as usize) < size && pair.1 as usize >= size;
+            let expected: Vec<_> = all.iter().filter(is_between).copied().collect();
+            assert_eq!(found, expected);
+        }
     }
 
     #[test]

@@ -3,10 +3,11 @@
 use glam::DVec3;
 
 use super::broad_phase::BroadPhase;
+use super::surface_tree::Bounds;
 use super::{ContactState, Separation, classify, sphere_sphere, sphere_surface};
 use crate::bodies::Motion;
 use crate::integrate;
-use crate::surface::{Bounds, Role};
+use crate::surface::Role;
 use crate::system::System;
 
 /// Up to this many spheres the loop over all pairs is faster than arranging them first.
@@ -241,14 +242,13 @@ pub(crate) fn of_moved(
 ) {
     of_some(instant, moved.list, tolerance, search, contacts);
     if instant.system.settings.spheres_collide {
-        for &i in moved.list {
-            let (_, center, radius) = at(instant, i);
-            search.everyone.for_each_near(center, radius + tolerance, |j| {
-                if !(moved.contains)(j) {
-                    keep(instant.pair(i, j, tolerance), contacts);
-                }
-            });
-        }
+        let Search { everyone, some, .. } = search;
+        some.rebuild(moved.list.iter().map(|&i| at(instant, i)), tolerance);
+        everyone.for_each_pair_with(some, |i, j| {
+            if !(moved.contains)(i) {
+                keep(instant.pair(i, j, tolerance), contacts);
+            }
+        });
         contacts.sort_unstable_by_key(|contact| contact.bodies);
     }
 }

@@ -10,6 +10,7 @@ mod sphere_box;
 mod sphere_half_space;
 mod sphere_rectangle;
 mod sphere_sphere;
+pub(crate) mod surface_tree;
 
 use glam::DVec3;
 

@@ -14,6 +14,7 @@ pub use drag::ViscousDrag;
 pub use gravity::Gravity;
 
 use crate::error::InvalidValue;
+use crate::numbered::Numbered;
 
 /// A force that acts on every sphere. Several add up.
 ///
@@ -64,6 +65,6 @@ impl Display for ForceId {
 }
 
 /// Sum of all forces \[N\] on a sphere, added in the order in which they entered the world.
-pub(crate) fn total(forces: &[Arc<dyn Force>], sphere: &SphereState, time: f64) -> DVec3 {
-    forces.iter().fold(DVec3::ZERO, |sum, force| sum + force.on(sphere, time))
+pub(crate) fn total(forces: &Numbered<Arc<dyn Force>>, sphere: &SphereState, time: f64) -> DVec3 {
+    forces.iter().fold(DVec3::ZERO, |sum, (_, force)| sum + force.on(sphere, time))
 }

@@ -12,7 +12,8 @@ use glam::DVec3;
 
 use crate::bodies::Motion;
 use crate::forces::{self, SphereState};
-use crate::system::{Interval, System};
+use crate::interval::Interval;
+use crate::system::System;
 
 /// How positions and velocities advance by a time step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

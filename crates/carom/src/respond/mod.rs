@@ -10,6 +10,7 @@ use crate::bodies::Motion;
 use crate::detect::Separation;
 use crate::detect::contacts::{Bodies, Contact};
 use crate::report::{Impact, Participants};
+use crate::surface::Form;
 use crate::system::System;
 
 /// Answers contacts one after the other: each that still closes when its turn comes gets its
@@ -58,4 +59,17 @@ pub(crate) fn answer(
     };
     let between = Participants::of(contact.bodies, system);
     Some(Impact { time, between, point, normal, approach_speed, impulse })
+}
+
+/// Puts a sphere that hit a flat surface onto it, in place of the normal force that would keep
+/// it there; spheres at rounded surfaces and pairs of spheres are left where they are. Tells
+/// whether it was moved.
+pub(crate) fn put_on_surface(contact: &Contact, system: &System, motion: &mut Motion) -> bool {
+    let Bodies::Surface { sphere, surface } = contact.bodies else { return false };
+    let is_flat = !matches!(system.surfaces[surface as usize].form, Form::Sphere { .. });
+    if is_flat {
+        let Separation { point, normal, .. } = contact.separation;
+        motion.position[sphere as usize] = point + system.spheres.radius[sphere as usize] * normal;
+    }
+    is_flat
 }

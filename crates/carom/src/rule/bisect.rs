@@ -1,15 +1,18 @@
 //! The rule `bisect`: wind back what intersects, find the time of contact, answer it there.
 
+use std::collections::BTreeMap;
+
 use super::islands::{Island, Islands};
-use super::{Bisect, Scratch, WindBack, discrete};
+use super::{Bisect, Scratch, WindBack};
 use crate::bodies::Motion;
 use crate::contact_time::{self, Probe};
 use crate::detect::ContactState;
-use crate::detect::contacts::{self, Contact, Instant, Moved, Search};
+use crate::detect::contacts::{self, Bodies, Contact, Instant, Moved, Search};
 use crate::integrate;
+use crate::interval::Interval;
 use crate::report::{StepReport, TriggerContact};
 use crate::respond;
-use crate::system::{Interval, System};
+use crate::system::System;
 
 /// What every part of the rule reads: the world, and the frame that it takes.
 #[derive(Clone, Copy)]
@@ -34,6 +37,8 @@ pub(super) struct Buffers {
     /// to be too late.
     trial_contacts: Vec<Contact>,
     late_contacts: Vec<Contact>,
+    /// How often each two bodies of the island at work were to be answered.
+    meetings: BTreeMap<Bodies, u32>,
     /// Spheres of islands, ascending.
     moved: Vec<u32>,
     /// Spheres that take part in the intersections of the island at work, ascending.
@@ -44,7 +49,7 @@ pub(super) struct Buffers {
 /// Advances all spheres by one frame (`docs/physics.md`, rule `bisect`).
 ///
 /// Spheres that intersect at the end of the frame form islands, and each island goes through the
-/// frame again by [`wind`]. Where an island then meets a sphere outside, the two join and go
+/// frame again by [`settle`]. Where an island then meets a sphere outside, the two join and go
 /// through the frame together, until nothing intersects any more.
 pub(super) fn step(
     system: &System,
@@ -69,7 +74,7 @@ pub(super) fn step(
     islands.join(contacts);
     while islands.any_unsettled() {
         for island in islands.unsettled() {
-            wind(&frame, island, buffers);
+            settle(&frame, island, buffers);
         }
         renew_contacts(&frame, islands, buffers, contacts);
         islands.join(contacts);
@@ -87,13 +92,14 @@ pub(super) fn step(
 ///
 /// The states of its spheres at the end of the frame, before the answer to contacts that begin
 /// there, are left in `buffers.end`.
-fn wind(frame: &Frame, island: &mut Island, buffers: &mut Buffers) {
+fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers) {
     let Frame { system, parameters, interval, start } = frame;
     for &i in &island.members {
         buffers.current.copy(start, i as usize);
     }
     let mut elapsed = 0.0;
-    for _ in 0..parameters.max_substeps as usize * island.members.len() {
+    buffers.meetings.clear();
+    loop {
         let rest = interval.after(elapsed);
         let Buffers { end, current, late_contacts, search, .. } = buffers;
         advance(system, current, end, island.members.iter().copied(), rest);
@@ -110,8 +116,10 @@ fn wind(frame: &Frame, island: &mut Island, buffers: &mut Buffers) {
         elapsed += until_contact;
         let answered = respond::sequentially(trial_contacts.iter(), system, current, elapsed);
         island.impacts.extend(answered);
+        if buffers.met_too_often(parameters.max_impacts) {
+            return give_up(frame, island, interval.after(elapsed), buffers);
+        }
     }
-    give_up(frame, island, interval.after(elapsed), buffers);
 }
 
 /// Time \[s\] from the beginning of `rest` to the first contact in it, by bisection, moving only
@@ -125,6 +133,8 @@ fn find_first_contact(frame: &Frame, rest: Interval, buffers: &mut Buffers) -> f
     involved.extend(late_contacts.iter().filter(|c| is_intersecting(c)).flat_map(Contact::spheres));
     involved.sort_unstable();
     involved.dedup();
+    // Should there be no room for a probe, the contacts at the end are answered there.
+    trial_contacts.clone_from(late_contacts);
     let found = contact_time::bisect(rest.h, max_halvings, |t| {
         let piece = Interval { time: rest.time, h: t };
         advance(&system, current, trial, involved.iter().copied(), piece);
@@ -150,7 +160,8 @@ fn find_first_contact(frame: &Frame, rest: Interval, buffers: &mut Buffers) -> f
     found.time
 }
 
-/// Ends the way of an island that went through its bound of substeps: takes the rest of the frame
+/// Ends the way of an island in which two bodies met more often than they may in one frame, as
+/// bodies at rest on each other do without end: takes the rest of the frame
 /// in one piece and answers what then overlaps as the rule `discrete` does.
 fn give_up(frame: &Frame, island: &mut Island, rest: Interval, buffers: &mut Buffers) {
     let Frame { system, parameters: Bisect { tolerance, .. }, interval, .. } = *frame;
@@ -163,7 +174,7 @@ fn give_up(frame: &Frame, island: &mut Island, rest: Interval, buffers: &mut Buf
         let Some(contact) = now.filter(is_intersecting) else { continue };
         let Some(impact) = respond::answer(&contact, &system, end, interval.h) else { continue };
         island.impacts.push(impact);
-        discrete::put_on_surface(&contact, &system, end);
+        respond::put_on_surface(&contact, &system, end);
     }
     island.settled = true;
     island.unfinished = true;
@@ -203,6 +214,17 @@ impl Buffers {
         for buffer in [&mut self.end, &mut self.current, &mut self.trial] {
             buffer.copy_all(motion);
         }
+    }
+
+    /// Counts the contacts just answered; tells whether any two bodies are over the bound.
+    fn met_too_often(&mut self, max_impacts: u32) -> bool {
+        let mut too_often = false;
+        for contact in &self.trial_contacts {
+            let meetings = self.meetings.entry(contact.bodies).or_insert(0);
+            *meetings += 1;
+            too_often |= *meetings >= max_impacts;
+        }
+        too_often
     }
 }
 

@@ -3,12 +3,13 @@
 use super::Scratch;
 use crate::bodies::Motion;
 use crate::detect::contacts::{self, Bodies, Contact, Instant};
-use crate::detect::{ContactState, Separation, sphere_surface};
+use crate::detect::{ContactState, sphere_surface};
 use crate::integrate;
+use crate::interval::Interval;
 use crate::report::{StepReport, TriggerContact};
 use crate::respond;
 use crate::surface::{Form, Role};
-use crate::system::{Interval, System};
+use crate::system::System;
 
 /// Advances all spheres by one frame (`docs/physics.md`, rule `discrete`).
 pub(super) fn step(
@@ -21,7 +22,7 @@ pub(super) fn step(
     for index in 0..system.spheres.id.len() {
         (motion.position[index], motion.velocity[index]) =
             integrate::advance(system, motion, index, frame);
-        meet_surfaces(system, motion, index as u32, &mut scratch.near, (frame.h, report));
+        meet_surfaces(system, motion, index as u32, frame.h, &mut scratch.near, report);
     }
     meet_each_other(system, motion, frame, scratch, report);
 }
@@ -32,8 +33,9 @@ fn meet_surfaces(
     system: &System,
     motion: &mut Motion,
     sphere: u32,
+    time: f64,
     near: &mut Vec<u32>,
-    (time, report): (f64, &mut StepReport),
+    report: &mut StepReport,
 ) {
     let find_near = |motion: &Motion, near: &mut Vec<u32>| {
         system.tree.near(&contacts::reach(system, motion, sphere as usize, 0.0), near);
@@ -53,7 +55,7 @@ fn meet_surfaces(
         }
         let Some(impact) = respond::answer(&contact, system, motion, time) else { continue };
         report.impacts.push(impact);
-        if put_on_surface(&contact, system, motion) {
+        if respond::put_on_surface(&contact, system, motion) {
             // The sphere moved: other surfaces may be near now. Go on with those that follow.
             find_near(motion, near);
             next = near.partition_point(|&other| other <= surface);
@@ -73,19 +75,6 @@ fn overlap(system: &System, motion: &Motion, sphere: u32, surface: u32) -> Optio
     };
     let bodies = Bodies::Surface { sphere, surface };
     meets.then_some(Contact { bodies, separation, state: ContactState::Intersecting })
-}
-
-/// Puts a sphere that hit a flat surface onto it, in place of the normal force that would keep
-/// it there; spheres at rounded surfaces and pairs of spheres are left where they are. Tells
-/// whether it was moved.
-pub(super) fn put_on_surface(contact: &Contact, system: &System, motion: &mut Motion) -> bool {
-    let Bodies::Surface { sphere, surface } = contact.bodies else { return false };
-    let is_flat = !matches!(system.surfaces[surface as usize].form, Form::Sphere { .. });
-    if is_flat {
-        let Separation { point, normal, .. } = contact.separation;
-        motion.position[sphere as usize] = point + system.spheres.radius[sphere as usize] * normal;
-    }
-    is_flat
 }
 
 /// Answers the pairs that overlap at the end of the frame, in order of their ids.

@@ -14,7 +14,7 @@ pub(super) struct Island {
     pub members: Vec<u32>,
     /// Whether its way through the frame is known.
     pub settled: bool,
-    /// Whether it reached the bound of substeps on its way.
+    /// Whether it was given up on its way.
     pub unfinished: bool,
     /// What happened on its way.
     pub impacts: Vec<Impact>,

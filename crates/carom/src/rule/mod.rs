@@ -8,8 +8,9 @@ use islands::Islands;
 
 use crate::bodies::Motion;
 use crate::detect::contacts::{Contact, Search};
+use crate::interval::Interval;
 use crate::report::StepReport;
-use crate::system::{Interval, System};
+use crate::system::System;
 
 /// How a frame is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,8 +42,9 @@ pub struct Bisect {
     /// Halvings of the (rest of the) frame in search of a contact; the error in its time is at
     /// most the frame divided by two to this power.
     pub max_halvings: u32,
-    /// Bound on the contacts that a group of spheres goes through in a frame, per sphere.
-    pub max_substeps: u32,
+    /// How often two bodies may meet in a frame. Bodies at rest on each other would meet without
+    /// end; at the bound, their group takes the rest of the frame in one piece.
+    pub max_impacts: u32,
     /// Which spheres go through the pieces into which a contact cuts the frame.
     pub wind_back: WindBack,
 }
@@ -53,7 +55,7 @@ impl Default for Bisect {
             // Far above rounding in a scene of metres, far below anything one could see.
             tolerance: 1e-9,
             max_halvings: 8,
-            max_substeps: 64,
+            max_impacts: 32,
             wind_back: WindBack::Touched,
         }
     }

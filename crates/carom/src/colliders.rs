@@ -1,0 +1,61 @@
+//! All colliders of a world, and what follows from them.
+
+use std::sync::OnceLock;
+
+use crate::collider::{Collider, ColliderId};
+use crate::detect::surface_tree::SurfaceTree;
+use crate::numbered::Numbered;
+use crate::surface::{self, Surface};
+
+/// Colliders in their order, and the surfaces made of them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Colliders {
+    list: Numbered<Collider>,
+    surfaces: Vec<Surface>,
+    /// Made when first asked for after a change.
+    tree: OnceLock<SurfaceTree>,
+}
+
+impl Colliders {
+    pub fn list(&self) -> &Numbered<Collider> {
+        &self.list
+    }
+
+    /// The surfaces of all colliders, in their order.
+    pub fn surfaces(&self) -> &[Surface] {
+        &self.surfaces
+    }
+
+    /// Finds surfaces, by their index in [`Self::surfaces`].
+    pub fn tree(&self) -> &SurfaceTree {
+        self.tree.get_or_init(|| SurfaceTree::new(&self.surfaces))
+    }
+
+    pub fn push(&mut self, collider: Collider) {
+        surface::place(ColliderId(self.list.next_number()), &collider, &mut self.surfaces);
+        self.list.push(collider);
+        self.tree.take();
+    }
+
+    /// Puts a collider in the place of one that is there.
+    pub fn set(&mut self, id: ColliderId, collider: Collider) {
+        if let Some(place) = self.list.get_mut(id.0) {
+            *place = collider;
+            self.place_all();
+        }
+    }
+
+    pub fn remove(&mut self, id: ColliderId) -> Option<Collider> {
+        let removed = self.list.remove(id.0);
+        self.place_all();
+        removed
+    }
+
+    fn place_all(&mut self) {
+        self.surfaces.clear();
+        for (number, collider) in self.list.iter() {
+            surface::place(ColliderId(number), collider, &mut self.surfaces);
+        }
+        self.tree.take();
+    }
+}

@@ -1,0 +1,49 @@
+/// Things that keep the number they were given, in the order in which they came.
+#[derive(Debug, Clone)]
+pub(crate) struct Numbered<T> {
+    /// Ascending by number.
+    items: Vec<(usize, T)>,
+    next: usize,
+}
+
+impl<T> Default for Numbered<T> {
+    fn default() -> Self {
+        Self { items: Vec::new(), next: 0 }
+    }
+}
+
+impl<T> Numbered<T> {
+    /// The number that the next one will get.
+    pub fn next_number(&self) -> usize {
+        self.next
+    }
+
+    pub fn push(&mut self, item: T) {
+        self.items.push((self.next, item));
+        self.next += 1;
+    }
+
+    pub fn get(&self, number: usize) -> Option<&T> {
+        self.place(number).map(|place| &self.items[place].1)
+    }
+
+    pub fn get_mut(&mut self, number: usize) -> Option<&mut T> {
+        self.place(number).map(|place| &mut self.items[place].1)
+    }
+
+    pub fn remove(&mut self, number: usize) -> Option<T> {
+        self.place(number).map(|place| self.items.remove(place).1)
+    }
+
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = (usize, &T)> {
+        self.items.iter().map(|(number, item)| (*number, item))
+    }
+
+    pub fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.items.iter_mut().map(|(_, item)| item)
+    }
+
+    fn place(&self, number: usize) -> Option<usize> {
+        self.items.binary_search_by_key(&number, |item| item.0).ok()
+    }
+}
