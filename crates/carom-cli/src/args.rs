@@ -61,7 +61,8 @@ pub enum Command {
 pub struct Choice {
     /// Name or title of a scene, or a scene file.
     scene: String,
-    /// Change a value of the scene, like emitters.0.max_spheres=100; may be given several times.
+    /// Change a value of the scene, like emitters.0.max_spheres=100, or take it out with
+    /// emitters.0.max_spheres=none; may be given several times.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
     overrides: Vec<Override>,
 }
@@ -102,14 +103,15 @@ pub struct Run {
     /// Which scene.
     #[command(flatten)]
     pub choice: Choice,
-    /// Step rule, instead of the scene's own.
+    /// Step rule, instead of the scene's own. `bisect` winds back only the spheres that meet
+    /// unless the scene says simulation.bisect.wind_back = "all", the tutorial's way.
     #[arg(long, value_parser = ["discrete", "bisect"])]
     pub rule: Option<String>,
     /// Length of a frame, instead of the scene's own.
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
     pub frame_time: Option<f64>,
     /// How long to run, instead of the scene's own duration; taken up to whole frames.
-    #[arg(long, conflicts_with = "frames", value_parser = positive)]
+    #[arg(long, conflicts_with = "frames", value_parser = positive, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
     /// How many frames to run.
     #[arg(long)]

@@ -1,6 +1,6 @@
 //! How a command fails: one line on the standard error stream, and an exit code.
 
-use std::io;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use carom_scene::SceneError;
@@ -24,17 +24,22 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         match self {
             Self::Usage(message) => {
-                eprintln!("carom: {message}");
+                complain(&format!("carom: {message}"));
                 ExitCode::from(2)
             }
             Self::Fault(message) => {
-                eprintln!("carom: {message}");
+                complain(&format!("carom: {message}"));
                 ExitCode::from(1)
             }
             Self::OutputClosed => ExitCode::SUCCESS,
             Self::Interrupted => ExitCode::from(130),
         }
     }
+}
+
+/// Writes a line to the standard error stream. If that is gone too, nobody is there to be told.
+pub fn complain(line: &str) {
+    writeln!(io::stderr(), "{line}").ok();
 }
 
 impl From<SceneError> for Failure {
@@ -44,11 +49,7 @@ impl From<SceneError> for Failure {
             SceneError::Unknown { .. } => {
                 Self::Usage(format!("{message} (`carom scenes` lists them all)"))
             }
-            SceneError::BadOverride { .. } => Self::Usage(message),
-            // A fault in an override is named after it.
-            SceneError::Invalid(fault) if fault.source_name.starts_with("--set ") => {
-                Self::Usage(message)
-            }
+            SceneError::BadOverride { .. } | SceneError::Overridden { .. } => Self::Usage(message),
             _ => Self::Fault(message),
         }
     }

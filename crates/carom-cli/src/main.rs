@@ -16,12 +16,12 @@ use args::{Args, Command};
 
 fn main() -> ExitCode {
     let args = Args::parse();
-    let result = args.library().and_then(|library| match &args.command {
-        Command::Scenes { json } => scenes::list(&library, *json),
+    let result = match &args.command {
+        Command::Scenes { json } => args.library().and_then(|it| scenes::list(&it, *json)),
         Command::Check { files } => scenes::check(files),
-        Command::Show(show) => scenes::show(&library, show),
-        Command::Run(run) => run::run(&library, run),
-    });
+        Command::Show(show) => args.library().and_then(|it| scenes::show(&it, show)),
+        Command::Run(run) => args.library().and_then(|it| run::run(&it, run)),
+    };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),

@@ -1,6 +1,6 @@
 //! The command `run`: steps a scene, records it, sums it up.
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use carom::World;
 use carom_scene::Library;
 use carom_scene::recording::{ImpactTable, Trajectory};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::Run;
 use crate::failure::Failure;
@@ -28,9 +28,21 @@ pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
     let mut outputs = Outputs::create(args)?;
     let mut world = scene.world()?;
     let interrupted = interruption()?;
-    let observer = Observer::new(&world);
-    let (observer, result) =
-        step_all(&mut world, (frames, h), (&interrupted, observer), &mut outputs);
+    let mut observer = Observer::new(&world);
+    let progress = Progress::new(frames);
+    let mut result = Ok(());
+    for frame in 1..=frames {
+        let start = world.time();
+        result = observer
+            .step(&mut world, h)
+            .map_err(Failure::from)
+            .and_then(|()| outputs.write(frame, start, &world));
+        progress.show(frame, world.time());
+        if result.is_err() || interrupted.load(Ordering::Relaxed) {
+            break;
+        }
+    }
+    drop(progress);
     // Whatever happened, what was written so far is made readable.
     let finished = outputs.finish();
     result?;
@@ -52,38 +64,19 @@ fn frame_count(args: &Run, duration: f64, h: f64) -> Result<u64, Failure> {
     }
 }
 
-/// Becomes true when the user asks to stop.
+/// Becomes true when the user asks to stop: after the frame at work. Asked again, the program
+/// stops at once.
 fn interruption() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let handler_flag = Arc::clone(&flag);
-    ctrlc::set_handler(move || handler_flag.store(true, Ordering::Relaxed))
+    let handler = move || {
+        if handler_flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    };
+    ctrlc::set_handler(handler)
         .map_err(|error| Failure::Fault(format!("cannot listen for Ctrl-C: {error}")))?;
     Ok(flag)
-}
-
-/// Steps through all frames, or until the user asks to stop or something fails.
-fn step_all(
-    world: &mut World,
-    (frames, h): (u64, f64),
-    (interrupted, mut observer): (&AtomicBool, Observer),
-    outputs: &mut Outputs,
-) -> (Observer, Result<(), Failure>) {
-    let mut progress = Progress::new(frames);
-    for frame in 1..=frames {
-        let start = world.time();
-        let result = observer
-            .step(world, h)
-            .map_err(Failure::from)
-            .and_then(|()| outputs.write(frame, start, world));
-        if let Err(failure) = result {
-            return (observer, Err(failure));
-        }
-        progress.show(frame, world.time());
-        if interrupted.load(Ordering::Relaxed) {
-            break;
-        }
-    }
-    (observer, Ok(()))
 }
 
 /// The files of a run.
@@ -95,6 +88,9 @@ struct Outputs {
 
 impl Outputs {
     fn create(args: &Run) -> Result<Self, Failure> {
+        if args.out.is_some() && args.out == args.impacts {
+            return Err(Failure::Usage("--out and --impacts are the same file".to_owned()));
+        }
         Ok(Self {
             trajectory: args.out.as_deref().map(Trajectory::create).transpose()?,
             impacts: args.impacts.as_deref().map(ImpactTable::create).transpose()?,
@@ -124,35 +120,29 @@ impl Outputs {
 
 /// A progress bar for those who wait; none where nobody watches.
 struct Progress {
-    frames: u64,
+    bar: ProgressBar,
     began: Instant,
-    bar: Option<ProgressBar>,
 }
 
 impl Progress {
     fn new(frames: u64) -> Self {
-        Self { frames, began: Instant::now(), bar: None }
+        let style = ProgressStyle::with_template("{wide_bar} {msg}, {eta} left");
+        let bar = ProgressBar::with_draw_target(Some(frames), ProgressDrawTarget::hidden());
+        bar.set_style(style.unwrap_or(ProgressStyle::default_bar()));
+        Self { bar, began: Instant::now() }
     }
 
-    fn show(&mut self, frame: u64, time: f64) {
-        if self.bar.is_none() && self.began.elapsed() > PATIENCE {
-            let style = ProgressStyle::with_template("{wide_bar} {msg}, {eta} left");
-            let bar = ProgressBar::new(self.frames).with_elapsed(self.began.elapsed());
-            self.bar = Some(bar.with_style(style.unwrap_or(ProgressStyle::default_bar())));
+    fn show(&self, frame: u64, time: f64) {
+        if self.bar.is_hidden() && self.began.elapsed() > PATIENCE && io::stderr().is_terminal() {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
-        if let Some(bar) = &self.bar {
-            bar.set_position(frame);
-            bar.set_message(format!("{time:.2} s"));
-        }
+        self.bar.set_message(format!("{time:.2} s"));
+        self.bar.set_position(frame);
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
-        // Nothing can be done about an error stream that is gone.
-        io::stderr().flush().ok();
+        self.bar.finish_and_clear();
     }
 }

@@ -7,7 +7,7 @@ use carom_scene::{Entry, Library, Scene};
 use serde_json::json;
 
 use crate::args::Show;
-use crate::failure::Failure;
+use crate::failure::{Failure, complain};
 
 /// Lists every scene found.
 pub fn list(library: &Library, json: bool) -> Result<(), Failure> {
@@ -59,7 +59,7 @@ pub fn check(files: &[PathBuf]) -> Result<(), Failure> {
         match Scene::from_file(file, &[]) {
             Ok(scene) => writeln!(out, "{}: ok, \"{}\"", file.display(), scene.name)?,
             Err(error) => {
-                eprintln!("{error}");
+                complain(&error.to_string());
                 broken += 1;
             }
         }

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use carom::{DVec3, World};
 use carom_scene::Scene;
+use carom_scene::scene::{Integrator, Rule, WindBack};
 use serde::Serialize;
 
 /// Watches a run.
@@ -15,6 +16,7 @@ pub struct Observer {
     momentum_at_start: DVec3,
     frames: u64,
     impacts: u64,
+    trigger_contacts: u64,
     emitted: u64,
     retired: u64,
     unfinished_islands: u64,
@@ -30,6 +32,7 @@ impl Observer {
             momentum_at_start: world.momentum(),
             frames: 0,
             impacts: 0,
+            trigger_contacts: 0,
             emitted: 0,
             retired: 0,
             unfinished_islands: 0,
@@ -44,6 +47,7 @@ impl Observer {
         self.stepping += began.elapsed();
         self.frames += 1;
         self.impacts += report.impacts.len() as u64;
+        self.trigger_contacts += report.triggers.len() as u64;
         self.emitted += report.emitted.len() as u64;
         self.retired += report.retired.len() as u64;
         self.unfinished_islands += u64::from(report.unfinished_islands);
@@ -57,7 +61,10 @@ impl Observer {
 #[derive(Debug, Serialize)]
 pub struct Summary {
     scene: String,
-    rule: String,
+    rule: Rule,
+    /// Under the rule `bisect`.
+    wind_back: Option<WindBack>,
+    integrator: Integrator,
     frame_time: f64,
     frames: u64,
     simulated_time: f64,
@@ -65,6 +72,8 @@ pub struct Summary {
     emitted: u64,
     retired: u64,
     impacts: u64,
+    /// Spheres in triggers, summed over all frames.
+    trigger_contacts: u64,
     unfinished_islands: u64,
     energy_at_start: f64,
     energy_at_end: f64,
@@ -79,21 +88,21 @@ pub struct Summary {
 
 impl Summary {
     pub fn new(scene: &Scene, world: &World, observer: Observer) -> Self {
-        let rule = match world.settings().rule {
-            carom::Rule::Discrete => "discrete",
-            carom::Rule::Bisect(_) => "bisect",
-            _ => "other",
-        };
+        let simulation = &scene.simulation;
+        let is_bisect = simulation.rule == Rule::Bisect;
         Self {
             scene: scene.name.clone(),
-            rule: rule.to_owned(),
-            frame_time: scene.simulation.frame_time,
+            rule: simulation.rule,
+            wind_back: is_bisect.then_some(simulation.bisect.wind_back),
+            integrator: simulation.integrator,
+            frame_time: simulation.frame_time,
             frames: observer.frames,
             simulated_time: world.time(),
             spheres: world.spheres().len(),
             emitted: observer.emitted,
             retired: observer.retired,
             impacts: observer.impacts,
+            trigger_contacts: observer.trigger_contacts,
             unfinished_islands: observer.unfinished_islands,
             energy_at_start: observer.energy_at_start,
             energy_at_end: world.total_energy(),
@@ -126,13 +135,24 @@ impl Summary {
             (0, 0) => String::new(),
             (emitted, retired) => format!(" ({emitted} emitted, {retired} retired)"),
         };
+        let rule = match self.wind_back {
+            Some(wind_back) => format!("{}, winding back {}", name(self.rule), name(wind_back)),
+            None => name(self.rule),
+        };
+        let mut energy = energy_change(self.energy_at_start, self.energy_at_end);
+        if self.emitted > 0 {
+            energy.push_str(", what was emitted included");
+        }
         let mut rows = vec![
             ("scene", self.scene.clone()),
-            ("rule", format!("{}, frames of {:.6} s", self.rule, self.frame_time)),
+            (
+                "rule",
+                format!("{rule}, {}, frames of {:.6} s", name(self.integrator), self.frame_time),
+            ),
             ("simulated time", format!("{:.3} s in {} frames", self.simulated_time, self.frames)),
             ("spheres", format!("{}{came_and_went}", self.spheres)),
             ("impacts", self.impacts.to_string()),
-            ("energy", energy_change(self.energy_at_start, self.energy_at_end)),
+            ("energy", energy),
             ("momentum", momentum_change(start, end)),
             ("largest overlap", format!("{:.3e} m at the end of a frame", self.largest_overlap)),
             (
@@ -141,16 +161,26 @@ impl Summary {
             ),
             ("state hash", self.state_hash.clone()),
         ];
+        if self.trigger_contacts > 0 {
+            let text = format!("{} times a sphere in a frame", self.trigger_contacts);
+            rows.insert(5, ("in triggers", text));
+        }
         if self.unfinished_islands > 0 {
             let text = format!(
-                "{} groups of spheres went through their bound of contacts in a frame; the rest \
-                 of it was taken in one piece",
+                "{} times bodies of a group met as often in a frame as they may; the rest of it \
+                 was taken in one piece",
                 self.unfinished_islands
             );
             rows.push(("warning", text));
         }
         rows
     }
+}
+
+/// A value as scene files write it.
+fn name(value: impl Serialize) -> String {
+    let value = serde_json::to_value(value).unwrap_or_default();
+    value.as_str().unwrap_or_default().to_owned()
 }
 
 fn energy_change(start: f64, end: f64) -> String {

@@ -70,7 +70,7 @@ fn a_run_prints_its_table() {
     let table = good(&["run", "simtest1", "--seconds", "2"]);
     for (row, value) in [
         ("scene", "simtest1"),
-        ("rule", "discrete, frames of 0.020000 s"),
+        ("rule", "discrete, semi-implicit-euler, frames of 0.020000 s"),
         ("simulated time", "2.000 s in 100 frames"),
         ("spheres", "3 (3 emitted, 0 retired)"),
         ("impacts", ""),
@@ -247,14 +247,12 @@ fn scenes_of_a_users_own_are_found_in_folders() {
 #[test]
 fn bad_usage_ends_with_code_2_and_says_what_was_meant() {
     assert!(bad_line(&["run", "simtst1"], 2).contains("did you mean \"simtest1\"?"));
-    assert!(bad_line(&["run", "simtest1", "--set", "emitters.9.period=1"], 2).contains("no 9"));
+    assert!(
+        bad_line(&["run", "simtest1", "--set", "emitters.9.period=1"], 2).contains("no element 9")
+    );
     assert!(
         bad_line(&["run", "simtest1", "--set", "simulation.frametime=1"], 2)
             .contains("did you mean \"frame_time\"?")
-    );
-    assert!(
-        bad_line(&["run", "simtest1", "--frame-time=-1"], 2)
-            .contains("frame_time: must be positive")
     );
     assert!(bad_line(&["run", "simtest1", "--out", "t.txt"], 2).contains(".csv, .npz, or .pvd"));
     assert!(bad_line(&["scenes", "--scenes", "/nowhere/at/all"], 2).contains("/nowhere/at/all"));
@@ -266,6 +264,8 @@ fn bad_usage_ends_with_code_2_and_says_what_was_meant() {
         &["run"][..],
         &["run", "simtest1", "--rule", "magic"],
         &["run", "simtest1", "--seconds", "-1"],
+        &["run", "simtest1", "--frame-time", "-1"],
+        &["run", "simtest1", "--out", "same.csv", "--impacts", "same.csv"],
         &["run", "simtest1", "--seconds", "1", "--frames", "2"],
         &["run", "simtest1", "--every", "0"],
         &["run", "simtest1", "--set", "novalue"],
@@ -291,7 +291,8 @@ fn what_goes_wrong_on_the_way_ends_with_code_1_and_one_line() {
     assert!(text.contains("broken.toml:4") && text.contains("cannot read"), "{text}");
 
     // A scene that blows up: drag far too stiff for the frame.
-    let stiff = ["run", "tutorial1", "--set", "forces.1.coefficient=1e9", "--seconds", "60"];
+    let stiff =
+        ["run", "tutorial1", "--set", "forces.1.viscous-drag.coefficient=1e9", "--seconds", "60"];
     assert!(bad_line(&stiff, 1).contains("no longer finite"));
 }
 
@@ -306,6 +307,11 @@ fn a_full_disk_is_one_clear_line_in_every_format() {
         let text = bad_line(&["run", "simtest1", "--out", file], 1);
         assert!(text.contains("cannot write") && text.contains("No space left"), "{text}");
     }
+    let frame = folder.path().join("v_000000.vtp");
+    std::os::unix::fs::symlink("/dev/full", &frame).unwrap();
+    let series = folder.path().join("v.pvd");
+    let text = bad_line(&["run", "simtest1", "--out", series.to_str().unwrap()], 1);
+    assert!(text.contains("v.pvd: v_000000.vtp: No space left"), "{text}");
     let impacts = folder.path().join("i.csv");
     std::os::unix::fs::symlink("/dev/full", &impacts).unwrap();
     let text = bad_line(&["run", "simtest1", "--impacts", impacts.to_str().unwrap()], 1);
@@ -322,7 +328,13 @@ fn interrupted_run(file: &Path) -> Output {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(500));
+    // Once something is in the file, the run listens for Ctrl-C; an NPZ file has its numbers only
+    // at the end, but a little patience does for it too.
+    let began = std::time::Instant::now();
+    let is_written = || std::fs::metadata(file).is_ok_and(|file| file.len() > 200_000);
+    while !is_written() && began.elapsed().as_secs() < 2 {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
     let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(killed.success());
     child.wait_with_output().unwrap()
@@ -345,6 +357,14 @@ fn ctrl_c_ends_the_run_with_what_was_written_readable() {
             assert_eq!(zip.len(), 5);
         }
     }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn an_error_stream_that_is_gone_is_no_panic() {
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let status = carom().args(["run", "nosuch"]).stderr(full).status().unwrap();
+    assert_eq!(status.code(), Some(2));
 }
 
 #[test]

@@ -12,6 +12,14 @@ pub enum SceneError {
     /// The scene says something that makes no sense.
     #[error(transparent)]
     Invalid(#[from] Fault),
+    /// The scene makes sense, but not with the values that overrides put into it.
+    #[error("{overrides}: {fault}")]
+    Overridden {
+        /// The overrides that matter.
+        overrides: String,
+        /// What is wrong with them in place.
+        fault: Box<Fault>,
+    },
     /// A file or folder of scenes cannot be read.
     #[error("cannot read {path}: {source}")]
     Unreadable {

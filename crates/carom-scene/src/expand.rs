@@ -1,6 +1,7 @@
-use carom::World;
+//! Generators written out.
 
 use crate::error::{Fault, SceneError};
+use crate::generate;
 use crate::scene::Scene;
 
 impl Scene {
@@ -13,8 +14,8 @@ impl Scene {
         let mut scene = Self { generators: Vec::new(), ..self.clone() };
         scene.simulation.allow_overlap = true;
         for (i, generator) in self.generators.iter().enumerate() {
-            let world: World = scene.world()?;
-            let spheres = generator.spheres(&world, &format!("generators[{i}]"));
+            let path = format!("generators[{i}].{}", generate::kind(generator));
+            let spheres = generator.spheres(&scene.world()?, &path);
             scene.spheres.extend(spheres.map_err(|problem| Fault {
                 source_name: self.name.clone(),
                 line: None,

@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 
 use crate::error::Problem;
 use crate::scene::{Generator, Sphere};
-use crate::world::{add_sphere, sphere, vector};
+use crate::world::{add_sphere, check_vector, sphere, vector};
 
 /// Places tried for each sphere of a random filling. Random places fill a box to a volume
 /// fraction of 0.38 at most (random sequential addition), and slow down long before.
@@ -17,6 +17,15 @@ const TRIES_PER_SPHERE: u32 = 10_000;
 /// More spheres than this in one generator are a slip of the keyboard, and would fill the memory
 /// (about 1 GB for the world alone).
 const MOST_SPHERES: u64 = 10_000_000;
+
+/// Name of a generator's kind, as it is written.
+pub(crate) fn kind(generator: &Generator) -> &'static str {
+    match generator {
+        Generator::Row { .. } => "row",
+        Generator::Lattice { .. } => "lattice",
+        Generator::Random { .. } => "random",
+    }
+}
 
 /// What the spheres of a generator have in common.
 pub(crate) fn template(generator: &Generator) -> &Sphere {
@@ -28,10 +37,7 @@ pub(crate) fn template(generator: &Generator) -> &Sphere {
 }
 
 impl Generator {
-    /// The spheres it stands for, one by one, as they are in a world that holds `others` before.
-    ///
-    /// # Errors
-    /// As for the whole scene.
+    /// The spheres it stands for, one by one, when `world` holds what comes before them.
     pub(crate) fn spheres(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
         let at = |place: DVec3, sphere: &Sphere| Sphere {
             position: (place + vector(sphere.position)).to_array(),
@@ -40,12 +46,16 @@ impl Generator {
         match self {
             Self::Row { count, start, step, sphere } => {
                 check_count((*count).into(), &format!("{path}.count"))?;
+                check_vector(*start, &format!("{path}.start"))?;
+                check_vector(*step, &format!("{path}.step"))?;
                 let (start, step) = (vector(*start), vector(*step));
                 Ok((0..*count).map(|i| at(start + f64::from(i) * step, sphere)).collect())
             }
             Self::Lattice { counts, start, spacing, sphere } => {
                 let total = counts.iter().fold(1_u64, |total, &n| total.saturating_mul(n.into()));
                 check_count(total, &format!("{path}.counts"))?;
+                check_vector(*start, &format!("{path}.start"))?;
+                check_vector(*spacing, &format!("{path}.spacing"))?;
                 let mut spheres = Vec::new();
                 let [nx, ny, nz] = *counts;
                 for z in 0..nz {
@@ -71,19 +81,23 @@ impl Generator {
             let text = format!("must be zero or positive, and finite, not {speed}");
             return Err(Problem::new(format!("{path}.speed"), text));
         }
+        check_vector(sphere.position, &format!("{path}.sphere.position"))?;
         let [smallest, largest] = radii(sphere, *radius_range, path)?;
+        check_vector(*min, &format!("{path}.min"))?;
+        check_vector(*max, &format!("{path}.max"))?;
         let (min, room) = (vector(*min), vector(*max) - vector(*min));
         if !(room.min_element() >= 2.0 * largest && room.is_finite()) {
             let text = format!("must be above `min` by a diameter at least, not {max:?}");
             return Err(Problem::new(format!("{path}.max"), text));
         }
-        let mut numbers = Numbers(Pcg64::seed_from_u64(*seed));
+        let mut numbers = Numbers(Pcg64::seed_from_u64((*seed).into()));
+        let corner = min + vector(sphere.position);
         let mut placed = Placed::new(world, largest);
         let mut spheres = Vec::new();
         for _ in 0..*count {
             let radius = smallest + (largest - smallest) * numbers.unit();
             let free = (0..TRIES_PER_SPHERE)
-                .map(|_| min + radius + numbers.vector() * (room - 2.0 * radius))
+                .map(|_| corner + radius + numbers.vector() * (room - 2.0 * radius))
                 .find(|&center| placed.is_free(center, radius));
             let Some(center) = free else {
                 let text = format!(
@@ -135,7 +149,7 @@ fn radii(template: &Sphere, range: Option<[f64; 2]>, path: &str) -> Result<[f64;
     if smallest > 0.0 && largest >= smallest && largest.is_finite() {
         Ok([smallest, largest])
     } else {
-        let text = format!("must be two positive radii in order, not {range:?}");
+        let text = format!("must be two positive radii in order, not [{smallest}, {largest}]");
         Err(Problem::new(format!("{path}.radius_range"), text))
     }
 }
@@ -167,18 +181,21 @@ impl Numbers {
     }
 }
 
-/// Spheres that have their places already, by cells as wide as the largest.
+/// Spheres that have their places already.
 struct Placed<'a> {
     world: &'a World,
-    cell_size: f64,
+    /// Spheres so large that they would spoil the cells; looked at one by one.
+    large: Vec<(DVec3, f64)>,
+    /// The others, by cells as wide as the largest of them.
     cells: HashMap<[i64; 3], Vec<(DVec3, f64)>>,
+    cell_size: f64,
 }
 
 impl<'a> Placed<'a> {
     fn new(world: &'a World, largest_to_come: f64) -> Self {
+        let cell_size = 4.0 * largest_to_come;
+        let mut placed = Self { world, large: Vec::new(), cells: HashMap::new(), cell_size };
         let spheres = world.spheres();
-        let largest = spheres.radii().iter().fold(largest_to_come, |max, &r| max.max(r));
-        let mut placed = Self { world, cell_size: 2.0 * largest, cells: HashMap::new() };
         for (&center, &radius) in spheres.positions().iter().zip(spheres.radii()) {
             placed.add(center, radius);
         }
@@ -190,20 +207,28 @@ impl<'a> Placed<'a> {
     }
 
     fn add(&mut self, center: DVec3, radius: f64) {
-        self.cells.entry(self.cell(center)).or_default().push((center, radius));
+        if 2.0 * radius > self.cell_size {
+            self.large.push((center, radius));
+        } else {
+            self.cells.entry(self.cell(center)).or_default().push((center, radius));
+        }
     }
 
     fn is_free(&self, center: DVec3, radius: f64) -> bool {
-        let [x, y, z] = self.cell(center);
-        let mut near = Vec::new();
-        for x in x - 1..=x + 1 {
-            for y in y - 1..=y + 1 {
-                for z in z - 1..=z + 1 {
-                    near.extend(self.cells.get(&[x, y, z]));
-                }
-            }
-        }
-        let apart = |&(other, r): &(DVec3, f64)| center.distance(other) > radius + r;
-        near.into_iter().flatten().all(apart) && !self.world.meets_collider(center, radius)
+        let apart = |(other, r): &(DVec3, f64)| center.distance(*other) > radius + r;
+        self.near(center).all(apart)
+            && self.large.iter().all(apart)
+            && !self.world.meets_collider(center, radius)
+    }
+
+    /// The spheres in the cell of a place and in those around it.
+    fn near(&self, center: DVec3) -> impl Iterator<Item = &(DVec3, f64)> {
+        let cell = self.cell(center);
+        (0..27).flat_map(move |neighbour: i64| {
+            let step = [neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1];
+            // Past the end of all numbers a cell is its own neighbour.
+            let cell = [0, 1, 2].map(|axis| cell[axis].saturating_add(step[axis]));
+            self.cells.get(&cell).into_iter().flatten()
+        })
     }
 }

@@ -1,5 +1,6 @@
 //! Finding scenes: built-in ones, those in folders, and those registered from code.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::builtin;
@@ -102,10 +103,7 @@ impl Library {
         for folder in &self.folders {
             for path in files_in(folder)? {
                 let scene = Scene::from_file(&path, &[]);
-                let name = match &scene {
-                    Ok(scene) => scene.name.clone(),
-                    Err(_) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
-                };
+                let name = heading_of(&path).name;
                 entries.push(Entry { name, source: Source::File(path), scene });
             }
         }
@@ -114,6 +112,9 @@ impl Library {
             let name = file.trim_end_matches(".toml").to_owned();
             entries.push(Entry { name, source: Source::BuiltIn, scene });
         }
+        // Of several with one name, only the first can be found.
+        let mut names = BTreeSet::new();
+        entries.retain(|entry| names.insert(entry.name.to_lowercase()));
         Ok(entries)
     }
 
@@ -123,46 +124,58 @@ impl Library {
     /// # Errors
     /// [`SceneError::Unknown`] with the nearest name, or what is wrong with the scene.
     pub fn find(&self, name: &str, overrides: &[Override]) -> Result<(Scene, Source), SceneError> {
+        if is_path(name) {
+            let path = Path::new(name);
+            let scene = Scene::from_file(path, overrides)?;
+            return Ok((scene, Source::File(path.to_owned())));
+        }
         let wanted = name.to_lowercase();
-        let is_wanted = |candidate: &str| candidate.to_lowercase() == wanted;
+        let is_wanted = |own: &Heading| {
+            [&own.name, &own.title]
+                .iter()
+                .any(|own| !own.is_empty() && own.to_lowercase() == wanted)
+        };
         let mut known = Vec::new();
         for scene in &self.registered {
-            if is_wanted(&scene.name) || is_wanted(&scene.title) {
+            let own = Heading { name: scene.name.clone(), title: scene.title.clone() };
+            if is_wanted(&own) {
                 return Ok((scene.with(overrides)?, Source::Registered));
             }
-            known.push(scene.name.clone());
-        }
-        let as_path = Path::new(name);
-        if as_path.extension().is_some_and(|extension| extension == "toml") && as_path.exists() {
-            let scene = Scene::from_file(as_path, overrides)?;
-            return Ok((scene, Source::File(as_path.to_owned())));
+            known.extend([own.name, own.title]);
         }
         for folder in &self.folders {
             for path in files_in(folder)? {
-                let text = std::fs::read_to_string(&path).unwrap_or_default();
-                let heading: Option<Heading> = toml::from_str(&text).ok();
-                let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                let own = heading.map_or([stem.clone(), stem], |own| [own.name, own.title]);
-                if own.iter().any(|candidate| is_wanted(candidate)) {
+                let own = heading_of(&path);
+                if is_wanted(&own) {
                     return Ok((Scene::from_file(&path, overrides)?, Source::File(path)));
                 }
-                known.extend(own);
+                known.extend([own.name, own.title]);
             }
         }
         for (file, text) in builtin::FILES {
-            let heading: Heading =
-                toml::from_str(text).map_err(|error| SceneError::Unreadable {
-                    path: PathBuf::from(file),
-                    source: std::io::Error::other(error),
-                })?;
-            if is_wanted(&heading.name) || is_wanted(&heading.title) {
+            let own = Heading::of(text);
+            if is_wanted(&own) {
                 return Ok((Scene::from_toml_with(text, file, overrides)?, Source::BuiltIn));
             }
-            known.extend([heading.name, heading.title]);
+            known.extend([own.name, own.title]);
         }
         let nearest = nearest(name, known.iter().map(String::as_str));
         Err(SceneError::Unknown { name: name.to_owned(), nearest })
     }
+}
+
+/// Whether a scene is asked for by its file and not by its name.
+fn is_path(name: &str) -> bool {
+    name.ends_with(".toml") || name.contains(std::path::MAIN_SEPARATOR)
+}
+
+/// The names in a scene file; that of the file itself where it cannot be read or has none.
+fn heading_of(path: &Path) -> Heading {
+    let mut own = Heading::of(&std::fs::read_to_string(path).unwrap_or_default());
+    if own.name.is_empty() {
+        own.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    }
+    own
 }
 
 /// The scene files of a folder, by name.

@@ -15,30 +15,38 @@ use crate::world;
 pub struct Override {
     text: String,
     path: Vec<String>,
-    value: Value,
+    /// `None` takes the field out.
+    value: Option<Value>,
 }
 
 impl std::str::FromStr for Override {
     type Err = SceneError;
 
-    /// Parses `path=value`: names and indices joined by dots, then a value in TOML; a word that
-    /// is no TOML value is taken as a string.
+    /// Parses `path=value`: names and indices, as in `emitters.0.period` or `emitters[0].period`,
+    /// then a value in TOML. A word that is no TOML value is taken as a string; `none` takes the
+    /// field out of the scene.
     fn from_str(text: &str) -> Result<Self, SceneError> {
         let (path, value) = text
             .split_once('=')
             .filter(|(path, _)| !path.trim().is_empty())
             .ok_or_else(|| bad_override(text, "write it as path=value"))?;
-        let path: Vec<String> = path.trim().split('.').map(str::to_owned).collect();
-        if path.iter().any(String::is_empty) {
-            return Err(bad_override(text, "a name between two dots is missing"));
+        if path.contains("..") || path.starts_with('.') || path.ends_with('.') {
+            return Err(bad_override(text, "a name before or after a dot is missing"));
+        }
+        let path = segments(path.trim());
+        if path.is_empty() {
+            return Err(bad_override(text, "write it as path=value"));
         }
         let value = value.trim();
+        if value == "none" {
+            return Ok(Self { text: text.to_owned(), path, value: None });
+        }
         let parsed = toml::from_str::<Table>(&format!("value = {value}"));
         let value = match parsed.ok().and_then(|mut table| table.remove("value")) {
             Some(value) => value,
             None => Value::String(value.to_owned()),
         };
-        Ok(Self { text: text.to_owned(), path, value })
+        Ok(Self { text: text.to_owned(), path, value: Some(value) })
     }
 }
 
@@ -47,38 +55,75 @@ fn bad_override(text: &str, problem: impl Into<String>) -> SceneError {
 }
 
 impl Override {
-    fn apply(&self, table: &mut Table) -> Result<(), SceneError> {
-        let (first, rest) = self.path.split_first().expect("parsed paths have a name");
-        if rest.is_empty() {
-            table.insert(first.clone(), self.value.clone());
-            return Ok(());
+    fn apply(&self, scene: &mut Table) -> Result<(), SceneError> {
+        let Some((last, way)) = self.path.split_last() else { return Ok(()) };
+        let mut place = Place::Table(scene);
+        for (i, name) in way.iter().enumerate() {
+            let next = self.path[i + 1].as_str();
+            place = place.enter(name, next).map_err(|problem| bad_override(&self.text, problem))?;
         }
-        let mut place = table.entry(first).or_insert_with(|| Value::Table(Table::new()));
-        for name in rest {
-            place = match place {
-                Value::Table(table) => {
-                    table.entry(name).or_insert_with(|| Value::Table(Table::new()))
-                }
-                Value::Array(array) => {
-                    let count = array.len();
-                    let element = name.parse().ok().and_then(|i: usize| array.get_mut(i));
-                    element.ok_or_else(|| {
-                        bad_override(&self.text, format!("there is no {name} among 0..{count}"))
-                    })?
-                }
-                _ => return Err(bad_override(&self.text, format!("nothing lies below {name}"))),
-            };
-        }
-        *place = self.value.clone();
-        Ok(())
+        place.set(last, self.value.clone()).map_err(|problem| bad_override(&self.text, problem))
     }
 
-    /// Whether the field at `path` (like `emitters[0].period`) is what this changes.
+    /// Whether the field at `path` (like `emitters[0].period`) is part of what this changes, or
+    /// the other way round.
     fn concerns(&self, path: &str) -> bool {
         let segments = segments(path);
         let shared = self.path.len().min(segments.len());
         shared > 0 && self.path[..shared] == segments[..shared]
     }
+}
+
+/// Somewhere in a scene that has fields or elements.
+enum Place<'a> {
+    Table(&'a mut Table),
+    Array(&'a mut Vec<Value>),
+}
+
+impl Place<'_> {
+    /// What lies at `name`; a missing table is made, unless an element of it is asked for `next`.
+    fn enter(self, name: &str, next: &str) -> Result<Self, String> {
+        let value = match self {
+            Self::Table(table) => {
+                if !table.contains_key(name) && next.parse::<usize>().is_ok() {
+                    return Err(format!("the scene has no `{name}`"));
+                }
+                table.entry(name).or_insert_with(|| Value::Table(Table::new()))
+            }
+            Self::Array(array) => element(array, name)?,
+        };
+        match value {
+            Value::Table(table) => Ok(Self::Table(table)),
+            Value::Array(array) => Ok(Self::Array(array)),
+            _ => Err(format!("nothing lies below `{name}`")),
+        }
+    }
+
+    fn set(self, name: &str, value: Option<Value>) -> Result<(), String> {
+        match (self, value) {
+            (Self::Table(table), Some(value)) => {
+                table.insert(name.to_owned(), value);
+            }
+            (Self::Table(table), None) => {
+                table.remove(name).ok_or_else(|| format!("the scene has no `{name}` there"))?;
+            }
+            (Self::Array(array), Some(value)) => *element(array, name)? = value,
+            (Self::Array(array), None) => {
+                element(array, name)?;
+                array.remove(name.parse().unwrap_or_default());
+            }
+        }
+        Ok(())
+    }
+}
+
+fn element<'a>(array: &'a mut [Value], name: &str) -> Result<&'a mut Value, String> {
+    let count = array.len();
+    let index = name.parse::<usize>().map_err(|_| format!("`{name}` is no index"))?;
+    array.get_mut(index).ok_or_else(|| match count {
+        0 => "there are no elements".to_owned(),
+        _ => format!("there is no element {index}, only 0 to {}", count - 1),
+    })
 }
 
 impl Scene {
@@ -104,31 +149,29 @@ impl Scene {
             let line = error.span().map(|span| line_at(text, span.start));
             fault(source_name, line, "", error.message())
         })?;
-        let mut table: Table =
+        let original: Table =
             toml::from_str(text).map_err(|error| fault(source_name, None, "", error.message()))?;
+        let mut table = original.clone();
         for changed in overrides {
             changed.apply(&mut table)?;
         }
-        let place = |problem: Problem| {
-            let cause = overrides.iter().find(|o| o.concerns(&problem.field));
-            match cause {
-                Some(cause) => {
-                    fault(&format!("--set {}", cause.text), None, &problem.field, &problem.problem)
-                }
-                None => {
-                    let line = line_of(&document, text, &problem);
-                    fault(source_name, line, &problem.field, &problem.problem)
-                }
+        read(table).map_err(|problem| {
+            // Without overrides, or if the file is wrong by itself, the file is to blame.
+            let own =
+                if overrides.is_empty() { Some(problem.clone()) } else { read(original).err() };
+            if let Some(problem) = own {
+                let line = line_of(&document, text, &problem);
+                return fault(source_name, line, &problem.field, &problem.problem).into();
             }
-        };
-        let scene: Self =
-            serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
-                let path = error.path().to_string();
-                let path = if path == "." { String::new() } else { path };
-                place(Problem::new(path, error.into_inner().message().trim()))
-            })?;
-        world::build(&scene).map_err(place)?;
-        Ok(scene)
+            let mut cause: Vec<&Override> =
+                overrides.iter().filter(|changed| changed.concerns(&problem.field)).collect();
+            if cause.is_empty() {
+                cause = overrides.iter().collect();
+            }
+            let cause: Vec<_> = cause.iter().map(|it| format!("--set {}", it.text)).collect();
+            let fault = Box::new(fault(source_name, None, &problem.field, &problem.problem));
+            SceneError::Overridden { overrides: cause.join(" "), fault }
+        })
     }
 
     /// Reads a scene file.
@@ -155,15 +198,39 @@ impl Scene {
     }
 }
 
+/// A scene from its table, or the first problem with it.
+fn read(table: Table) -> Result<Scene, Problem> {
+    let scene: Scene = serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
+        let path = error.path().to_string();
+        let path = if path == "." { String::new() } else { path };
+        Problem::new(path, error.into_inner().message().trim())
+    })?;
+    world::build(&scene)?;
+    Ok(scene)
+}
+
 /// Names only, without the rest of the scene.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 pub(crate) struct Heading {
+    #[serde(default)]
     pub name: String,
     #[serde(default)]
     pub title: String,
 }
 
-fn fault(source_name: &str, line: Option<usize>, field: &str, problem: &str) -> SceneError {
+impl Heading {
+    /// The names in a scene file, even in one that is broken further down.
+    pub fn of(text: &str) -> Self {
+        let whole = toml::from_str(text);
+        whole.unwrap_or_else(|_| {
+            let is_name = |line: &&str| line.starts_with("name") || line.starts_with("title");
+            let lines: Vec<&str> = text.lines().filter(is_name).collect();
+            toml::from_str(&lines.join("\n")).unwrap_or_default()
+        })
+    }
+}
+
+fn fault(source_name: &str, line: Option<usize>, field: &str, problem: &str) -> Fault {
     Fault {
         source_name: source_name.to_owned(),
         line,
@@ -171,7 +238,6 @@ fn fault(source_name: &str, line: Option<usize>, field: &str, problem: &str) -> 
         problem: problem.lines().next().unwrap_or_default().to_owned(),
         nearest: suggestion(problem),
     }
-    .into()
 }
 
 /// For "unknown field `x`, expected one of `y`, `z`": which of the expected is meant.

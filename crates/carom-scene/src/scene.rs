@@ -87,8 +87,10 @@ pub struct Simulation {
     /// How spheres move under forces.
     pub integrator: Integrator,
     /// Length of a frame, in s, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub frame_time: f64,
     /// Time worth watching, in s, > 0: what `carom run` takes unless told.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub duration: f64,
     /// Whether spheres collide with one another; with colliders they always do.
     pub spheres_collide: bool,
@@ -138,6 +140,7 @@ pub enum Integrator {
     /// Second order.
     VelocityVerlet,
     /// Fourth order.
+    #[serde(rename = "runge-kutta-4", alias = "rk4")]
     RungeKutta4,
 }
 
@@ -161,19 +164,22 @@ pub enum RestitutionRule {
 #[serde(default, deny_unknown_fields)]
 pub struct Bisect {
     /// Distance of surfaces that counts as touching, in m, >= 0.
+    #[schemars(range(min = 0.0))]
     pub tolerance: f64,
     /// Halvings in search of a contact, >= 1.
+    #[schemars(range(min = 1))]
     pub max_halvings: u32,
-    /// Bound on the contacts of a group of spheres in a frame, per sphere, >= 1.
-    pub max_substeps: u32,
+    /// How often two bodies may meet in a frame, >= 1; then the rest of it is taken in one piece.
+    #[schemars(range(min = 1))]
+    pub max_impacts: u32,
     /// Which spheres go through the pieces into which a contact cuts the frame.
     pub wind_back: WindBack,
 }
 
 impl Default for Bisect {
     fn default() -> Self {
-        let carom::Bisect { tolerance, max_halvings, max_substeps, .. } = carom::Bisect::default();
-        Self { tolerance, max_halvings, max_substeps, wind_back: WindBack::default() }
+        let carom::Bisect { tolerance, max_halvings, max_impacts, .. } = carom::Bisect::default();
+        Self { tolerance, max_halvings, max_impacts, wind_back: WindBack::default() }
     }
 }
 
@@ -190,7 +196,7 @@ pub enum WindBack {
 
 /// A force on every sphere.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Force {
     /// The same force on every sphere, whatever its mass.
     Constant {
@@ -205,6 +211,7 @@ pub enum Force {
     /// Drag against the velocity and proportional to it.
     ViscousDrag {
         /// In kg/s, >= 0
+        #[schemars(range(min = 0.0))]
         coefficient: f64,
     },
 }
@@ -212,6 +219,10 @@ pub enum Force {
 /// A sphere, or what the spheres of a generator or an emitter have in common.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "oneOf" = [{ "required": ["radius"] }, { "required": ["diameter"] }],
+    "not" = { "required": ["mass", "density"] }
+))]
 pub struct Sphere {
     /// Centre, in m; in a generator or an emitter an offset from the place it gives.
     #[serde(default)]
@@ -220,18 +231,23 @@ pub struct Sphere {
     #[serde(default)]
     pub velocity: Vector,
     /// Radius, in m, > 0. Give this or `diameter`.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
     /// Diameter, in m, > 0. Give this or `radius`.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diameter: Option<f64>,
     /// Mass, in kg, > 0; 1 unless this or `density` is given.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass: Option<f64>,
     /// Density, in kg/m³, > 0, instead of `mass`.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
     /// Coefficient of restitution in [0, 1].
+    #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
     /// Colour; by density or the scene's own where it is missing.
@@ -273,11 +289,12 @@ fn is_false(value: &bool) -> bool {
 
 /// Places for many spheres.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Generator {
     /// Spheres one after the other along a line.
     Row {
         /// How many, >= 1.
+        #[schemars(range(min = 1))]
         count: u32,
         /// Centre of the first, in m.
         start: Vector,
@@ -300,14 +317,16 @@ pub enum Generator {
     /// Spheres scattered in a box, none overlapping another sphere or a collider.
     Random {
         /// How many, >= 1.
+        #[schemars(range(min = 1))]
         count: u32,
         /// Lower corner of the box that holds the whole spheres, in m.
         min: Vector,
         /// Upper corner of the box, in m.
         max: Vector,
         /// The same seed gives the same scene.
-        seed: u64,
+        seed: u32,
         /// Speed, in m/s, >= 0, in a random direction, on top of the common velocity.
+        #[schemars(range(min = 0.0))]
         #[serde(default)]
         speed: f64,
         /// Smallest and largest radius, in m, evenly distributed, instead of the common one.
@@ -334,6 +353,7 @@ pub struct Collider {
     #[serde(default = "unturned")]
     pub rotation: Quaternion,
     /// Coefficient of restitution in [0, 1].
+    #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
     /// A trigger reports contact and deflects nothing.
@@ -353,18 +373,21 @@ fn unturned() -> Quaternion {
 
 /// Form of a collider in its own frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Shape {
     /// A sphere.
     Sphere {
         /// In m, > 0
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
         radius: f64,
     },
     /// A rectangle in its local xz plane that faces local +y; from behind spheres pass it.
     Rectangle {
         /// Full length along local x, in m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
         size_x: f64,
         /// Full length along local z, in m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
         size_z: f64,
     },
     /// Everything below the local xz plane.
@@ -390,8 +413,10 @@ pub struct Emitter {
     #[serde(default = "unturned")]
     pub rotation: Quaternion,
     /// Time between two spheres, in s, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub period: f64,
     /// With this many of its spheres alive, the oldest makes place; no limit where it is missing.
+    #[schemars(range(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_spheres: Option<u32>,
     /// What is emitted.
@@ -408,9 +433,11 @@ pub struct Camera {
     #[serde(default = "unturned")]
     pub rotation: Quaternion,
     /// Vertical field of view, in degrees, in (0, 180).
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 180.0))]
     #[serde(default = "sixty")]
     pub vertical_fov_degrees: f64,
     /// Nearest distance drawn, in m, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default = "near")]
     pub near: f64,
     /// Farthest distance drawn, in m, > near.
@@ -439,6 +466,7 @@ pub struct Sun {
     /// Colour of the light.
     pub color: Color,
     /// Brightness, >= 0; 1 is plain daylight.
+    #[schemars(range(min = 0.0))]
     #[serde(default = "one")]
     pub intensity: f64,
 }
@@ -466,6 +494,7 @@ pub struct Colors {
 #[serde(deny_unknown_fields)]
 pub struct DensityColor {
     /// In kg/m³, > 0
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub density: f64,
     /// Their colour.
     pub color: Color,

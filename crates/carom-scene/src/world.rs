@@ -9,10 +9,6 @@ use crate::scene::{
     Rule, Scene, Shape, Simulation, Sphere, Vector, WindBack,
 };
 
-/// Spheres that overlap by less than this part of a metre count as touching: coordinates
-/// written with fewer digits than a double has cannot do better.
-const OVERLAP_TOLERANCE: f64 = 1e-9;
-
 impl Scene {
     /// The world at the start of the scene.
     ///
@@ -50,11 +46,13 @@ pub(crate) fn build(scene: &Scene) -> Result<World, Problem> {
                 world.add_force(carom::ViscousDrag::new(coefficient))
             }
         };
-        added.map_err(|error| problem(&format!("forces[{i}]"), error))?;
+        added.map_err(|error| problem(&format!("forces[{i}].{}", force_name(force)), error))?;
     }
     for (i, collider) in scene.colliders.iter().enumerate() {
         let added = world.add_collider(self::collider(collider));
-        added.map_err(|error| collider_problem(&format!("colliders[{i}]"), error))?;
+        added.map_err(|error| {
+            collider_problem(&format!("colliders[{i}]"), &collider.shape, error)
+        })?;
     }
     for (i, sphere) in scene.spheres.iter().enumerate() {
         add_sphere(&mut world, sphere, &format!("spheres[{i}]"))?;
@@ -62,12 +60,18 @@ pub(crate) fn build(scene: &Scene) -> Result<World, Problem> {
     let mut first_of_generator = Vec::new();
     for (i, generator) in scene.generators.iter().enumerate() {
         first_of_generator.push(world.spheres().len());
-        generate::fill(&mut world, generator, &format!("generators[{i}]"))?;
+        let path = format!("generators[{i}].{}", generate::kind(generator));
+        generate::fill(&mut world, generator, &path)?;
     }
     for (i, emitter) in scene.emitters.iter().enumerate() {
         let path = format!("emitters[{i}]");
-        let added = world.add_emitter(self::emitter(emitter, &path)?);
-        added.map_err(|error| problem(&path, error))?;
+        let emitter = self::emitter(emitter, &path)?;
+        world.add_emitter(emitter).map_err(|error| problem(&path, error))?;
+        let place = emitter.position + emitter.rotation.normalize() * emitter.sphere.position;
+        let is_free = !world.meets_collider(place, emitter.sphere.radius);
+        check(is_free || scene.simulation.allow_overlap, &format!("{path}.position"), || {
+            "puts spheres into a collider; move it, or set simulation.allow_overlap = true".into()
+        })?;
     }
     if !scene.simulation.allow_overlap {
         refuse_overlaps(scene, &world, &first_of_generator)?;
@@ -86,10 +90,9 @@ pub(crate) fn add_sphere(world: &mut World, sphere: &Sphere, path: &str) -> Resu
 pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Problem> {
     let radius = match (sphere.radius, sphere.diameter) {
         (Some(radius), None) => radius,
-        (None, Some(diameter)) if diameter > 0.0 => 0.5 * diameter,
         (None, Some(diameter)) => {
-            let text = format!("must be positive and finite, not {diameter}");
-            return Err(Problem::new(format!("{path}.diameter"), text));
+            check_positive(diameter, &format!("{path}.diameter"))?;
+            0.5 * diameter
         }
         (None, None) => return Err(Problem::new(path, "needs `radius` or `diameter`")),
         (Some(_), Some(_)) => {
@@ -143,7 +146,7 @@ fn emitter(emitter: &Emitter, path: &str) -> Result<carom::Emitter, Problem> {
 }
 
 fn settings(simulation: &Simulation) -> Settings {
-    let Bisect { tolerance, max_halvings, max_substeps, wind_back } = simulation.bisect;
+    let Bisect { tolerance, max_halvings, max_impacts, wind_back } = simulation.bisect;
     let wind_back = match wind_back {
         WindBack::Touched => carom::WindBack::Touched,
         WindBack::All => carom::WindBack::All,
@@ -154,7 +157,7 @@ fn settings(simulation: &Simulation) -> Settings {
             Rule::Bisect => carom::Rule::Bisect(carom::Bisect {
                 tolerance,
                 max_halvings,
-                max_substeps,
+                max_impacts,
                 wind_back,
             }),
         },
@@ -177,20 +180,14 @@ fn settings(simulation: &Simulation) -> Settings {
 /// Numbers that no part of the world looks at.
 fn check_numbers(scene: &Scene) -> Result<(), Problem> {
     let Simulation { frame_time, duration, .. } = scene.simulation;
-    check(frame_time > 0.0 && frame_time.is_finite(), "simulation.frame_time", || {
-        format!("must be positive and finite, not {frame_time}")
-    })?;
-    check(duration > 0.0 && duration.is_finite(), "simulation.duration", || {
-        format!("must be positive and finite, not {duration}")
-    })?;
+    check_positive(frame_time, "simulation.frame_time")?;
+    check_positive(duration, "simulation.duration")?;
     if let Some(camera) = &scene.camera {
         let fov = camera.vertical_fov_degrees;
         check(fov > 0.0 && fov < 180.0, "camera.vertical_fov_degrees", || {
             format!("must be between 0 and 180, not {fov}")
         })?;
-        check(camera.near > 0.0 && camera.near.is_finite(), "camera.near", || {
-            format!("must be positive and finite, not {}", camera.near)
-        })?;
+        check_positive(camera.near, "camera.near")?;
         check(camera.far > camera.near && camera.far.is_finite(), "camera.far", || {
             format!("must be farther than `near`, not {}", camera.far)
         })?;
@@ -210,12 +207,9 @@ fn check_numbers(scene: &Scene) -> Result<(), Problem> {
     }
     let densities = scene.colors.iter().flat_map(|colors| &colors.densities).enumerate();
     for (i, DensityColor { density, .. }) in densities {
-        check(
-            *density > 0.0 && density.is_finite(),
-            &format!("colors.densities[{i}].density"),
-            || format!("must be positive and finite, not {density}"),
-        )?;
+        check_positive(*density, &format!("colors.densities[{i}].density"))?;
     }
+    check_tolerance(scene)?;
     Ok(())
 }
 
@@ -227,7 +221,8 @@ fn colors(scene: &Scene) -> Vec<(String, Color)> {
         add(format!("spheres[{i}].color"), sphere.color);
     }
     for (i, generator) in scene.generators.iter().enumerate() {
-        add(format!("generators[{i}].sphere.color"), generate::template(generator).color);
+        let path = format!("generators[{i}].{}.sphere.color", generate::kind(generator));
+        add(path, generate::template(generator).color);
     }
     for (i, collider) in scene.colliders.iter().enumerate() {
         add(format!("colliders[{i}].color"), collider.color);
@@ -247,51 +242,97 @@ fn colors(scene: &Scene) -> Vec<(String, Color)> {
     colors
 }
 
-fn check(holds: bool, path: &str, problem: impl FnOnce() -> String) -> Result<(), Problem> {
+pub(crate) fn check(
+    holds: bool,
+    path: &str,
+    problem: impl FnOnce() -> String,
+) -> Result<(), Problem> {
     if holds { Ok(()) } else { Err(Problem::new(path, problem())) }
 }
 
-fn check_vector(value: Vector, path: &str) -> Result<(), Problem> {
+pub(crate) fn check_positive(value: f64, path: &str) -> Result<(), Problem> {
+    check(value > 0.0 && value.is_finite(), path, || {
+        format!("must be positive and finite, not {value}")
+    })
+}
+
+pub(crate) fn check_vector(value: Vector, path: &str) -> Result<(), Problem> {
     check(vector(value).is_finite(), path, || format!("must be finite, not {value:?}"))
 }
 
 fn check_rotation(value: Quaternion, path: &str) -> Result<(), Problem> {
     let length_squared = quaternion(value).length_squared();
-    check(length_squared.is_finite() && length_squared > 0.0, path, || {
+    check(length_squared.is_finite() && length_squared >= f64::MIN_POSITIVE, path, || {
         format!("must be a quaternion x, y, z, w that is finite and not zero, not {value:?}")
     })
 }
 
+/// Refuses spheres that overlap each other or a collider by more than rounding.
 fn refuse_overlaps(
     scene: &Scene,
     world: &World,
     first_of_generator: &[usize],
 ) -> Result<(), Problem> {
-    let Some(overlap) = world.overlaps(OVERLAP_TOLERANCE).into_iter().next() else {
+    let is_real = |overlap: &carom::Overlap| overlap.depth > rounding(world, overlap);
+    let Some(overlap) = world.overlaps(0.0).into_iter().find(is_real) else {
         return Ok(());
     };
-    let path = |sphere: carom::SphereId| {
-        let index = sphere.number() as usize;
-        let generator = first_of_generator.partition_point(|&first| first <= index);
-        match generator {
-            0 => format!("spheres[{index}]"),
-            _ => format!("generators[{}]", generator - 1),
-        }
+    let index = |sphere: carom::SphereId| sphere.number() as usize;
+    let path = |sphere: carom::SphereId| match first_of_generator
+        .partition_point(|&first| first <= index(sphere))
+    {
+        0 => format!("spheres[{}]", index(sphere)),
+        generator => format!("generators[{}]", generator - 1),
     };
-    let (field, other) = match overlap.between {
-        carom::Participants::Spheres(first, second) => (path(second), path(first)),
+    let (sphere, other) = match overlap.between {
+        carom::Participants::Spheres(first, second) => {
+            (second, format!("sphere number {} ({})", first.number(), path(first)))
+        }
         carom::Participants::Collider { collider, sphere } => {
-            let name = &scene.colliders[collider.number()].name;
             let number = collider.number();
-            (path(sphere), format!("colliders[{number}] \"{name}\""))
+            (sphere, format!("colliders[{number}] \"{}\"", scene.colliders[number].name))
         }
     };
-    let depth = overlap.depth;
     let text = format!(
-        "overlaps {other} by {depth:.3e} m at the start; move it, or set \
-         simulation.allow_overlap = true"
+        "sphere number {} overlaps {other} by {:.3e} m at the start; move it, or set \
+         simulation.allow_overlap = true",
+        sphere.number(),
+        overlap.depth,
     );
-    Err(Problem::new(field, text))
+    Err(Problem::new(path(sphere), text))
+}
+
+/// Overlap \[m\] that bodies meant to touch can have: coordinates in a file have fewer digits than
+/// a double, and those far from the origin are coarse.
+fn rounding(world: &World, overlap: &carom::Overlap) -> f64 {
+    const OF_RADIUS: f64 = 1e-9;
+    const OF_COORDINATES: f64 = 8.0 * f64::EPSILON;
+    let of_sphere = |id: carom::SphereId| {
+        let index = id.number() as usize;
+        let (radius, center) = (world.spheres().radii()[index], world.spheres().positions()[index]);
+        (radius, center.abs().max_element())
+    };
+    let (radius, coordinate) = match overlap.between {
+        carom::Participants::Collider { sphere, .. } => of_sphere(sphere),
+        carom::Participants::Spheres(first, second) => {
+            let (first, second) = (of_sphere(first), of_sphere(second));
+            (first.0.min(second.0), first.1.max(second.1))
+        }
+    };
+    OF_RADIUS * radius + OF_COORDINATES * coordinate
+}
+
+/// Refuses a touching distance that is no longer small against the smallest sphere.
+fn check_tolerance(scene: &Scene) -> Result<(), Problem> {
+    let spheres = scene.spheres.iter().chain(scene.generators.iter().map(generate::template));
+    let spheres = spheres.chain(scene.emitters.iter().map(|emitter| &emitter.sphere));
+    let radii = spheres.filter_map(|s| s.radius.or(s.diameter.map(|diameter| 0.5 * diameter)));
+    let smallest = radii.filter(|radius| *radius > 0.0).fold(f64::INFINITY, f64::min);
+    let tolerance = scene.simulation.bisect.tolerance;
+    let is_used = scene.simulation.rule == Rule::Bisect;
+    check(!is_used || tolerance <= 0.01 * smallest, "simulation.bisect.tolerance", || {
+        format!("must be at most 1/100 of the smallest radius, {smallest}, not {tolerance}")
+    })
 }
 
 /// A refusal of the physics, about what is written at `path`.
@@ -305,14 +346,27 @@ pub(crate) fn problem(path: &str, error: carom::Error) -> Problem {
 }
 
 /// Likewise for a collider, whose lengths are written in its shape.
-fn collider_problem(path: &str, error: carom::Error) -> Problem {
-    let Problem { field, problem } = problem(path, error);
-    let of_shape = ["radius", "size_x", "size_z", "size.x", "size.y", "size.z"];
-    let own = &field[path.len() + 1..];
-    if of_shape.contains(&own) {
-        Problem::new(format!("{path}.shape.{own}"), problem)
-    } else {
-        Problem::new(field, problem)
+fn collider_problem(path: &str, shape: &Shape, error: carom::Error) -> Problem {
+    let shape = match shape {
+        Shape::Sphere { .. } => "sphere",
+        Shape::Rectangle { .. } => "rectangle",
+        Shape::HalfSpace => "half-space",
+        Shape::Box { .. } => "box",
+    };
+    let is_length = |field: &str| field == "radius" || field.starts_with("size");
+    match error {
+        carom::Error::Invalid { ref source, .. } if is_length(source.field) => {
+            problem(&format!("{path}.shape.{shape}"), error)
+        }
+        other => problem(path, other),
+    }
+}
+
+fn force_name(force: &Force) -> &'static str {
+    match force {
+        Force::Constant { .. } => "constant",
+        Force::Gravity { .. } => "gravity",
+        Force::ViscousDrag { .. } => "viscous-drag",
     }
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use carom::{DQuat, DVec3, SphereId, World};
+use carom_scene::scene::{Force, Shape};
 use carom_scene::{Library, Override, Scene};
 use serde_json::Value;
 
@@ -81,7 +82,7 @@ fn scene_files_hold_the_figures_of_the_course() {
         let colliders = figures["colliders"].as_array().unwrap();
         assert_eq!(scene.colliders.len(), colliders.len());
         let world = scene.world().unwrap();
-        for (collider, theirs) in world.colliders().iter().zip(colliders) {
+        for ((_, collider), theirs) in world.colliders().zip(colliders) {
             assert_eq!(collider.pose.position.to_array().to_vec(), vector(&theirs["position"]));
             assert_eq!(Some(collider.restitution), theirs["restitution"].as_f64());
             let size = match collider.shape {
@@ -97,14 +98,74 @@ fn scene_files_hold_the_figures_of_the_course() {
             let theirs: Vec<f64> = keys.iter().filter_map(|key| theirs[*key].as_f64()).collect();
             assert_eq!(size, theirs);
         }
-        let camera = scene.camera.unwrap();
-        assert_eq!(camera.position.to_vec(), vector(&figures["camera"]["position"]));
-        assert_eq!(camera.rotation.to_vec(), vector(&figures["camera"]["rotation_xyzw"]));
+        let [Force::Constant { force }, Force::ViscousDrag { coefficient }] = scene.forces[..]
+        else {
+            panic!("a constant force and drag")
+        };
+        let theirs = &figures["emitter"];
+        assert_eq!(force.to_vec(), vector(&theirs["force"]));
+        assert_eq!(Some(coefficient), theirs["drag"].as_f64());
+        check_view(&scene, figures);
     }
+}
+
+/// Camera and sun.
+fn check_view(scene: &Scene, figures: &Value) {
+    let (camera, theirs) = (scene.camera.as_ref().unwrap(), &figures["camera"]);
+    assert_eq!(camera.position.to_vec(), vector(&theirs["position"]));
+    assert_eq!(camera.rotation.to_vec(), vector(&theirs["rotation_xyzw"]));
+    assert_eq!(Some(camera.vertical_fov_degrees), theirs["vertical_fov_deg"].as_f64());
+    assert_eq!(Some(camera.near), theirs["near"].as_f64());
+    assert_eq!(Some(camera.far), theirs["far"].as_f64());
+    let (sun, theirs) = (scene.sun.as_ref().unwrap(), &figures["sun"]);
+    assert_eq!(sun.rotation.to_vec(), vector(&theirs["rotation_xyzw"]));
+    assert_eq!(sun.color.to_vec(), vector(&theirs["color"]));
+    assert_eq!(Some(sun.intensity), theirs["intensity"].as_f64());
+}
+
+#[test]
+fn the_maze_holds_the_figures_of_the_course() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/course_scenes.json");
+    let figures: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let figures = &figures["scenes"]["MazeGame"];
     let maze = scene("maze");
-    let boxes = figures["scenes"]["MazeGame"]["boxes"].as_array().unwrap().len();
-    let collectibles = maze.colliders.iter().filter(|collider| collider.trigger).count();
-    assert_eq!((maze.colliders.len(), collectibles), (2 + boxes + 4, 4));
+    check_view(&maze, figures);
+    let game = &figures["game"];
+    assert_eq!(maze.spheres[0].position.to_vec(), vector(&game["ball_start"]));
+    assert_eq!(maze.spheres[0].diameter, game["ball_diameter"].as_f64());
+    assert_eq!(maze.spheres[0].mass, game["ball_mass"].as_f64());
+
+    let (mut planes, mut boxes, mut collectibles) = (0, 0, 0);
+    for collider in &maze.colliders {
+        let (theirs, center, size, restitution) = match collider.shape {
+            Shape::Rectangle { size_x, size_z } => {
+                planes += 1;
+                let theirs = &figures["planes"][planes - 1];
+                let size = [theirs["size_x"].as_f64(), theirs["size_z"].as_f64()];
+                assert_eq!([Some(size_x), Some(size_z)], size);
+                assert_eq!(collider.rotation.to_vec(), vector(&theirs["rotation_xyzw"]));
+                (theirs, "position", None, true)
+            }
+            Shape::Box { size } => {
+                boxes += 1;
+                (&figures["boxes"][boxes - 1], "center", Some(size.to_vec()), true)
+            }
+            Shape::Sphere { radius } => {
+                collectibles += 1;
+                let theirs = &figures["collectibles"][collectibles - 1];
+                assert_eq!(Some(radius), theirs["radius"].as_f64());
+                assert!(collider.trigger);
+                (theirs, "position", None, false)
+            }
+            Shape::HalfSpace => panic!("no half-space in the maze"),
+        };
+        assert_eq!(collider.position.to_vec(), vector(&theirs[center]));
+        assert_eq!(size, size.as_ref().map(|_| vector(&theirs["size"])));
+        if restitution {
+            assert_eq!(Some(collider.restitution), theirs["restitution"].as_f64());
+        }
+    }
+    assert_eq!((planes, boxes, collectibles), (2, 20, 4));
 }
 
 /// Whether a sphere is wholly outside the picture of a scene's camera, of this width to height.
@@ -114,7 +175,7 @@ fn is_out_of_view(scene: &Scene, center: DVec3, radius: f64, aspect: f64) -> boo
     let local = rotation.inverse() * (center - DVec3::from_array(camera.position));
     let half = (0.5 * camera.vertical_fov_degrees).to_radians();
     let (x, y) = ((half.tan() * aspect).atan(), half);
-    // Distances outward from the four side planes of the view, and from the camera's own plane.
+    // Distances outward from the four side planes of the view.
     let planes = [
         local.x * x.cos() + local.z * x.sin(),
         -local.x * x.cos() + local.z * x.sin(),

@@ -49,12 +49,12 @@ impl Series {
 impl Format for Series {
     fn write(&mut self, world: &World) -> io::Result<()> {
         let path = self.frame_path(self.times.len());
-        let mut file = BufWriter::new(File::create(path)?);
-        frame(world).write_xml(&mut file).map_err(|error| match error {
-            vtkio::Error::IO(error) => error,
-            other => io::Error::other(other),
+        let mut text = Vec::new();
+        frame(world).write_xml(&mut text).map_err(io::Error::other)?;
+        std::fs::write(&path, text).map_err(|error| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            io::Error::new(error.kind(), format!("{name}: {error}"))
         })?;
-        file.flush()?;
         self.times.push(world.time());
         Ok(())
     }
