@@ -1,6 +1,6 @@
 //! Generators of spheres: rows, lattices, random fillings.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use carom::{DVec3, World};
 use rand_core::{Rng, SeedableRng};
@@ -92,7 +92,7 @@ impl Generator {
         }
         let mut numbers = Numbers(Pcg64::seed_from_u64((*seed).into()));
         let corner = min + vector(sphere.position);
-        let mut placed = Placed::new(world, largest);
+        let mut placed = Placed::new(world);
         let mut spheres = Vec::new();
         for _ in 0..*count {
             let radius = smallest + (largest - smallest) * numbers.unit();
@@ -184,17 +184,20 @@ impl Numbers {
 /// Spheres that have their places already.
 struct Placed<'a> {
     world: &'a World,
-    /// Spheres so large that they would spoil the cells; looked at one by one.
-    large: Vec<(DVec3, f64)>,
-    /// The others, by cells as wide as the largest of them.
-    cells: HashMap<[i64; 3], Vec<(DVec3, f64)>>,
-    cell_size: f64,
+    /// By size class; the cells of class k are 2^k m wide, and hold spheres not wider than that.
+    classes: BTreeMap<i32, Cells>,
+}
+
+/// Spheres of one size class, by the cell of their centres.
+#[derive(Default)]
+struct Cells {
+    spheres: Vec<(DVec3, f64)>,
+    by_cell: HashMap<[i64; 3], Vec<usize>>,
 }
 
 impl<'a> Placed<'a> {
-    fn new(world: &'a World, largest_to_come: f64) -> Self {
-        let cell_size = 4.0 * largest_to_come;
-        let mut placed = Self { world, large: Vec::new(), cells: HashMap::new(), cell_size };
+    fn new(world: &'a World) -> Self {
+        let mut placed = Self { world, classes: BTreeMap::new() };
         let spheres = world.spheres();
         for (&center, &radius) in spheres.positions().iter().zip(spheres.radii()) {
             placed.add(center, radius);
@@ -202,33 +205,42 @@ impl<'a> Placed<'a> {
         placed
     }
 
-    fn cell(&self, center: DVec3) -> [i64; 3] {
-        (center / self.cell_size).floor().to_array().map(|part| part as i64)
-    }
-
     fn add(&mut self, center: DVec3, radius: f64) {
-        if 2.0 * radius > self.cell_size {
-            self.large.push((center, radius));
-        } else {
-            self.cells.entry(self.cell(center)).or_default().push((center, radius));
-        }
+        let class = (2.0 * radius).log2().ceil() as i32;
+        let Cells { spheres, by_cell } = self.classes.entry(class).or_default();
+        by_cell.entry(cell(center, class)).or_default().push(spheres.len());
+        spheres.push((center, radius));
     }
 
     fn is_free(&self, center: DVec3, radius: f64) -> bool {
-        let apart = |(other, r): &(DVec3, f64)| center.distance(*other) > radius + r;
-        self.near(center).all(apart)
-            && self.large.iter().all(apart)
-            && !self.world.meets_collider(center, radius)
+        let is_apart = |&(other, r): &(DVec3, f64)| center.distance(other) > radius + r;
+        !self.world.meets_collider(center, radius)
+            && self.classes.iter().all(|(&class, cells)| {
+                let reach = DVec3::splat(radius + 0.5 * 2f64.powi(class));
+                let (low, high) = (cell(center - reach, class), cell(center + reach, class));
+                let count = (0..3).map(|axis| high[axis].saturating_sub(low[axis]) as f64 + 1.0);
+                // A sphere far larger than the cells: fewer spheres to look at than cells.
+                if count.product::<f64>() > cells.spheres.len() as f64 {
+                    return cells.spheres.iter().all(is_apart);
+                }
+                cells.between(low, high).all(is_apart)
+            })
     }
+}
 
-    /// The spheres in the cell of a place and in those around it.
-    fn near(&self, center: DVec3) -> impl Iterator<Item = &(DVec3, f64)> {
-        let cell = self.cell(center);
-        (0..27).flat_map(move |neighbour: i64| {
-            let step = [neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1];
-            // Past the end of all numbers a cell is its own neighbour.
-            let cell = [0, 1, 2].map(|axis| cell[axis].saturating_add(step[axis]));
-            self.cells.get(&cell).into_iter().flatten()
-        })
+impl Cells {
+    /// The spheres in a block of cells.
+    fn between(&self, low: [i64; 3], high: [i64; 3]) -> impl Iterator<Item = &(DVec3, f64)> {
+        (low[0]..=high[0])
+            .flat_map(move |x| (low[1]..=high[1]).map(move |y| (x, y)))
+            .flat_map(move |(x, y)| (low[2]..=high[2]).map(move |z| [x, y, z]))
+            .filter_map(|cell| self.by_cell.get(&cell))
+            .flatten()
+            .map(|&index| &self.spheres[index])
     }
+}
+
+/// The cell of a place, of the cells of a size class.
+fn cell(place: DVec3, class: i32) -> [i64; 3] {
+    (place / 2f64.powi(class)).floor().to_array().map(|part| part as i64)
 }
