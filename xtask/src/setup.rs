@@ -2,7 +2,7 @@
 
 use crate::shell::{Outcome, run, succeeds};
 
-/// Adds the toolchain's formatter and linter where they are missing, and a C linker.
+/// Adds the toolchain's formatter and linter where they are missing.
 pub fn toolchain() -> Outcome {
     for (command, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
         if !succeeds("cargo", &[command, "--version"]) {

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::bodies::SphereId;
 use crate::collider::ColliderId;
-use crate::detect::contacts::{Bodies, Contact};
+use crate::detect::contact::{Bodies, Contact};
 use crate::system::System;
 
 /// What happened in one step.

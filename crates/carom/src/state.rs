@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::bodies::{Motion, Spheres};
 use crate::clock::Clock;
 use crate::colliders::Colliders;
-use crate::detect::contacts::Instant;
+use crate::detect::instant::Instant;
 use crate::emitter::{EmitterId, EmitterState};
 use crate::error::{Error, Subject};
 use crate::forces::Force;

@@ -35,6 +35,8 @@ struct Level {
     largest_reach: f64,
     starts: Vec<u32>,
     entries: Vec<Entry>,
+    /// The entries as they came.
+    unsorted: Vec<Entry>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -70,14 +72,14 @@ impl BroadPhase {
 
         self.levels.resize_with(MAX_LEVELS, Level::default);
         for level in &mut self.levels {
-            level.entries.clear();
+            level.unsorted.clear();
             level.largest_reach = 0.0;
         }
         for (index, center, radius) in spheres {
             let reach = reach(radius);
             let level = &mut self.levels[size_class(largest, reach)];
             level.largest_reach = level.largest_reach.max(reach);
-            level.entries.push(Entry { center, reach, cell: [0; 3], index });
+            level.unsorted.push(Entry { center, reach, cell: [0; 3], index });
         }
         let mut cell_size = 2.0 * largest * CELL_SLACK;
         for level in &mut self.levels {
@@ -131,26 +133,26 @@ fn size_class(largest: f64, reach: f64) -> usize {
 impl Level {
     /// Sorts the entries into their buckets (a counting sort, stable).
     fn arrange(&mut self) {
-        let buckets = (2 * self.entries.len()).next_power_of_two().max(BLOCK_CELLS);
+        self.entries.clear();
         self.starts.clear();
-        if self.entries.is_empty() {
-            return;
-        }
-        self.starts.resize(buckets + 1, 0);
-        for entry in &mut self.entries {
+        let Some(&any) = self.unsorted.first() else { return };
+        let buckets = (2 * self.unsorted.len()).next_power_of_two().max(BLOCK_CELLS);
+        // One place further than the starts will be, which makes room to count on while sorting.
+        self.starts.resize(buckets + 2, 0);
+        for entry in &mut self.unsorted {
             entry.cell = cell_of(entry.center, self.cells_per_metre);
-            self.starts[bucket_of(entry.cell, buckets) + 1] += 1;
+            self.starts[bucket_of(entry.cell, buckets) + 2] += 1;
         }
-        for bucket in 0..buckets {
-            self.starts[bucket + 1] += self.starts[bucket];
+        for bucket in 2..buckets + 2 {
+            self.starts[bucket] += self.starts[bucket - 1];
         }
-        let unsorted = self.entries.clone();
-        let mut next = self.starts.clone();
-        for entry in unsorted {
-            let slot = &mut next[bucket_of(entry.cell, buckets)];
+        self.entries.resize(self.unsorted.len(), any);
+        for &entry in &self.unsorted {
+            let slot = &mut self.starts[bucket_of(entry.cell, buckets) + 1];
             self.entries[*slot as usize] = entry;
             *slot += 1;
         }
+        self.starts.pop();
     }
 
     /// Entries of the bucket that `cell` falls into; some may be of other cells.

@@ -3,119 +3,15 @@
 use glam::DVec3;
 
 use super::broad_phase::BroadPhase;
+use super::contact::Contact;
+use super::instant::Instant;
 use super::surface_tree::Bounds;
-use super::{ContactState, Separation, classify, sphere_sphere, sphere_surface};
-use crate::bodies::Motion;
-use crate::integrate;
+use super::{ContactState, sphere_surface};
 use crate::surface::Role;
 use crate::system::System;
 
-/// Up to this many spheres the loop over all pairs is faster than arranging them first.
+/// Up to this many spheres all pairs are looked at: too few to be worth arranging.
 const FEW: usize = 16;
-
-/// All spheres in the states `motion`, at `time` \[s\] of the world's clock.
-#[derive(Clone, Copy)]
-pub(crate) struct Instant<'a> {
-    pub system: System<'a>,
-    pub motion: &'a Motion,
-    pub time: f64,
-}
-
-/// Two bodies, by index. Pairs of spheres sort before spheres at surfaces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Bodies {
-    /// Spheres 1 and 2, the smaller index first.
-    Pair(u32, u32),
-    /// A fixed surface, which is body 1, and a sphere, which is body 2.
-    Surface { sphere: u32, surface: u32 },
-}
-
-/// Two bodies and how they stand to each other.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Contact {
-    pub bodies: Bodies,
-    pub separation: Separation,
-    pub state: ContactState,
-}
-
-impl Contact {
-    /// The one or two spheres of the contact.
-    pub fn spheres(&self) -> impl Iterator<Item = u32> + use<> {
-        let (first, second) = match self.bodies {
-            Bodies::Pair(i, j) => (i, Some(j)),
-            Bodies::Surface { sphere, .. } => (sphere, None),
-        };
-        std::iter::once(first).chain(second)
-    }
-}
-
-impl Instant<'_> {
-    /// The contact of spheres `i` and `j`, whichever comes first.
-    fn pair(&self, i: u32, j: u32, tolerance: f64) -> Contact {
-        let (first, second) = (i.min(j), i.max(j));
-        let (i, j) = (first as usize, second as usize);
-        let Motion { position, velocity } = self.motion;
-        let radii = [self.system.spheres.radius[i], self.system.spheres.radius[j]];
-        let separation = sphere_sphere([position[i], position[j]], radii);
-        let normal = separation.normal;
-        let acceleration = |k| integrate::acceleration(&self.system, self.motion, k, self.time);
-        let state = classify(
-            separation.distance,
-            tolerance,
-            (velocity[j] - velocity[i]).dot(normal),
-            || (acceleration(j) - acceleration(i)).dot(normal),
-        );
-        Contact { bodies: Bodies::Pair(first, second), separation, state }
-    }
-
-    /// The contact of a sphere with a surface, if it is on the side that collides.
-    fn surface(&self, sphere: u32, surface: u32, tolerance: f64) -> Option<Contact> {
-        let i = sphere as usize;
-        let form = &self.system.surfaces[surface as usize].form;
-        let center = self.motion.position[i];
-        let separation = sphere_surface(form, center, self.system.spheres.radius[i])?;
-        let normal = separation.normal;
-        let state =
-            classify(separation.distance, tolerance, self.motion.velocity[i].dot(normal), || {
-                integrate::acceleration(&self.system, self.motion, i, self.time).dot(normal)
-            });
-        Some(Contact { bodies: Bodies::Surface { sphere, surface }, separation, state })
-    }
-
-    /// The contact of two bodies, if they are on the sides that collide.
-    pub fn contact(&self, bodies: Bodies, tolerance: f64) -> Option<Contact> {
-        match bodies {
-            Bodies::Pair(i, j) => Some(self.pair(i, j, tolerance)),
-            Bodies::Surface { sphere, surface } => self.surface(sphere, surface, tolerance),
-        }
-    }
-
-    /// Visits every surface, of roles for which `wanted` holds, near a sphere with its contact.
-    fn for_each_surface(
-        &self,
-        sphere: u32,
-        tolerance: f64,
-        near: &mut Vec<u32>,
-        wanted: impl Fn(Role) -> bool,
-        mut visit: impl FnMut(Contact),
-    ) {
-        let i = sphere as usize;
-        self.system.tree.near(&reach(&self.system, self.motion, i, tolerance), near);
-        for &surface in near.iter() {
-            if wanted(self.system.surfaces[surface as usize].role)
-                && let Some(contact) = self.surface(sphere, surface, tolerance)
-            {
-                visit(contact);
-            }
-        }
-    }
-}
-
-/// Bounds of a sphere, widened by `margin` \[m\].
-pub(crate) fn reach(system: &System, motion: &Motion, index: usize, margin: f64) -> Bounds {
-    let half = DVec3::splat(system.spheres.radius[index] + margin);
-    Bounds::around(motion.position[index], half)
-}
 
 /// Working memory of the searches below; holds nothing between them but the arrangement that
 /// [`of_everyone`] makes and [`of_moved`] looks into.

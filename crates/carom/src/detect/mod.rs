@@ -4,7 +4,9 @@
 
 pub(crate) mod broad_phase;
 mod classify;
+pub(crate) mod contact;
 pub(crate) mod contacts;
+pub(crate) mod instant;
 mod separation;
 mod sphere_box;
 mod sphere_half_space;

@@ -8,7 +8,7 @@ pub use reflection::reflection;
 
 use crate::bodies::Motion;
 use crate::detect::Separation;
-use crate::detect::contacts::{Bodies, Contact};
+use crate::detect::contact::{Bodies, Contact};
 use crate::report::{Impact, Participants};
 use crate::surface::Form;
 use crate::system::System;

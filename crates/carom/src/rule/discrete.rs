@@ -2,7 +2,9 @@
 
 use super::Scratch;
 use crate::bodies::Motion;
-use crate::detect::contacts::{self, Bodies, Contact, Instant};
+use crate::detect::contact::{Bodies, Contact};
+use crate::detect::contacts;
+use crate::detect::instant::{Instant, reach};
 use crate::detect::{ContactState, sphere_surface};
 use crate::integrate;
 use crate::interval::Interval;
@@ -38,7 +40,7 @@ fn meet_surfaces(
     report: &mut StepReport,
 ) {
     let find_near = |motion: &Motion, near: &mut Vec<u32>| {
-        system.tree.near(&contacts::reach(system, motion, sphere as usize, 0.0), near);
+        system.tree.near(&reach(system, motion, sphere as usize, 0.0), near);
     };
     find_near(motion, near);
     let mut next = 0;

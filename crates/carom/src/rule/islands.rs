@@ -1,7 +1,7 @@
 //! Islands: groups of spheres whose frames are cut by the same contacts.
 
 use crate::detect::ContactState;
-use crate::detect::contacts::Contact;
+use crate::detect::contact::Contact;
 use crate::report::{Impact, StepReport};
 
 /// Marks a sphere that belongs to no island.

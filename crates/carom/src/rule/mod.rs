@@ -7,7 +7,8 @@ mod islands;
 use islands::Islands;
 
 use crate::bodies::Motion;
-use crate::detect::contacts::{Contact, Search};
+use crate::detect::contact::Contact;
+use crate::detect::contacts::Search;
 use crate::interval::Interval;
 use crate::report::StepReport;
 use crate::system::System;

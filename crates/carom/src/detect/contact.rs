@@ -1,0 +1,31 @@
+//! Two bodies in contact.
+
+use super::{ContactState, Separation};
+
+/// Two bodies, by index. Pairs of spheres sort before spheres at surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Bodies {
+    /// Spheres 1 and 2, the smaller index first.
+    Pair(u32, u32),
+    /// A fixed surface, which is body 1, and a sphere, which is body 2.
+    Surface { sphere: u32, surface: u32 },
+}
+
+/// Two bodies and how they stand to each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Contact {
+    pub bodies: Bodies,
+    pub separation: Separation,
+    pub state: ContactState,
+}
+
+impl Contact {
+    /// The one or two spheres of the contact.
+    pub fn spheres(&self) -> impl Iterator<Item = u32> + use<> {
+        let (first, second) = match self.bodies {
+            Bodies::Pair(i, j) => (i, Some(j)),
+            Bodies::Surface { sphere, .. } => (sphere, None),
+        };
+        std::iter::once(first).chain(second)
+    }
+}
