@@ -89,6 +89,17 @@ impl Problem {
     pub fn new(field: impl Into<String>, problem: impl Into<String>) -> Self {
         Self { field: field.into(), problem: problem.into() }
     }
+
+    /// The fault of a scene that was put together in code.
+    pub fn in_code(self, scene: &str) -> Fault {
+        let Self { field, problem } = self;
+        Fault { source_name: scene.to_owned(), line: None, field, problem, nearest: None }
+    }
+}
+
+/// `colliders[1].shape` as names and indices.
+pub(crate) fn segments(path: &str) -> Vec<String> {
+    path.split(['.', '[', ']']).filter(|part| !part.is_empty()).map(str::to_owned).collect()
 }
 
 /// The candidate most like `name`, if any is like it at all.

@@ -1,6 +1,6 @@
 //! Generators written out.
 
-use crate::error::{Fault, SceneError};
+use crate::error::SceneError;
 use crate::generate;
 use crate::scene::Scene;
 
@@ -16,13 +16,7 @@ impl Scene {
         for (i, generator) in self.generators.iter().enumerate() {
             let path = format!("generators[{i}].{}", generate::kind(generator));
             let spheres = generator.spheres(&scene.world()?, &path);
-            scene.spheres.extend(spheres.map_err(|problem| Fault {
-                source_name: self.name.clone(),
-                line: None,
-                field: problem.field,
-                problem: problem.problem,
-                nearest: None,
-            })?);
+            scene.spheres.extend(spheres.map_err(|problem| problem.in_code(&self.name))?);
         }
         scene.simulation.allow_overlap = self.simulation.allow_overlap;
         Ok(scene)

@@ -6,9 +6,10 @@ use carom::{DVec3, World};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
+use crate::check::check_vector;
 use crate::error::Problem;
 use crate::scene::{Generator, Sphere};
-use crate::world::{add_sphere, check_vector, sphere, vector};
+use crate::world::{add_sphere, sphere, vector};
 
 /// Places tried for each sphere of a random filling. Random places fill a box to a volume
 /// fraction of 0.38 at most (random sequential addition), and slow down long before.

@@ -16,11 +16,14 @@
 #![warn(clippy::unwrap_used)]
 
 mod builtin;
+mod check;
 mod error;
 mod expand;
 mod generate;
 mod library;
 mod load;
+mod overlap;
+mod overrides;
 #[cfg(feature = "recording")]
 pub mod recording;
 pub mod scene;
@@ -30,6 +33,6 @@ mod world;
 pub use builtin::FILES as BUILT_IN_FILES;
 pub use error::{Fault, SceneError};
 pub use library::{Entry, Library, Source};
-pub use load::Override;
+pub use overrides::Override;
 pub use scene::Scene;
 pub use schema::json_schema;

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crate::builtin;
 use crate::error::{SceneError, nearest};
-use crate::load::{Heading, Override};
+use crate::load::Heading;
+use crate::overrides::Override;
 use crate::scene::Scene;
 
 /// Where a scene comes from.

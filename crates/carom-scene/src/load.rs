@@ -1,4 +1,4 @@
-//! Scene files to scenes: parsing, overrides, and the place of every error.
+//! Scene files to scenes, and the place in the file of every error.
 
 use std::path::Path;
 
@@ -6,125 +6,10 @@ use serde::Deserialize;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
-use crate::error::{Fault, Problem, SceneError, nearest};
+use crate::error::{Fault, Problem, SceneError, nearest, segments};
+use crate::overrides::Override;
 use crate::scene::Scene;
 use crate::world;
-
-/// A changed value of a scene, like `emitters.0.max_spheres=100`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Override {
-    text: String,
-    path: Vec<String>,
-    /// `None` takes the field out.
-    value: Option<Value>,
-}
-
-impl std::str::FromStr for Override {
-    type Err = SceneError;
-
-    /// Parses `path=value`: names and indices, as in `emitters.0.period` or `emitters[0].period`,
-    /// then a value in TOML. A word that is no TOML value is taken as a string; `none` takes the
-    /// field out of the scene.
-    fn from_str(text: &str) -> Result<Self, SceneError> {
-        let (path, value) = text
-            .split_once('=')
-            .filter(|(path, _)| !path.trim().is_empty())
-            .ok_or_else(|| bad_override(text, "write it as path=value"))?;
-        if path.contains("..") || path.starts_with('.') || path.ends_with('.') {
-            return Err(bad_override(text, "a name before or after a dot is missing"));
-        }
-        let path = segments(path.trim());
-        if path.is_empty() {
-            return Err(bad_override(text, "write it as path=value"));
-        }
-        let value = value.trim();
-        if value == "none" {
-            return Ok(Self { text: text.to_owned(), path, value: None });
-        }
-        let parsed = toml::from_str::<Table>(&format!("value = {value}"));
-        let value = match parsed.ok().and_then(|mut table| table.remove("value")) {
-            Some(value) => value,
-            None => Value::String(value.to_owned()),
-        };
-        Ok(Self { text: text.to_owned(), path, value: Some(value) })
-    }
-}
-
-fn bad_override(text: &str, problem: impl Into<String>) -> SceneError {
-    SceneError::BadOverride { text: text.to_owned(), problem: problem.into() }
-}
-
-impl Override {
-    fn apply(&self, scene: &mut Table) -> Result<(), SceneError> {
-        let Some((last, way)) = self.path.split_last() else { return Ok(()) };
-        let mut place = Place::Table(scene);
-        for (i, name) in way.iter().enumerate() {
-            let next = self.path[i + 1].as_str();
-            place = place.enter(name, next).map_err(|problem| bad_override(&self.text, problem))?;
-        }
-        place.set(last, self.value.clone()).map_err(|problem| bad_override(&self.text, problem))
-    }
-
-    /// Whether the field at `path` (like `emitters[0].period`) is part of what this changes, or
-    /// the other way round.
-    fn concerns(&self, path: &str) -> bool {
-        let segments = segments(path);
-        let shared = self.path.len().min(segments.len());
-        shared > 0 && self.path[..shared] == segments[..shared]
-    }
-}
-
-/// Somewhere in a scene that has fields or elements.
-enum Place<'a> {
-    Table(&'a mut Table),
-    Array(&'a mut Vec<Value>),
-}
-
-impl Place<'_> {
-    /// What lies at `name`; a missing table is made, unless an element of it is asked for `next`.
-    fn enter(self, name: &str, next: &str) -> Result<Self, String> {
-        let value = match self {
-            Self::Table(table) => {
-                if !table.contains_key(name) && next.parse::<usize>().is_ok() {
-                    return Err(format!("the scene has no `{name}`"));
-                }
-                table.entry(name).or_insert_with(|| Value::Table(Table::new()))
-            }
-            Self::Array(array) => element(array, name)?,
-        };
-        match value {
-            Value::Table(table) => Ok(Self::Table(table)),
-            Value::Array(array) => Ok(Self::Array(array)),
-            _ => Err(format!("nothing lies below `{name}`")),
-        }
-    }
-
-    fn set(self, name: &str, value: Option<Value>) -> Result<(), String> {
-        match (self, value) {
-            (Self::Table(table), Some(value)) => {
-                table.insert(name.to_owned(), value);
-            }
-            (Self::Table(table), None) => {
-                table.remove(name).ok_or_else(|| format!("the scene has no `{name}` there"))?;
-            }
-            (Self::Array(array), Some(value)) => *element(array, name)? = value,
-            (Self::Array(array), None) => {
-                element(array, name)?;
-                array.remove(name.parse().unwrap_or_default());
-            }
-        }
-        Ok(())
-    }
-}
-
-fn element<'a>(array: &'a mut [Value], name: &str) -> Result<&'a mut Value, String> {
-    let count = array.len();
-    let index = name.parse::<usize>().map_err(|_| format!("`{name}` is no index"))?;
-    array.get_mut(index).ok_or_else(|| match count {
-        0 => "there are no elements".to_owned(),
-        _ => format!("there is no element {index}, only 0 to {}", count - 1),
-    })
-}
 
 impl Scene {
     /// Reads a scene from TOML; `source_name` is what errors call it.
@@ -168,7 +53,7 @@ impl Scene {
             if cause.is_empty() {
                 cause = overrides.iter().collect();
             }
-            let cause: Vec<_> = cause.iter().map(|it| format!("--set {}", it.text)).collect();
+            let cause: Vec<_> = cause.iter().map(|it| format!("--set {it}")).collect();
             let fault = Box::new(fault(source_name, None, &problem.field, &problem.problem));
             SceneError::Overridden { overrides: cause.join(" "), fault }
         })
@@ -248,11 +133,6 @@ fn suggestion(message: &str) -> Option<String> {
     let mut quoted = message.split('`').skip(1).step_by(2);
     let name = quoted.next()?;
     nearest(name, quoted)
-}
-
-/// `colliders[1].shape` as names and indices.
-fn segments(path: &str) -> Vec<String> {
-    path.split(['.', '[', ']']).filter(|part| !part.is_empty()).map(str::to_owned).collect()
 }
 
 /// Line of what a problem is about: the field itself, or the nearest thing around it that is

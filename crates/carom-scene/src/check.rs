@@ -1,0 +1,109 @@
+//! Requirements on a scene that no part of the world looks at.
+
+use crate::error::Problem;
+use crate::generate;
+use crate::scene::{Color, DensityColor, Quaternion, Rule, Scene, Simulation, Vector};
+use crate::world::{quaternion, vector};
+
+/// Numbers that no part of the world looks at.
+pub(crate) fn check_numbers(scene: &Scene) -> Result<(), Problem> {
+    let Simulation { frame_time, duration, .. } = scene.simulation;
+    check_positive(frame_time, "simulation.frame_time")?;
+    check_positive(duration, "simulation.duration")?;
+    if let Some(camera) = &scene.camera {
+        let fov = camera.vertical_fov_degrees;
+        check(fov > 0.0 && fov < 180.0, "camera.vertical_fov_degrees", || {
+            format!("must be between 0 and 180, not {fov}")
+        })?;
+        check_positive(camera.near, "camera.near")?;
+        check(camera.far > camera.near && camera.far.is_finite(), "camera.far", || {
+            format!("must be farther than `near`, not {}", camera.far)
+        })?;
+        check_vector(camera.position, "camera.position")?;
+        check_rotation(camera.rotation, "camera.rotation")?;
+    }
+    if let Some(sun) = &scene.sun {
+        check_rotation(sun.rotation, "sun.rotation")?;
+        check(sun.intensity >= 0.0 && sun.intensity.is_finite(), "sun.intensity", || {
+            format!("must be zero or positive, and finite, not {}", sun.intensity)
+        })?;
+    }
+    for (path, color) in colors(scene) {
+        check(color.iter().all(|part| (0.0..=1.0).contains(part)), &path, || {
+            format!("must have three parts in [0, 1], not {color:?}")
+        })?;
+    }
+    let densities = scene.colors.iter().flat_map(|colors| &colors.densities).enumerate();
+    for (i, DensityColor { density, .. }) in densities {
+        check_positive(*density, &format!("colors.densities[{i}].density"))?;
+    }
+    check_tolerance(scene)?;
+    Ok(())
+}
+
+/// Every colour in a scene, with its path.
+fn colors(scene: &Scene) -> Vec<(String, Color)> {
+    let mut colors = Vec::new();
+    let mut add = |path: String, color: Option<Color>| colors.extend(color.map(|c| (path, c)));
+    for (i, sphere) in scene.spheres.iter().enumerate() {
+        add(format!("spheres[{i}].color"), sphere.color);
+    }
+    for (i, generator) in scene.generators.iter().enumerate() {
+        let path = format!("generators[{i}].{}.sphere.color", generate::kind(generator));
+        add(path, generate::template(generator).color);
+    }
+    for (i, collider) in scene.colliders.iter().enumerate() {
+        add(format!("colliders[{i}].color"), collider.color);
+    }
+    for (i, emitter) in scene.emitters.iter().enumerate() {
+        add(format!("emitters[{i}].sphere.color"), emitter.sphere.color);
+    }
+    add("sun.color".to_owned(), scene.sun.as_ref().map(|sun| sun.color));
+    if let Some(own) = &scene.colors {
+        add("colors.background".to_owned(), own.background);
+        add("colors.colliders".to_owned(), own.colliders);
+        add("colors.spheres".to_owned(), own.spheres);
+        for (i, density) in own.densities.iter().enumerate() {
+            add(format!("colors.densities[{i}].color"), Some(density.color));
+        }
+    }
+    colors
+}
+
+pub(crate) fn check(
+    holds: bool,
+    path: &str,
+    problem: impl FnOnce() -> String,
+) -> Result<(), Problem> {
+    if holds { Ok(()) } else { Err(Problem::new(path, problem())) }
+}
+
+pub(crate) fn check_positive(value: f64, path: &str) -> Result<(), Problem> {
+    check(value > 0.0 && value.is_finite(), path, || {
+        format!("must be positive and finite, not {value}")
+    })
+}
+
+pub(crate) fn check_vector(value: Vector, path: &str) -> Result<(), Problem> {
+    check(vector(value).is_finite(), path, || format!("must be finite, not {value:?}"))
+}
+
+fn check_rotation(value: Quaternion, path: &str) -> Result<(), Problem> {
+    let length_squared = quaternion(value).length_squared();
+    check(length_squared.is_finite() && length_squared >= f64::MIN_POSITIVE, path, || {
+        format!("must be a quaternion x, y, z, w that is finite and not zero, not {value:?}")
+    })
+}
+
+/// Refuses a touching distance that is no longer small against the smallest sphere.
+fn check_tolerance(scene: &Scene) -> Result<(), Problem> {
+    let spheres = scene.spheres.iter().chain(scene.generators.iter().map(generate::template));
+    let spheres = spheres.chain(scene.emitters.iter().map(|emitter| &emitter.sphere));
+    let radii = spheres.filter_map(|s| s.radius.or(s.diameter.map(|diameter| 0.5 * diameter)));
+    let smallest = radii.filter(|radius| *radius > 0.0).fold(f64::INFINITY, f64::min);
+    let tolerance = scene.simulation.bisect.tolerance;
+    let is_used = scene.simulation.rule == Rule::Bisect;
+    check(!is_used || tolerance <= 0.01 * smallest, "simulation.bisect.tolerance", || {
+        format!("must be at most 1/100 of the smallest radius, {smallest}, not {tolerance}")
+    })
+}

@@ -1,0 +1,61 @@
+//! Spheres that overlap at the start.
+
+use carom::World;
+
+use crate::error::Problem;
+use crate::scene::Scene;
+
+/// Refuses spheres that overlap each other or a collider by more than rounding.
+pub(crate) fn refuse(
+    scene: &Scene,
+    world: &World,
+    first_of_generator: &[usize],
+) -> Result<(), Problem> {
+    let is_real = |overlap: &carom::Overlap| overlap.depth > rounding(world, overlap);
+    let Some(overlap) = world.overlaps(0.0).into_iter().find(is_real) else {
+        return Ok(());
+    };
+    let index = |sphere: carom::SphereId| sphere.number() as usize;
+    let path = |sphere: carom::SphereId| match first_of_generator
+        .partition_point(|&first| first <= index(sphere))
+    {
+        0 => format!("spheres[{}]", index(sphere)),
+        generator => format!("generators[{}]", generator - 1),
+    };
+    let (sphere, other) = match overlap.between {
+        carom::Participants::Spheres(first, second) => {
+            (second, format!("sphere number {} ({})", first.number(), path(first)))
+        }
+        carom::Participants::Collider { collider, sphere } => {
+            let number = collider.number();
+            (sphere, format!("colliders[{number}] \"{}\"", scene.colliders[number].name))
+        }
+    };
+    let text = format!(
+        "sphere number {} overlaps {other} by {:.3e} m at the start; move it, or set \
+         simulation.allow_overlap = true",
+        sphere.number(),
+        overlap.depth,
+    );
+    Err(Problem::new(path(sphere), text))
+}
+
+/// Overlap \[m\] that bodies meant to touch can have: coordinates in a file have fewer digits than
+/// a double, and those far from the origin are coarse.
+fn rounding(world: &World, overlap: &carom::Overlap) -> f64 {
+    const OF_RADIUS: f64 = 1e-9;
+    const OF_COORDINATES: f64 = 8.0 * f64::EPSILON;
+    let of_sphere = |id: carom::SphereId| {
+        let index = id.number() as usize;
+        let (radius, center) = (world.spheres().radii()[index], world.spheres().positions()[index]);
+        (radius, center.abs().max_element())
+    };
+    let (radius, coordinate) = match overlap.between {
+        carom::Participants::Collider { sphere, .. } => of_sphere(sphere),
+        carom::Participants::Spheres(first, second) => {
+            let (first, second) = (of_sphere(first), of_sphere(second));
+            (first.0.min(second.0), first.1.max(second.1))
+        }
+    };
+    OF_RADIUS * radius + OF_COORDINATES * coordinate
+}
