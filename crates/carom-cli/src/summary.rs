@@ -167,11 +167,11 @@ impl Summary {
         }
         if self.unfinished_islands > 0 {
             let text = format!(
-                "{} times bodies of a group met as often in a frame as they may; the rest of it \
-                 was taken in one piece",
+                "{} times bodies came to rest on each other: their group took the rest of the frame \
+                 in one piece",
                 self.unfinished_islands
             );
-            rows.push(("warning", text));
+            rows.push(("note", text));
         }
         rows
     }

@@ -19,8 +19,8 @@ pub struct StepReport {
     /// Spheres that emitters took out again to make place.
     pub retired: Vec<SphereId>,
     /// Groups of spheres in which, under the rule `bisect`, two bodies met as often as they may in a
-    /// frame: the rest of it was taken in one piece, and what then overlapped was answered as in
-    /// `discrete`.
+    /// frame: they count as come to rest, the rest of it was taken in one piece, and what then
+    /// overlapped was answered as in `discrete`.
     pub unfinished_islands: u32,
 }
 

@@ -407,6 +407,34 @@ fn reaching_the_bound_of_impacts_is_reported_and_nothing_sinks_through() {
 }
 
 #[test]
+fn a_bouncing_ball_comes_to_rest_when_its_bounces_end() {
+    let (g, e, drop) = (9.81, 0.7, 1.0);
+    // Exact under gravity, and contact times to rounding: the bounces themselves are exact.
+    let rule = Rule::Bisect(Bisect { max_halvings: 60, ..Bisect::default() });
+    let integrator = Integrator::VelocityVerlet;
+    let mut world = World::new(Settings { rule, integrator, ..Settings::default() }).unwrap();
+    world.add_force(Gravity::new(vec(0.0, -g, 0.0))).unwrap();
+    let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(e);
+    world.add_collider(floor).unwrap();
+    let ball = world.add_sphere(Sphere::new(vec(0.0, 0.5 + drop, 0.0), 0.5)).unwrap();
+    let end = (2.0 * drop / g).sqrt() * (1.0 + e) / (1.0 - e);
+    let mut came_to_rest = None;
+    while world.time() < 2.0 * end {
+        world.step(1.0 / 240.0).unwrap();
+        let speed = world.sphere(ball).unwrap().velocity.length();
+        if speed == 0.0 {
+            came_to_rest.get_or_insert(world.time());
+        } else {
+            assert_eq!(came_to_rest, None, "it moves again at {}", world.time());
+        }
+    }
+    // Seen at the end of a frame; what happens after the last bounce that is told apart, of a
+    // period of 1/32 of a frame, is over within another.
+    assert_close(came_to_rest.unwrap(), end, 2.0 / 240.0);
+    assert_close(world.sphere(ball).unwrap().position.y, 0.5, 1e-9);
+}
+
+#[test]
 fn a_resting_pile_meets_a_bounded_number_of_times() {
     // Two touching layers on a floor: everything rests on everything.
     let mut world = world(bisect());

@@ -31,28 +31,54 @@ pub(crate) fn answer(
     motion: &mut Motion,
     time: f64,
 ) -> Option<Impact> {
+    answer_with(contact, restitution_of(contact.bodies, system), system, motion, time)
+}
+
+/// Answers one contact without giving back any of the speed of approach.
+pub(crate) fn answer_plastically(
+    contact: &Contact,
+    system: &System,
+    motion: &mut Motion,
+    time: f64,
+) -> Option<Impact> {
+    answer_with(contact, 0.0, system, motion, time)
+}
+
+/// Restitution of a contact, from those of its bodies.
+fn restitution_of(bodies: Bodies, system: &System) -> f64 {
+    let of_sphere = |sphere: u32| system.spheres.restitution[sphere as usize];
+    let (e1, e2) = match bodies {
+        Bodies::Pair(first, second) => (of_sphere(first), of_sphere(second)),
+        Bodies::Surface { sphere, surface } => {
+            (system.surfaces[surface as usize].restitution, of_sphere(sphere))
+        }
+    };
+    system.settings.restitution_rule.combine(e1, e2)
+}
+
+fn answer_with(
+    contact: &Contact,
+    restitution: f64,
+    system: &System,
+    motion: &mut Motion,
+    time: f64,
+) -> Option<Impact> {
     let Separation { normal, point, .. } = contact.separation;
-    let velocity = &mut motion.velocity;
-    let combine = |e1, e2| system.settings.restitution_rule.combine(e1, e2);
-    let (mass, restitution) = (&system.spheres.mass, &system.spheres.restitution);
+    let (velocity, mass) = (&mut motion.velocity, &system.spheres.mass);
     let (approach_speed, impulse) = match contact.bodies {
         Bodies::Pair(i, j) => {
             let (i, j) = (i as usize, j as usize);
             let approach_speed = -(velocity[j] - velocity[i]).dot(normal);
-            let (after, impulse) = line_of_centres(
-                [velocity[i], velocity[j]],
-                [mass[i], mass[j]],
-                normal,
-                combine(restitution[i], restitution[j]),
-            )?;
+            let before = [velocity[i], velocity[j]];
+            let (after, impulse) =
+                line_of_centres(before, [mass[i], mass[j]], normal, restitution)?;
             [velocity[i], velocity[j]] = after;
             (approach_speed, impulse)
         }
-        Bodies::Surface { sphere, surface } => {
+        Bodies::Surface { sphere, .. } => {
             let i = sphere as usize;
             let approach_speed = -velocity[i].dot(normal);
-            let e = combine(system.surfaces[surface as usize].restitution, restitution[i]);
-            let change = reflection(velocity[i], normal, e)?;
+            let change = reflection(velocity[i], normal, restitution)?;
             velocity[i] += change * normal;
             (approach_speed, mass[i] * change)
         }

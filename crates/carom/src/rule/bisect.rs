@@ -164,17 +164,22 @@ fn find_first_contact(frame: &Frame, rest: Interval, buffers: &mut Buffers) -> f
 
 /// Ends the way of an island in which two bodies met more often than they may in one frame, as
 /// bodies at rest on each other do without end: takes the rest of the frame
-/// in one piece and answers what then overlaps as the rule `discrete` does.
+/// in one piece and answers what then overlaps as the rule `discrete` does. The bodies that met too
+/// often have come to rest on each other: what bounces without end has no speed left.
 fn give_up(frame: &Frame, island: &mut Island, rest: Interval, buffers: &mut Buffers) {
-    let Frame { system, parameters: Bisect { tolerance, .. }, interval, .. } = *frame;
-    let Buffers { current, end, late_contacts, search, .. } = buffers;
+    let Frame { system, parameters, interval, .. } = *frame;
+    let Bisect { tolerance, max_impacts, .. } = parameters;
+    let Buffers { current, end, late_contacts, search, meetings, .. } = buffers;
+    let rests = |bodies: Bodies| meetings.get(&bodies).is_some_and(|&met| met >= max_impacts);
     advance(&system, current, end, island.members.iter().copied(), rest);
     contacts::of_some(&frame.end(end), &island.members, tolerance, search, late_contacts);
     for late in late_contacts.iter().filter(|c| is_intersecting(c)) {
         // The answers before this one may have moved the sphere.
         let now = frame.end(end).contact(late.bodies, tolerance);
         let Some(contact) = now.filter(is_intersecting) else { continue };
-        let Some(impact) = respond::answer(&contact, &system, end, interval.h) else { continue };
+        let answer =
+            if rests(contact.bodies) { respond::answer_plastically } else { respond::answer };
+        let Some(impact) = answer(&contact, &system, end, interval.h) else { continue };
         island.impacts.push(impact);
         respond::put_on_surface(&contact, &system, end);
     }
