@@ -100,6 +100,7 @@ fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers) {
         buffers.current.copy(start, i as usize);
     }
     let mut elapsed = 0.0;
+    let mut idle_pieces = 0;
     buffers.meetings.clear();
     loop {
         let rest = interval.after(elapsed);
@@ -118,7 +119,9 @@ fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers) {
         elapsed += until_contact;
         let answered = respond::sequentially(trial_contacts.iter(), system, current, elapsed);
         island.impacts.extend(answered);
-        if buffers.met_too_often(parameters.max_impacts) {
+        // Every piece counts towards one bound or the other, so the loop ends.
+        idle_pieces += u32::from(trial_contacts.is_empty());
+        if buffers.met_too_often(parameters.max_impacts) || idle_pieces >= parameters.max_impacts {
             return give_up(frame, island, interval.after(elapsed), buffers);
         }
     }
