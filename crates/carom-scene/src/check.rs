@@ -24,9 +24,7 @@ pub(crate) fn check_numbers(scene: &Scene) -> Result<(), Problem> {
     }
     if let Some(sun) = &scene.sun {
         check_rotation(sun.rotation, "sun.rotation")?;
-        check(sun.intensity >= 0.0 && sun.intensity.is_finite(), "sun.intensity", || {
-            format!("must be zero or positive, and finite, not {}", sun.intensity)
-        })?;
+        check_non_negative(sun.intensity, "sun.intensity")?;
     }
     for (path, color) in colors(scene) {
         check(color.iter().all(|part| (0.0..=1.0).contains(part)), &path, || {
@@ -37,8 +35,7 @@ pub(crate) fn check_numbers(scene: &Scene) -> Result<(), Problem> {
     for (i, DensityColor { density, .. }) in densities {
         check_positive(*density, &format!("colors.densities[{i}].density"))?;
     }
-    check_tolerance(scene)?;
-    Ok(())
+    check_tolerance(scene)
 }
 
 /// Every colour in a scene, with its path.
@@ -81,6 +78,12 @@ pub(crate) fn check(
 pub(crate) fn check_positive(value: f64, path: &str) -> Result<(), Problem> {
     check(value > 0.0 && value.is_finite(), path, || {
         format!("must be positive and finite, not {value}")
+    })
+}
+
+pub(crate) fn check_non_negative(value: f64, path: &str) -> Result<(), Problem> {
+    check(value >= 0.0 && value.is_finite(), path, || {
+        format!("must be zero or positive, and finite, not {value}")
     })
 }
 

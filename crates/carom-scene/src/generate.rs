@@ -6,7 +6,7 @@ use carom::{DVec3, World};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::check::check_vector;
+use crate::check::{check, check_non_negative, check_positive, check_vector};
 use crate::error::Problem;
 use crate::scene::{Generator, Sphere};
 use crate::world::{add_sphere, sphere, vector};
@@ -78,19 +78,16 @@ impl Generator {
             return Ok(Vec::new());
         };
         check_count((*count).into(), &format!("{path}.count"))?;
-        if !(speed.is_finite() && *speed >= 0.0) {
-            let text = format!("must be zero or positive, and finite, not {speed}");
-            return Err(Problem::new(format!("{path}.speed"), text));
-        }
+        check_non_negative(*speed, &format!("{path}.speed"))?;
         check_vector(sphere.position, &format!("{path}.sphere.position"))?;
         let [smallest, largest] = radii(sphere, *radius_range, path)?;
         check_vector(*min, &format!("{path}.min"))?;
         check_vector(*max, &format!("{path}.max"))?;
         let (min, room) = (vector(*min), vector(*max) - vector(*min));
-        if !(room.min_element() >= 2.0 * largest && room.is_finite()) {
-            let text = format!("must be above `min` by a diameter at least, not {max:?}");
-            return Err(Problem::new(format!("{path}.max"), text));
-        }
+        let has_room = room.min_element() >= 2.0 * largest && room.is_finite();
+        check(has_room, &format!("{path}.max"), || {
+            format!("must be above `min` by a diameter at least, not {max:?}")
+        })?;
         let mut numbers = Numbers(Pcg64::seed_from_u64((*seed).into()));
         let corner = min + vector(sphere.position);
         let mut placed = Placed::new(world);
@@ -130,10 +127,9 @@ pub(crate) fn fill(world: &mut World, generator: &Generator, path: &str) -> Resu
 }
 
 fn check_count(count: u64, path: &str) -> Result<(), Problem> {
-    if (1..=MOST_SPHERES).contains(&count) {
-        return Ok(());
-    }
-    Err(Problem::new(path, format!("must make 1 to {MOST_SPHERES} spheres, not {count}")))
+    check((1..=MOST_SPHERES).contains(&count), path, || {
+        format!("must make 1 to {MOST_SPHERES} spheres, not {count}")
+    })
 }
 
 /// Smallest and largest radius of a random filling.
@@ -141,18 +137,14 @@ fn radii(template: &Sphere, range: Option<[f64; 2]>, path: &str) -> Result<[f64;
     let Some([smallest, largest]) = range else {
         let sphere_path = format!("{path}.sphere");
         let radius = sphere(template, &sphere_path)?.radius;
-        if radius > 0.0 && radius.is_finite() {
-            return Ok([radius, radius]);
-        }
-        let text = format!("must be positive and finite, not {radius}");
-        return Err(Problem::new(format!("{sphere_path}.radius"), text));
+        check_positive(radius, &format!("{sphere_path}.radius"))?;
+        return Ok([radius, radius]);
     };
-    if smallest > 0.0 && largest >= smallest && largest.is_finite() {
-        Ok([smallest, largest])
-    } else {
-        let text = format!("must be two positive radii in order, not [{smallest}, {largest}]");
-        Err(Problem::new(format!("{path}.radius_range"), text))
-    }
+    let are_in_order = smallest > 0.0 && largest >= smallest && largest.is_finite();
+    check(are_in_order, &format!("{path}.radius_range"), || {
+        format!("must be two positive radii in order, not [{smallest}, {largest}]")
+    })?;
+    Ok([smallest, largest])
 }
 
 /// Random numbers, the same on every platform.

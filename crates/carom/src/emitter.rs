@@ -48,11 +48,9 @@ impl Emitter {
         self.sphere.validate()?;
         validate::finite("position", self.position)?;
         validate::rotation("rotation", self.rotation)?;
-        if self.period.is_nan() || self.period <= DUE_TOLERANCE || self.period.is_infinite() {
-            let value = self.period.to_string();
-            let requirement = "finite and longer than 1e-9 s";
-            return Err(InvalidValue { field: "period", requirement, value });
-        }
+        let emits_in_turn = self.period > DUE_TOLERANCE && self.period.is_finite();
+        let requirement = "finite and longer than 1e-9 s";
+        validate::require(emits_in_turn, "period", requirement, self.period)?;
         self.max_spheres.map_or(Ok(()), |max| validate::at_least_one("max_spheres", max))
     }
 
@@ -91,14 +89,8 @@ impl EmitterState {
     /// Refuses a period so short that one frame would have to emit spheres without end.
     pub fn validate_at(&self, time: f64) -> Result<(), InvalidValue> {
         let due = (time + DUE_TOLERANCE - self.start) / self.emitter.period - self.emitted as f64;
-        if due < MAX_PER_FRAME {
-            return Ok(());
-        }
-        Err(InvalidValue {
-            field: "period",
-            requirement: "longer: more than a million spheres are due in one frame",
-            value: self.emitter.period.to_string(),
-        })
+        let requirement = "longer: more than a million spheres are due in one frame";
+        validate::require(due < MAX_PER_FRAME, "period", requirement, self.emitter.period)
     }
 }
 

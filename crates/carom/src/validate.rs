@@ -8,7 +8,8 @@ use crate::error::InvalidValue;
 
 type Check = Result<(), InvalidValue>;
 
-fn require(
+/// Any other requirement, told in these words.
+pub(crate) fn require(
     holds: bool,
     field: &'static str,
     requirement: &'static str,

@@ -8,7 +8,7 @@ use crate::bodies::{Motion, Sphere, SphereId, Spheres};
 use crate::collider::{Collider, ColliderId, Pose};
 use crate::detect::contacts::{self, Search};
 use crate::emitter::{self, Emission, Emitter, EmitterId, EmitterState};
-use crate::error::{Error, InvalidValue, Subject};
+use crate::error::{Error, Subject};
 use crate::forces::{Force, ForceId};
 use crate::hash::{self, StateHash};
 use crate::interval::Interval;
@@ -93,11 +93,9 @@ impl World {
         self.report.clear();
 
         let clock = self.state.clock.after(dt);
-        if !clock.seconds().is_finite() {
-            let requirement = "so short that the time stays finite";
-            let invalid = InvalidValue { field: "dt", requirement, value: dt.to_string() };
-            return Err(invalid.about(Subject::Step));
-        }
+        let requirement = "so short that the time stays finite";
+        validate::require(clock.seconds().is_finite(), "dt", requirement, dt)
+            .map_err(|invalid| invalid.about(Subject::Step))?;
 
         let before_emission = self.emit();
         self.start.copy_all(&self.state.spheres.motion);

@@ -57,12 +57,7 @@ pub(crate) fn of_overlapping_pairs(
         }
     };
     let everyone = 0..instant.system.spheres.id.len() as u32;
-    if everyone.len() <= FEW {
-        for_each_pair(everyone, &mut keep);
-    } else {
-        search.some.rebuild(everyone.map(|i| at(instant, i)), 0.0);
-        search.some.for_each_pair(&mut keep);
-    }
+    for_each_candidate(instant, everyone, 0.0, &mut search.some, &mut keep);
     contacts.sort_unstable_by_key(|contact| contact.bodies);
 }
 
@@ -102,20 +97,29 @@ pub(crate) fn of_some(
 ) {
     contacts.clear();
     if instant.system.settings.spheres_collide {
-        if members.len() <= FEW {
-            for_each_pair(members.iter().copied(), |i, j| {
-                keep(instant.pair(i, j, tolerance), contacts);
-            });
-        } else {
-            search.some.rebuild(members.iter().map(|&i| at(instant, i)), tolerance);
-            search.some.for_each_pair(|i, j| keep(instant.pair(i, j, tolerance), contacts));
-        }
+        let members = members.iter().copied();
+        for_each_candidate(instant, members, tolerance, &mut search.some, |i, j| {
+            keep(instant.pair(i, j, tolerance), contacts);
+        });
     }
     of_surfaces(instant, members.iter().copied(), tolerance, &mut search.near, contacts);
     contacts.sort_unstable_by_key(|contact| contact.bodies);
 }
 
-fn for_each_pair(spheres: impl Iterator<Item = u32> + Clone, mut visit: impl FnMut(u32, u32)) {
+/// Visits the pairs among some spheres that may be at most `tolerance` \[m\] apart. More than a few
+/// spheres are arranged in `broad_phase` for it.
+fn for_each_candidate(
+    instant: &Instant,
+    spheres: impl ExactSizeIterator<Item = u32> + Clone,
+    tolerance: f64,
+    broad_phase: &mut BroadPhase,
+    mut visit: impl FnMut(u32, u32),
+) {
+    if spheres.len() > FEW {
+        broad_phase.rebuild(spheres.map(|i| at(instant, i)), tolerance);
+        broad_phase.for_each_pair(visit);
+        return;
+    }
     let mut rest = spheres;
     while let Some(i) = rest.next() {
         rest.clone().for_each(|j| visit(i, j));
@@ -128,7 +132,8 @@ pub(crate) struct Moved<'a> {
     pub contains: &'a dyn Fn(u32) -> bool,
 }
 
-/// Contacts that are not `Separate` of moved spheres with anyone and with solid surfaces.
+/// Contacts that are not `Separate` of moved spheres with anyone and with solid surfaces, in no
+/// useful order.
 pub(crate) fn of_moved(
     instant: &Instant,
     moved: &Moved,
@@ -139,13 +144,15 @@ pub(crate) fn of_moved(
     of_some(instant, moved.list, tolerance, search, contacts);
     if instant.system.settings.spheres_collide {
         let Search { everyone, some, .. } = search;
-        some.rebuild(moved.list.iter().map(|&i| at(instant, i)), tolerance);
+        if moved.list.len() <= FEW {
+            // More than a few are arranged already, by the search among themselves.
+            some.rebuild(moved.list.iter().map(|&i| at(instant, i)), tolerance);
+        }
         everyone.for_each_pair_with(some, |i, j| {
             if !(moved.contains)(i) {
                 keep(instant.pair(i, j, tolerance), contacts);
             }
         });
-        contacts.sort_unstable_by_key(|contact| contact.bodies);
     }
 }
 
