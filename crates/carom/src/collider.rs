@@ -70,19 +70,38 @@ impl Pose {
         Self { rotation, ..self }
     }
 
+    /// The pose after moving on for `h` \[s\].
+    pub(crate) fn moved(self, velocity: DVec3, angular_velocity: DVec3, h: f64) -> Self {
+        let turn = angular_velocity * h;
+        let angle = turn.dot(turn).sqrt();
+        let rotation = if angle > 0.0 {
+            let (sine, cosine) = libm::sincos(0.5 * angle);
+            let axis = turn / angle;
+            DQuat::from_xyzw(axis.x * sine, axis.y * sine, axis.z * sine, cosine)
+                * self.rotation.normalize()
+        } else {
+            self.rotation
+        };
+        Self { position: self.position + h * velocity, rotation }
+    }
+
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         validate::finite("position", self.position)?;
         validate::rotation("rotation", self.rotation)
     }
 }
 
-/// A shape somewhere in the world that never gives way.
+/// A shape somewhere in the world that never gives way, at rest or moved from outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Collider {
     /// Form in the local frame.
     pub shape: Shape,
     /// Place of the local frame in the world.
     pub pose: Pose,
+    /// Of the origin of the local frame \[m/s\]; a step moves the pose on.
+    pub velocity: DVec3,
+    /// Of the rotation about the origin of the local frame, along its axis \[rad/s\].
+    pub angular_velocity: DVec3,
     /// Coefficient of restitution in \[0, 1\].
     pub restitution: f64,
     /// A trigger reports contact and deflects nothing.
@@ -92,7 +111,20 @@ pub struct Collider {
 impl Collider {
     /// A solid collider with restitution 1.
     pub fn new(shape: Shape, pose: Pose) -> Self {
-        Self { shape, pose, restitution: 1.0, trigger: false }
+        Self {
+            shape,
+            pose,
+            velocity: DVec3::ZERO,
+            angular_velocity: DVec3::ZERO,
+            restitution: 1.0,
+            trigger: false,
+        }
+    }
+
+    /// The same collider, moving: velocity \[m/s\] of its origin, angular velocity \[rad/s\]
+    /// about it. Spheres feel the velocity of the surface where they meet it.
+    pub fn moving(self, velocity: DVec3, angular_velocity: DVec3) -> Self {
+        Self { velocity, angular_velocity, ..self }
     }
 
     /// The same collider with this coefficient of restitution.
@@ -120,6 +152,8 @@ impl Collider {
             }
         }
         self.pose.validate()?;
+        validate::finite("velocity", self.velocity)?;
+        validate::finite("angular_velocity", self.angular_velocity)?;
         validate::unit_interval("restitution", self.restitution)
     }
 }

@@ -51,6 +51,22 @@ impl Colliders {
         removed
     }
 
+    /// Whether any of them moves.
+    pub fn any_moving(&self) -> bool {
+        self.surfaces.iter().any(|surface| !surface.motion.is_at_rest())
+    }
+
+    /// Moves on by `h` \[s\] what moves.
+    pub fn advance(&mut self, h: f64) {
+        if !self.any_moving() {
+            return;
+        }
+        for collider in self.list.values_mut() {
+            collider.pose = collider.pose.moved(collider.velocity, collider.angular_velocity, h);
+        }
+        self.place_all();
+    }
+
     fn place_all(&mut self) {
         self.surfaces.clear();
         for (number, collider) in self.list.iter() {

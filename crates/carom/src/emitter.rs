@@ -82,8 +82,13 @@ impl EmitterState {
         Self { emitter, start, emitted: 0, ring: VecDeque::new() }
     }
 
+    /// When its next sphere is due \[s\].
+    fn due(&self) -> f64 {
+        self.start + self.emitted as f64 * self.emitter.period
+    }
+
     fn is_due(&self, time: f64) -> bool {
-        self.start + self.emitted as f64 * self.emitter.period <= time + DUE_TOLERANCE
+        self.due() <= time + DUE_TOLERANCE
     }
 
     /// Refuses a period so short that one frame would have to emit spheres without end.
@@ -99,6 +104,8 @@ impl EmitterState {
 pub(crate) struct Emission {
     /// Ascending.
     pub emitted: Vec<SphereId>,
+    /// When each was due \[s\].
+    pub due: Vec<f64>,
     /// In the order of leaving.
     pub retired: Vec<SphereId>,
 }
@@ -106,6 +113,11 @@ pub(crate) struct Emission {
 /// Whether any emitter has a sphere due in the frame that starts at `time` \[s\].
 pub(crate) fn any_due(emitters: &Numbered<EmitterState>, time: f64) -> bool {
     emitters.iter().any(|(_, state)| state.is_due(time))
+}
+
+/// When the next sphere of all emitters is due \[s\]; infinite without any.
+pub(crate) fn next_due(emitters: &Numbered<EmitterState>) -> f64 {
+    emitters.iter().map(|(_, state)| state.due()).fold(f64::INFINITY, f64::min)
 }
 
 /// Emits every sphere that is due in the frame that starts at `time` \[s\], emitter by emitter.
@@ -129,6 +141,7 @@ pub(crate) fn emit(
             *next_id += 1;
             spheres.push(id, &sphere);
             emission.emitted.push(id);
+            emission.due.push(state.due());
             if max.is_some() {
                 state.ring.push_back(id);
             }

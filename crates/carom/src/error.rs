@@ -34,6 +34,19 @@ pub enum Error {
         /// Start of the refused step \[s\].
         time: f64,
     },
+    /// More impacts in a step than [`Exact::max_impacts`](crate::Exact::max_impacts) allows.
+    #[error(
+        "sphere {sphere}: more impacts than the {limit} per sphere that `max_impacts` allows in \
+         the step that starts at {time} s; the state before the step was kept"
+    )]
+    TooManyImpacts {
+        /// A sphere that was at work then.
+        sphere: SphereId,
+        /// The bound.
+        limit: u32,
+        /// Start of the refused step \[s\].
+        time: f64,
+    },
 }
 
 /// What an error is about.

@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::bodies::SphereId;
 use crate::collider::ColliderId;
 use crate::detect::contact::{Bodies, Contact};
+use crate::respond::ImpactLaw;
 use crate::system::System;
 
 /// What happened in one step.
@@ -12,6 +13,9 @@ use crate::system::System;
 pub struct StepReport {
     /// Impacts in order of time; at one time in the order in which they were answered.
     pub impacts: Vec<Impact>,
+    /// Under the rule `exact`, the groups of impacts that were answered together, in the order of
+    /// their impacts; see [`Self::ledger`].
+    pub groups: Vec<ImpactGroup>,
     /// Spheres inside triggers, in order of sphere, then collider.
     pub triggers: Vec<TriggerContact>,
     /// Spheres that emitters put into the world, ascending.
@@ -27,11 +31,74 @@ pub struct StepReport {
 impl StepReport {
     pub(crate) fn clear(&mut self) {
         self.impacts.clear();
+        self.groups.clear();
         self.triggers.clear();
         self.emitted.clear();
         self.retired.clear();
         self.unfinished_islands = 0;
     }
+}
+
+impl StepReport {
+    /// Every impact with the group in which it was answered, in order. Empty under rules that keep
+    /// no account of groups.
+    pub fn ledger(&self) -> impl Iterator<Item = LedgerEntry<'_>> {
+        self.groups.iter().flat_map(|group| {
+            let impacts = &self.impacts[group.first..group.first + group.count];
+            impacts.iter().map(move |impact| LedgerEntry { impact, group })
+        })
+    }
+}
+
+/// An impact, and the account of the group in which it was answered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LedgerEntry<'a> {
+    /// The impact.
+    pub impact: &'a Impact,
+    /// The impacts at the same instant among bodies that touch, itself among them.
+    pub group: &'a ImpactGroup,
+}
+
+/// Impacts at one instant among bodies that touch each other, and what they did together.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ImpactGroup {
+    /// Its first impact in [`StepReport::impacts`].
+    pub first: usize,
+    /// How many impacts it is made of.
+    pub count: usize,
+    /// How it was answered. A single impact is the same under every law.
+    pub law: ImpactLaw,
+    /// Momentum of its spheres before \[kg m/s\].
+    pub momentum_before: DVec3,
+    /// Momentum after, less what colliders gave \[kg m/s\]: it differs from that before by
+    /// rounding only.
+    pub momentum_after: DVec3,
+    /// Sum of the sizes of the momenta before, to compare their errors with \[kg m/s\].
+    pub momentum_scale: f64,
+    /// Kinetic energy of its spheres before \[J\].
+    pub energy_before: f64,
+    /// Kinetic energy after, less the work of moving colliders \[J\].
+    pub energy_after: f64,
+    /// Change of the kinetic energy that the coefficients of restitution demand \[J\], <= 0.
+    pub energy_demanded: f64,
+}
+
+impl ImpactGroup {
+    /// Size of the error of momentum, relative to the momenta at work.
+    pub fn momentum_error(&self) -> f64 {
+        relative((self.momentum_after - self.momentum_before).length(), self.momentum_scale)
+    }
+
+    /// Change of energy beyond what restitution demands, relative to the energy before.
+    pub fn energy_error(&self) -> f64 {
+        let error = self.energy_after - self.energy_before - self.energy_demanded;
+        relative(error.abs(), self.energy_before)
+    }
+}
+
+/// `error / scale`, and 0 for no error of nothing.
+fn relative(error: f64, scale: f64) -> f64 {
+    if error == 0.0 { 0.0 } else { error / scale }
 }
 
 /// Who met.
@@ -74,6 +141,9 @@ pub struct Impact {
     pub normal: DVec3,
     /// Speed of approach along the normal before the impact \[m/s\], > 0.
     pub approach_speed: f64,
+    /// Speed of separation along the normal after the impact \[m/s\], and after all others at the
+    /// same instant in its group; > 0 where the bodies part.
+    pub separation_speed: f64,
     /// Impulse on body 2 along the normal, and against it on body 1 \[N s\].
     pub impulse: f64,
 }

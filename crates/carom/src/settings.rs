@@ -1,7 +1,10 @@
 //! How a world is stepped: values chosen per scene.
 
+use glam::DVec3;
+
 use crate::error::InvalidValue;
 use crate::integrate::Integrator;
+use crate::respond::ImpactLaw;
 use crate::rule::Rule;
 use crate::validate;
 
@@ -16,24 +19,65 @@ pub struct Settings {
     pub restitution_rule: RestitutionRule,
     /// Whether spheres collide with one another; fixed colliders they always collide with.
     pub spheres_collide: bool,
+    /// How impacts at one instant in one group of touching bodies are answered.
+    pub impact_law: ImpactLaw,
+    /// What is around the spheres.
+    pub boundary: Boundary,
+}
+
+/// What is around the spheres, besides colliders.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Boundary {
+    /// Nothing: space without end.
+    #[default]
+    Open,
+    /// A box about the origin that repeats itself: what leaves through a face comes in through the
+    /// opposite one, and spheres meet across faces. Only under the rule `exact`.
+    Periodic {
+        /// Edges \[m\], each > 0; infinite along an axis that is open.
+        size: DVec3,
+    },
+}
+
+impl Boundary {
+    /// Edges of the periodic box \[m\], infinite along open axes.
+    pub(crate) fn period(self) -> DVec3 {
+        match self {
+            Self::Open => DVec3::INFINITY,
+            Self::Periodic { size } => size,
+        }
+    }
 }
 
 impl Default for Settings {
-    /// Rule `bisect`, semi-implicit Euler, product of restitutions, spheres collide.
+    /// Rule `exact`, impact law `reflection`, product of restitutions, spheres collide, open space.
     fn default() -> Self {
         Self {
             rule: Rule::default(),
             integrator: Integrator::default(),
             restitution_rule: RestitutionRule::default(),
             spheres_collide: true,
+            impact_law: ImpactLaw::default(),
+            boundary: Boundary::default(),
         }
     }
 }
 
 impl Settings {
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
+        if let Boundary::Periodic { size } = self.boundary {
+            let requirement = "positive along every axis; infinite where it is open";
+            validate::require(size.cmpgt(DVec3::ZERO).all(), "size", requirement, size)?;
+            let is_exact = matches!(self.rule, Rule::Exact(_));
+            let requirement = "used with the rule `exact`: others know no periodic box";
+            validate::require(is_exact, "boundary", requirement, "periodic")?;
+        }
         match self.rule {
             Rule::Discrete => Ok(()),
+            Rule::Exact(parameters) => {
+                validate::positive("contact_duration", parameters.contact_duration)?;
+                validate::at_least_one("max_impacts", parameters.max_impacts)
+            }
             Rule::Bisect(parameters) => {
                 validate::non_negative("tolerance", parameters.tolerance)?;
                 validate::at_least_one("max_halvings", parameters.max_halvings)?;

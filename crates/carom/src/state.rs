@@ -6,10 +6,12 @@ use crate::bodies::{Motion, Spheres};
 use crate::clock::Clock;
 use crate::colliders::Colliders;
 use crate::detect::instant::Instant;
-use crate::emitter::{EmitterId, EmitterState};
+use crate::emitter::{self, Emission, EmitterId, EmitterState};
 use crate::error::{Error, Subject};
 use crate::forces::Force;
 use crate::numbered::Numbered;
+use crate::report::StepReport;
+use crate::rule::exact::{self, Span, Timeline, TooManyImpacts};
 use crate::settings::Settings;
 use crate::system::System;
 
@@ -24,6 +26,9 @@ pub(crate) struct State {
     pub spheres: Spheres,
     /// The id of the next sphere.
     pub next_id: u64,
+    /// Under the rule `exact`, the flights of the spheres; `None` where they have to begin anew,
+    /// from the spheres as they are.
+    pub timeline: Option<Timeline>,
 }
 
 impl State {
@@ -36,9 +41,66 @@ impl State {
 
     /// All spheres as they are now.
     pub fn now(&self) -> Instant<'_> {
+        self.at(self.clock.seconds())
+    }
+
+    /// All spheres as they are, when the time is said to be `time` \[s\].
+    pub fn at(&self, time: f64) -> Instant<'_> {
         let properties = &self.spheres.properties;
         let system = System::new(&self.settings, &self.forces, &self.colliders, properties);
-        Instant { system, motion: &self.spheres.motion, time: self.clock.seconds() }
+        Instant { system, motion: &self.spheres.motion, time }
+    }
+
+    /// The state, to be changed from outside: nothing that was predicted holds any more.
+    pub fn changed(&mut self) -> &mut Self {
+        self.timeline = None;
+        self
+    }
+
+    /// Emits the spheres that are due at `time` \[s\]; those that are there fly on.
+    pub fn emit(&mut self, time: f64) -> Emission {
+        let ids = self.timeline.is_some().then(|| self.spheres.ids().to_vec());
+        let Self { emitters, spheres, next_id, .. } = self;
+        let emission = emitter::emit(emitters, spheres, next_id, time);
+        if let (Some(timeline), Some(ids)) = (self.timeline.take(), ids) {
+            let (system, motion) = self.split();
+            let due = |id| match emission.emitted.binary_search(&id) {
+                Ok(place) => emission.due[place],
+                Err(_) => time,
+            };
+            self.timeline = Some(Timeline::adopt(&timeline, &ids, &system, motion, due));
+        }
+        emission
+    }
+
+    /// Prepares for a frame from and to these times \[s\] under the rule `exact`.
+    pub fn begin_frame(&mut self, frame: [f64; 2]) {
+        let timeline = self.timeline.take();
+        let (system, motion) = self.split();
+        let mut timeline = timeline.unwrap_or_else(|| Timeline::new(&system, motion, frame[0]));
+        timeline.begin_frame(&system, frame);
+        self.timeline = Some(timeline);
+    }
+
+    /// Takes a part of a frame by the rule `exact`.
+    pub fn advance_exactly(&mut self, span: Span, report: &mut StepReport) -> Result<(), Error> {
+        let Some(mut timeline) = self.timeline.take() else { return Ok(()) };
+        let (system, _) = self.split();
+        let advanced = exact::advance(&system, &mut timeline, span, report);
+        self.timeline = Some(timeline);
+        advanced.map_err(|TooManyImpacts { sphere, limit }| Error::TooManyImpacts {
+            sphere,
+            limit,
+            time: span.start,
+        })
+    }
+
+    /// Puts all spheres where they are at the end of a frame under the rule `exact`.
+    pub fn end_frame(&mut self, end: f64) {
+        if let Some(timeline) = &self.timeline {
+            let period = self.settings.boundary.period();
+            timeline.write_motion(&mut self.spheres.motion, period, end);
+        }
     }
 
     /// Refuses positions or velocities that are not finite.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::collider::{Collider, ColliderId, Shape};
+use crate::collider::{Collider, ColliderId, Pose, Shape};
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,6 +11,59 @@ pub(crate) struct Surface {
     pub collider: ColliderId,
     pub restitution: f64,
     pub role: Role,
+    pub motion: SurfaceMotion,
+}
+
+/// How a surface moves: it turns about `origin`, which moves itself.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct SurfaceMotion {
+    /// Now \[m\].
+    pub origin: DVec3,
+    /// \[m/s\]
+    pub velocity: DVec3,
+    /// Along the axis of rotation \[rad/s\].
+    pub angular_velocity: DVec3,
+}
+
+impl SurfaceMotion {
+    pub fn is_at_rest(&self) -> bool {
+        self.velocity == DVec3::ZERO && self.angular_velocity == DVec3::ZERO
+    }
+
+    /// Velocity \[m/s\] of the surface at a point of it.
+    pub fn velocity_at(&self, point: DVec3) -> DVec3 {
+        self.velocity + self.angular_velocity.cross(point - self.origin)
+    }
+}
+
+impl Surface {
+    /// Geometry and motion of the surface after `h` \[s\].
+    pub fn after(&self, h: f64) -> (Form, SurfaceMotion) {
+        if self.motion.is_at_rest() {
+            return (self.form, self.motion);
+        }
+        let SurfaceMotion { origin, velocity, angular_velocity } = self.motion;
+        let pose = Pose::at(origin).moved(velocity, angular_velocity, h);
+        let place = |point: DVec3| pose.position + pose.rotation * (point - origin);
+        let turn = |direction: DVec3| pose.rotation * direction;
+        let form = match self.form {
+            Form::Sphere { center, radius } => Form::Sphere { center: place(center), radius },
+            Form::HalfSpace { point, normal } => {
+                Form::HalfSpace { point: place(point), normal: turn(normal) }
+            }
+            Form::Rectangle(r) => Form::Rectangle(Rectangle {
+                center: place(r.center),
+                axis_x: turn(r.axis_x),
+                axis_z: turn(r.axis_z),
+                normal: turn(r.normal),
+                ..r
+            }),
+            Form::Box(b) => {
+                Form::Box(SolidBox { center: place(b.center), axes: b.axes.map(turn), ..b })
+            }
+        };
+        (form, SurfaceMotion { origin: pose.position, ..self.motion })
+    }
 }
 
 /// What a surface is for.
@@ -62,13 +115,14 @@ pub(crate) struct Rectangle {
 /// Appends the surfaces of a collider. Those of a solid box are its volume and then its faces, in
 /// the order -x, +x, -y, +y, -z, +z.
 pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surface>) {
-    let Collider { shape, pose, restitution, trigger } = *collider;
+    let Collider { shape, pose, velocity, angular_velocity, restitution, trigger } = *collider;
     let center = pose.position;
+    let motion = SurfaceMotion { origin: center, velocity, angular_velocity };
     let rotation = pose.rotation.normalize();
     let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
     let mut add = |form, role| {
         let role = if trigger { Role::Reports } else { role };
-        surfaces.push(Surface { form, collider: id, restitution, role });
+        surfaces.push(Surface { form, collider: id, restitution, role, motion });
     };
     match shape {
         Shape::Sphere { radius } => add(Form::Sphere { center, radius }, Role::Deflects),

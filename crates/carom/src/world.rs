@@ -7,15 +7,16 @@ use glam::DVec3;
 use crate::bodies::{Motion, Sphere, SphereId, Spheres};
 use crate::collider::{Collider, ColliderId, Pose};
 use crate::detect::contacts::{self, Search};
-use crate::emitter::{self, Emission, Emitter, EmitterId, EmitterState};
+use crate::emitter::{self, Emitter, EmitterId, EmitterState};
 use crate::error::{Error, Subject};
 use crate::forces::{Force, ForceId};
 use crate::hash::{self, StateHash};
 use crate::interval::Interval;
 use crate::invariants;
 use crate::numbered::Numbered;
-use crate::report::{Overlap, StepReport};
-use crate::rule::{self, Scratch};
+use crate::report::{Overlap, StepReport, TriggerContact};
+use crate::rule::exact::Span;
+use crate::rule::{self, Rule, Scratch};
 use crate::settings::Settings;
 use crate::state::State;
 use crate::validate;
@@ -42,6 +43,7 @@ pub struct World {
     state: State,
     report: StepReport,
     scratch: Scratch,
+    search: Search,
     /// Motion at the start of the step, to return to if it fails.
     start: Motion,
 }
@@ -97,35 +99,73 @@ impl World {
         validate::require(clock.seconds().is_finite(), "dt", requirement, dt)
             .map_err(|invalid| invalid.about(Subject::Step))?;
 
-        let before_emission = self.emit();
+        let mut before_emission = None;
         self.start.copy_all(&self.state.spheres.motion);
-        let frame = Interval { time: self.time(), h: dt };
-        let (system, motion) = self.state.split();
-        rule::step(&system, motion, frame, &mut self.scratch, &mut self.report);
-
-        if let Err(error) = self.state.check_finite() {
+        let moved = match self.state.settings.rule {
+            Rule::Exact(_) => self.advance_exactly(clock.seconds(), &mut before_emission),
+            Rule::Discrete | Rule::Bisect(_) => {
+                self.advance_by_frame(dt, &mut before_emission);
+                Ok(())
+            }
+        };
+        if let Err(error) = moved.and_then(|()| self.state.check_finite()) {
             match before_emission {
                 Some(before) => before.restore(&mut self.state),
                 None => std::mem::swap(&mut self.state.spheres.motion, &mut self.start),
             }
+            self.state.timeline = None;
             self.report.clear();
             return Err(error);
         }
         self.state.clock = clock;
+        self.state.colliders.advance(dt);
         Ok(&self.report)
     }
 
-    /// Emits the spheres that are due; if there are any, gives what was before.
-    fn emit(&mut self) -> Option<BeforeEmission> {
-        let time = self.time();
-        if !emitter::any_due(&self.state.emitters, time) {
-            return None;
+    /// Takes a frame of `dt` \[s\] by a rule that knows nothing but frames.
+    fn advance_by_frame(&mut self, dt: f64, before: &mut Option<BeforeEmission>) {
+        let frame = Interval { time: self.time(), h: dt };
+        self.emit(frame.time, before);
+        let (system, motion) = self.state.split();
+        rule::step(&system, motion, frame, &mut self.scratch, &mut self.report);
+    }
+
+    /// Takes a frame until `end` \[s\] by the rule `exact`. What emitters have due within the frame
+    /// comes at its own time.
+    fn advance_exactly(
+        &mut self,
+        end: f64,
+        before: &mut Option<BeforeEmission>,
+    ) -> Result<(), Error> {
+        let start = self.time();
+        self.state.begin_frame([start, end]);
+        self.emit(start, before);
+        loop {
+            let due = emitter::next_due(&self.state.emitters);
+            let span = Span { start, end: due.min(end) };
+            self.state.advance_exactly(span, &mut self.report)?;
+            if due >= end {
+                break;
+            }
+            self.emit(due, before);
         }
-        let before = BeforeEmission::of(&self.state);
-        let State { emitters, spheres, next_id, .. } = &mut self.state;
-        let Emission { emitted, retired } = emitter::emit(emitters, spheres, next_id, time);
-        (self.report.emitted, self.report.retired) = (emitted, retired);
-        Some(before)
+        self.state.end_frame(end);
+        let now = self.state.at(end);
+        contacts::of_triggers(&now, 0.0, &mut self.search, |contact| {
+            self.report.triggers.extend(TriggerContact::of(&contact, &now.system));
+        });
+        Ok(())
+    }
+
+    /// Emits the spheres that are due at `time` \[s\]; notes what was before, the first time.
+    fn emit(&mut self, time: f64, before: &mut Option<BeforeEmission>) {
+        if !emitter::any_due(&self.state.emitters, time) {
+            return;
+        }
+        before.get_or_insert_with(|| BeforeEmission::of(&self.state));
+        let emission = self.state.emit(time);
+        self.report.emitted.extend(emission.emitted);
+        self.report.retired.extend(emission.retired);
     }
 
     /// What happened in the last step.
@@ -149,7 +189,7 @@ impl World {
     /// [`Error::Invalid`] for a parameter of the rule that makes no sense.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
         settings.validate().map_err(|invalid| invalid.about(Subject::Settings))?;
-        self.state.settings = settings;
+        self.state.changed().settings = settings;
         Ok(())
     }
 
@@ -160,8 +200,9 @@ impl World {
     pub fn add_sphere(&mut self, sphere: Sphere) -> Result<SphereId, Error> {
         let id = SphereId(self.state.next_id);
         sphere.validate().map_err(|invalid| invalid.about(Subject::Sphere(id)))?;
-        self.state.spheres.push(id, &sphere);
-        self.state.next_id += 1;
+        let state = self.state.changed();
+        state.spheres.push(id, &sphere);
+        state.next_id += 1;
         Ok(id)
     }
 
@@ -186,7 +227,7 @@ impl World {
     pub fn set_sphere(&mut self, id: SphereId, sphere: Sphere) -> Result<(), Error> {
         let index = self.index_of(id)?;
         sphere.validate().map_err(|invalid| invalid.about(Subject::Sphere(id)))?;
-        self.state.spheres.set(index, &sphere);
+        self.state.changed().spheres.set(index, &sphere);
         Ok(())
     }
 
@@ -197,7 +238,7 @@ impl World {
     pub fn remove_sphere(&mut self, id: SphereId) -> Result<Sphere, Error> {
         let index = self.index_of(id)?;
         let sphere = self.state.spheres.get(index);
-        self.state.spheres.remove_all(&[id]);
+        self.state.changed().spheres.remove_all(&[id]);
         Ok(sphere)
     }
 
@@ -212,7 +253,7 @@ impl World {
     pub fn add_force(&mut self, force: impl Force + 'static) -> Result<ForceId, Error> {
         let id = ForceId(self.state.forces.next_number());
         force.validate().map_err(|invalid| invalid.about(Subject::Force(id)))?;
-        self.state.forces.push(Arc::new(force));
+        self.state.changed().forces.push(Arc::new(force));
         Ok(id)
     }
 
@@ -228,9 +269,10 @@ impl World {
     /// its own parameters.
     pub fn set_force(&mut self, id: ForceId, force: impl Force + 'static) -> Result<(), Error> {
         let unknown = Error::Unknown(Subject::Force(id));
-        let place = self.state.forces.get_mut(id.0).ok_or(unknown)?;
         force.validate().map_err(|invalid| invalid.about(Subject::Force(id)))?;
+        let place = self.state.forces.get_mut(id.0).ok_or(unknown)?;
         *place = Arc::new(force);
+        self.state.changed();
         Ok(())
     }
 
@@ -239,7 +281,7 @@ impl World {
     /// # Errors
     /// [`Error::Unknown`] if there is no such force.
     pub fn remove_force(&mut self, id: ForceId) -> Result<(), Error> {
-        let removed = self.state.forces.remove(id.0);
+        let removed = self.state.changed().forces.remove(id.0);
         removed.map(drop).ok_or(Error::Unknown(Subject::Force(id)))
     }
 
@@ -250,7 +292,7 @@ impl World {
     pub fn add_collider(&mut self, collider: Collider) -> Result<ColliderId, Error> {
         let id = ColliderId(self.state.colliders.list().next_number());
         collider.validate().map_err(|invalid| invalid.about(Subject::Collider(id)))?;
-        self.state.colliders.push(collider);
+        self.state.changed().colliders.push(collider);
         Ok(id)
     }
 
@@ -276,7 +318,7 @@ impl World {
     pub fn set_collider(&mut self, id: ColliderId, collider: Collider) -> Result<(), Error> {
         self.collider(id)?;
         collider.validate().map_err(|invalid| invalid.about(Subject::Collider(id)))?;
-        self.state.colliders.set(id, collider);
+        self.state.changed().colliders.set(id, collider);
         Ok(())
     }
 
@@ -293,7 +335,7 @@ impl World {
     /// # Errors
     /// [`Error::Unknown`] if there is no such collider.
     pub fn remove_collider(&mut self, id: ColliderId) -> Result<Collider, Error> {
-        self.state.colliders.remove(id).ok_or(Error::Unknown(Subject::Collider(id)))
+        self.state.changed().colliders.remove(id).ok_or(Error::Unknown(Subject::Collider(id)))
     }
 
     /// Adds an emitter; its first sphere is due now.

@@ -11,6 +11,13 @@ pub(crate) enum Bodies {
     Surface { sphere: u32, surface: u32 },
 }
 
+impl Bodies {
+    /// Two spheres, in whatever order.
+    pub fn pair([i, j]: [u32; 2]) -> Self {
+        Self::Pair(i.min(j), i.max(j))
+    }
+}
+
 /// Two bodies and how they stand to each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Contact {

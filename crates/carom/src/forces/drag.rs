@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::{Force, SphereState};
+use super::{Force, LinearForce, SphereState};
 use crate::error::InvalidValue;
 use crate::validate;
 
@@ -21,6 +21,10 @@ impl ViscousDrag {
 impl Force for ViscousDrag {
     fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
         -self.coefficient * sphere.velocity
+    }
+
+    fn linear(&self, _radius: f64, mass: f64) -> Option<LinearForce> {
+        Some(LinearForce { acceleration: DVec3::ZERO, drag_rate: self.coefficient / mass })
     }
 
     fn validate(&self) -> Result<(), InvalidValue> {

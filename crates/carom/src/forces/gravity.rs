@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::{Force, SphereState};
+use super::{Force, LinearForce, SphereState};
 use crate::error::InvalidValue;
 use crate::validate;
 
@@ -26,6 +26,10 @@ impl Force for Gravity {
     /// `-m g · x`, zero at the origin.
     fn potential_energy(&self, sphere: &SphereState, _time: f64) -> f64 {
         -sphere.mass * self.acceleration.dot(sphere.position)
+    }
+
+    fn linear(&self, _radius: f64, _mass: f64) -> Option<LinearForce> {
+        Some(LinearForce { acceleration: self.acceleration, drag_rate: 0.0 })
     }
 
     fn validate(&self) -> Result<(), InvalidValue> {

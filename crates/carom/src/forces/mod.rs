@@ -27,6 +27,15 @@ pub trait Force: Debug + Send + Sync {
     /// Force \[N\] on a sphere in this state, at this time \[s\] of the world's clock.
     fn on(&self, sphere: &SphereState, time: f64) -> DVec3;
 
+    /// The same force as a constant acceleration and a linear drag, for spheres of this `radius`
+    /// \[m\] and `mass` \[kg\]; `None` (the default) for a force that depends on more than that.
+    ///
+    /// The rule `exact` moves spheres under such forces in closed form; any other force it holds
+    /// constant over a frame.
+    fn linear(&self, _radius: f64, _mass: f64) -> Option<LinearForce> {
+        None
+    }
+
     /// Potential energy \[J\] of a sphere in this state; 0 (the default) where there is none.
     fn potential_energy(&self, _sphere: &SphereState, _time: f64) -> f64 {
         0.0
@@ -39,6 +48,15 @@ pub trait Force: Debug + Send + Sync {
     fn validate(&self) -> Result<(), InvalidValue> {
         Ok(())
     }
+}
+
+/// A force `m a - m c v`: a constant acceleration a, and a drag of rate c.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearForce {
+    /// a \[m/s²\]
+    pub acceleration: DVec3,
+    /// c, the coefficient of drag divided by the mass \[1/s\], >= 0.
+    pub drag_rate: f64,
 }
 
 /// What a force may depend on.
@@ -67,4 +85,36 @@ impl Display for ForceId {
 /// Sum of all forces \[N\] on a sphere, added in the order in which they entered the world.
 pub(crate) fn total(forces: &Numbered<Arc<dyn Force>>, sphere: &SphereState, time: f64) -> DVec3 {
     forces.iter().fold(DVec3::ZERO, |sum, (_, force)| sum + force.on(sphere, time))
+}
+
+/// Sum of all linear forces on spheres of this `radius` \[m\] and `mass` \[kg\], added in the order in
+/// which they entered the world, and whether there are no others.
+pub(crate) fn total_linear(
+    forces: &Numbered<Arc<dyn Force>>,
+    radius: f64,
+    mass: f64,
+) -> (LinearForce, bool) {
+    let mut total = LinearForce { acceleration: DVec3::ZERO, drag_rate: 0.0 };
+    let mut is_all = true;
+    for (_, force) in forces.iter() {
+        match force.linear(radius, mass) {
+            Some(linear) => {
+                total.acceleration += linear.acceleration;
+                total.drag_rate += linear.drag_rate;
+            }
+            None => is_all = false,
+        }
+    }
+    (total, is_all)
+}
+
+/// Sum of the forces \[N\] that are not linear on a sphere.
+pub(crate) fn total_of_others(
+    forces: &Numbered<Arc<dyn Force>>,
+    sphere: &SphereState,
+    time: f64,
+) -> DVec3 {
+    let others =
+        forces.iter().filter(|(_, force)| force.linear(sphere.radius, sphere.mass).is_none());
+    others.fold(DVec3::ZERO, |sum, (_, force)| sum + force.on(sphere, time))
 }

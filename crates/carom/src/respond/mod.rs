@@ -1,5 +1,6 @@
 //! What an impact does to velocities. One file per law.
 
+pub mod group;
 mod line_of_centres;
 mod reflection;
 
@@ -45,7 +46,7 @@ pub(crate) fn answer_plastically(
 }
 
 /// Restitution of a contact, from those of its bodies.
-fn restitution_of(bodies: Bodies, system: &System) -> f64 {
+pub(crate) fn restitution_of(bodies: Bodies, system: &System) -> f64 {
     let of_sphere = |sphere: u32| system.spheres.restitution[sphere as usize];
     let (e1, e2) = match bodies {
         Bodies::Pair(first, second) => (of_sphere(first), of_sphere(second)),
@@ -65,7 +66,7 @@ fn answer_with(
 ) -> Option<Impact> {
     let Separation { normal, point, .. } = contact.separation;
     let (velocity, mass) = (&mut motion.velocity, &system.spheres.mass);
-    let (approach_speed, impulse) = match contact.bodies {
+    let (approach_speed, separation_speed, impulse) = match contact.bodies {
         Bodies::Pair(i, j) => {
             let (i, j) = (i as usize, j as usize);
             let approach_speed = -(velocity[j] - velocity[i]).dot(normal);
@@ -73,18 +74,20 @@ fn answer_with(
             let (after, impulse) =
                 line_of_centres(before, [mass[i], mass[j]], normal, restitution)?;
             [velocity[i], velocity[j]] = after;
-            (approach_speed, impulse)
+            (approach_speed, (velocity[j] - velocity[i]).dot(normal), impulse)
         }
-        Bodies::Surface { sphere, .. } => {
+        Bodies::Surface { sphere, surface } => {
             let i = sphere as usize;
-            let approach_speed = -velocity[i].dot(normal);
-            let change = reflection(velocity[i], normal, restitution)?;
+            let of_surface = system.surfaces[surface as usize].motion.velocity_at(point);
+            let relative = velocity[i] - of_surface;
+            let change = reflection(relative, normal, restitution)?;
             velocity[i] += change * normal;
-            (approach_speed, mass[i] * change)
+            let separation_speed = (velocity[i] - of_surface).dot(normal);
+            (-relative.dot(normal), separation_speed, mass[i] * change)
         }
     };
     let between = Participants::of(contact.bodies, system);
-    Some(Impact { time, between, point, normal, approach_speed, impulse })
+    Some(Impact { time, between, point, normal, approach_speed, separation_speed, impulse })
 }
 
 /// Puts a sphere that hit a flat surface onto it, in place of the normal force that would keep
@@ -98,4 +101,13 @@ pub(crate) fn put_on_surface(contact: &Contact, system: &System, motion: &mut Mo
         motion.position[sphere as usize] = point + system.spheres.radius[sphere as usize] * normal;
     }
     is_flat
+}
+
+/// placeholder until merged
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ImpactLaw {
+    Sequential,
+    Simultaneous,
+    #[default]
+    Reflection,
 }

@@ -1,0 +1,81 @@
+//! Spheres as the rule keeps them: in flight since their last event.
+
+use glam::DVec3;
+
+use crate::flight::Flight;
+
+/// One sphere in flight: all that a prediction reads of it, in one line of cache.
+///
+/// It is moved only when something happens to it, so where it is follows from this alone, however
+/// many frames have passed since.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C, align(64))]
+pub(super) struct Body {
+    /// Centre at `time` \[m\]. In a periodic box it counts on across the faces.
+    pub position: DVec3,
+    /// Velocity at `time` \[m/s\].
+    pub velocity: DVec3,
+    /// Start of the flight, on the world's clock \[s\].
+    pub time: f64,
+    /// Its place among the [`Kinds`].
+    pub kind: u32,
+    /// How often its flight began anew: a prediction made with another number is void.
+    pub flights: u32,
+}
+
+/// What spheres of one kind share: constants of their flight and of their impacts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Kind {
+    /// \[m\]
+    pub radius: f64,
+    /// \[kg\]
+    pub mass: f64,
+    pub restitution: f64,
+    /// Of everything but drag \[m/s²\]; with the forces of lasting contacts.
+    pub acceleration: DVec3,
+    /// k / m \[1/s\]
+    pub drag_rate: f64,
+    /// Size class of the cells that hold it.
+    pub level: u32,
+    /// The cluster whose lasting contacts bear it. Such a sphere is of a kind of its own.
+    pub cluster: Option<u32>,
+    /// Itself, or what it is without contact forces.
+    pub free: u32,
+}
+
+impl Kind {
+    /// Whether two spheres see each other move in a straight line at constant speed.
+    #[inline(always)]
+    pub fn flies_like(&self, other: &Self) -> bool {
+        self.acceleration == other.acceleration && self.drag_rate == 0.0 && other.drag_rate == 0.0
+    }
+}
+
+impl Body {
+    /// The flight from its start, whose own time is 0 there.
+    pub fn flight(&self, kind: &Kind) -> Flight {
+        Flight {
+            position: self.position,
+            velocity: self.velocity,
+            acceleration: kind.acceleration,
+            drag_rate: kind.drag_rate,
+        }
+    }
+
+    /// Centre \[m\] and velocity \[m/s\] at `time` \[s\].
+    pub fn state_at(&self, kind: &Kind, time: f64) -> (DVec3, DVec3) {
+        self.flight(kind).after(time - self.time)
+    }
+
+    /// The flight from `time` \[s\] on.
+    pub fn flight_from(&self, kind: &Kind, time: f64) -> Flight {
+        let (position, velocity) = self.state_at(kind, time);
+        Flight { position, velocity, ..self.flight(kind) }
+    }
+
+    /// Ends the flight and begins another from this state, at `time` \[s\].
+    pub fn begin_flight(&mut self, position: DVec3, velocity: DVec3, time: f64) {
+        (self.position, self.velocity, self.time) = (position, velocity, time);
+        self.flights = self.flights.wrapping_add(1);
+    }
+}

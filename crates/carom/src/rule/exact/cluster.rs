@@ -1,0 +1,69 @@
+//! Clusters: spheres that stay in contact with each other and with surfaces.
+
+use glam::DVec3;
+
+use crate::detect::contact::Bodies;
+
+/// Spheres held together by lasting contacts. Its forces hold until `renewal` or until something
+/// happens to one of its spheres.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Cluster {
+    /// By slot, in the order of their indices. The first one bears the event of renewal.
+    pub members: Vec<u32>,
+    /// By index, ascending, with the shift from where body 2 counts to where body 1 does \[m\].
+    pub contacts: Vec<(Bodies, DVec3)>,
+    /// When its forces have to be found anew, on the world's clock \[s\].
+    pub renewal: f64,
+}
+
+/// All clusters, by number; numbers are used again.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Clusters {
+    clusters: Vec<Cluster>,
+    free: Vec<u32>,
+}
+
+impl Clusters {
+    pub fn get(&self, number: u32) -> &Cluster {
+        &self.clusters[number as usize]
+    }
+
+    pub fn add(&mut self, cluster: Cluster) -> u32 {
+        match self.free.pop() {
+            Some(number) => {
+                self.clusters[number as usize] = cluster;
+                number
+            }
+            None => {
+                self.clusters.push(cluster);
+                self.clusters.len() as u32 - 1
+            }
+        }
+    }
+
+    /// Removes a cluster, if it was not removed before.
+    pub fn remove(&mut self, number: u32) {
+        let cluster = &mut self.clusters[number as usize];
+        if !cluster.members.is_empty() {
+            *cluster = Cluster::default();
+            self.free.push(number);
+        }
+    }
+
+    /// Tells where the spheres are now.
+    pub fn renumber(&mut self, new_slot: impl Fn(u32) -> u32) {
+        for slot in self.clusters.iter_mut().flat_map(|cluster| &mut cluster.members) {
+            *slot = new_slot(*slot);
+        }
+    }
+
+    pub fn contains(&self, number: u32, bodies: Bodies) -> bool {
+        self.get(number).contacts.binary_search_by_key(&bodies, |contact| contact.0).is_ok()
+    }
+
+    /// When a cluster is renewed, for the member that bears the event; never for the others.
+    pub fn renewal_by(&self, number: u32, slot: u32) -> f64 {
+        let cluster = self.get(number);
+        if cluster.members.first() == Some(&slot) { cluster.renewal } else { f64::INFINITY }
+    }
+}

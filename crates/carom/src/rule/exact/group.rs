@@ -1,0 +1,164 @@
+//! Groups of bodies that touch at one instant: their impacts are answered together, and contacts
+//! that would not part again become lasting ones.
+
+use glam::DVec3;
+
+use super::body::Kind;
+use super::stage::Stage;
+use super::support::{self, Support};
+use super::timeline::Timeline;
+use super::touch::{self, Touch};
+use super::{cells, predict};
+use crate::detect::contact::Bodies;
+use crate::flight::Flight;
+use crate::report::{Impact, ImpactGroup, Participants};
+use crate::respond;
+use crate::respond::group::TouchingContact;
+use crate::sum::Sum;
+
+/// Bodies that touch at one instant.
+pub(super) struct Group {
+    /// On the world's clock \[s\].
+    pub time: f64,
+    /// Ascending by index.
+    pub members: Vec<Member>,
+    /// In the order of their bodies.
+    pub touches: Vec<Touch>,
+    /// Largest speed among the members as they came \[m/s\].
+    pub fastest: f64,
+}
+
+/// A sphere of a group.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Member {
+    pub slot: u32,
+    /// Centre \[m\] and velocity \[m/s\] at the instant.
+    pub position: DVec3,
+    pub velocity: DVec3,
+    /// Free of contact forces.
+    pub kind: Kind,
+}
+
+impl Member {
+    /// The sphere after `h` \[s\] under this acceleration of everything but drag \[m/s²\].
+    pub fn after(&self, acceleration: DVec3, h: f64) -> Self {
+        let Self { position, velocity, kind, .. } = *self;
+        let flight = Flight { position, velocity, acceleration, drag_rate: kind.drag_rate };
+        let (position, velocity) = flight.after(h);
+        Self { position, velocity, ..*self }
+    }
+}
+
+/// Answers what happens at `time` \[s\] among the spheres at `seeds`, the surface they met, if any,
+/// and all that touch them.
+pub(super) fn answer(
+    timeline: &mut Timeline,
+    stage: &mut Stage,
+    seeds: &[u32],
+    surface: Option<u32>,
+    time: f64,
+) {
+    let mut group = touch::gather(timeline, stage, seeds, surface, time);
+    respond_to_impacts(timeline, stage, &mut group);
+    let supports = support::find(stage, &mut group);
+    begin_flights(timeline, stage, &group, supports);
+}
+
+/// Gives every closing contact its impulse, by the impact law, and writes them down.
+fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group) {
+    let contacts = contacts_of(timeline, stage, group);
+    let is_closing = |touch: &Touch| touch.normal_velocity(&group.members) < 0.0;
+    if !group.touches.iter().any(is_closing) {
+        return;
+    }
+    let approach: Vec<f64> =
+        group.touches.iter().map(|touch| -touch.normal_velocity(&group.members)).collect();
+    let masses: Vec<f64> = group.members.iter().map(|member| member.kind.mass).collect();
+    let before: Vec<DVec3> = group.members.iter().map(|member| member.velocity).collect();
+    let mut after = before.clone();
+    let response =
+        respond::group::resolve(stage.system.settings.impact_law, &contacts, &masses, &mut after);
+    for (member, velocity) in group.members.iter_mut().zip(&after) {
+        member.velocity = *velocity;
+    }
+    let mut account = account_of([&before, &after], &masses);
+    account.energy_demanded = response.demanded_energy_change;
+    let mut impacts = Vec::new();
+    for ((touch, &impulse), approach_speed) in
+        group.touches.iter().zip(&response.impulses).zip(approach)
+    {
+        if impulse <= 0.0 {
+            continue;
+        }
+        if matches!(touch.bodies, Bodies::Surface { .. }) {
+            account.momentum_after -= impulse * touch.normal;
+            account.energy_after -= impulse * touch.normal.dot(touch.surface_velocity);
+        }
+        impacts.push(Impact {
+            time: group.time - stage.start,
+            between: Participants::of(touch.bodies, stage.system),
+            point: cells::folded(touch.point, stage.period),
+            normal: touch.normal,
+            approach_speed,
+            separation_speed: touch.normal_velocity(&group.members),
+            impulse,
+        });
+    }
+    stage.record(&impacts, account);
+}
+
+/// The touches as the impact laws take them.
+fn contacts_of(timeline: &Timeline, stage: &Stage, group: &Group) -> Vec<TouchingContact> {
+    let body = |place: usize| &timeline.bodies[group.members[place].slot as usize];
+    let contact = |touch: &Touch| {
+        let own = |place: usize| group.members[place].kind.restitution;
+        let restitution = match (touch.first, touch.bodies) {
+            (Some(first), _) => {
+                let restitution = stage.restitution_rule().combine(own(first), own(touch.second));
+                let bodies = [body(first), body(touch.second)];
+                stage.restitution_at(bodies, restitution, group.time)
+            }
+            (None, bodies) => {
+                let restitution = respond::restitution_of(bodies, stage.system);
+                stage.restitution_at([body(touch.second)], restitution, group.time)
+            }
+        };
+        TouchingContact { restitution, ..touch.contact() }
+    };
+    group.touches.iter().map(contact).collect()
+}
+
+/// Momentum and energy of the spheres before and after.
+fn account_of([before, after]: [&[DVec3]; 2], masses: &[f64]) -> ImpactGroup {
+    let momentum = |velocities: &[DVec3]| {
+        let part = |axis: usize| {
+            masses.iter().zip(velocities).map(|(m, v)| m * v[axis]).collect::<Sum>().value()
+        };
+        DVec3::new(part(0), part(1), part(2))
+    };
+    let energy = |velocities: &[DVec3]| {
+        let terms = masses.iter().zip(velocities).map(|(m, v)| 0.5 * m * v.length_squared());
+        terms.collect::<Sum>().value()
+    };
+    let sizes = masses.iter().zip(before).map(|(m, v)| m * v.length());
+    ImpactGroup {
+        momentum_before: momentum(before),
+        momentum_after: momentum(after),
+        momentum_scale: sizes.collect::<Sum>().value(),
+        energy_before: energy(before),
+        energy_after: energy(after),
+        ..ImpactGroup::default()
+    }
+}
+
+/// Begins a new flight of every sphere of the group, borne by its lasting contacts.
+fn begin_flights(timeline: &mut Timeline, stage: &Stage, group: &Group, supports: Vec<Support>) {
+    for member in &group.members {
+        timeline.set_free(member.slot);
+        timeline.begin_flight(member.slot, member.position, member.velocity, group.time);
+    }
+    supports.into_iter().for_each(|support| timeline.set_supported(support));
+    for member in &group.members {
+        predict::predict(timeline, stage.system, member.slot, group.time);
+    }
+}

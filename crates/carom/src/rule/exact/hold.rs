@@ -1,0 +1,33 @@
+//! Forces that are held constant over a frame.
+
+use super::timeline::Timeline;
+use crate::forces::{self, SphereState};
+use crate::system::System;
+
+/// Begins a new flight of every sphere at the start of the frame, under the forces that act on it
+/// in the middle: an error of the third order in the frame's length, of the second over all frames
+/// (the midpoint rule). Lasting contacts are found anew.
+pub(super) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64; 2]) {
+    let half = 0.5 * (end - start);
+    for slot in 0..timeline.bodies.len() as u32 {
+        timeline.set_free(slot);
+        let kind = *timeline.kind_of(slot);
+        let (position, velocity) = timeline.state_of(slot, start);
+        let state = |position, velocity| SphereState {
+            position,
+            velocity,
+            radius: kind.radius,
+            mass: kind.mass,
+        };
+        let linear = forces::total_linear(system.forces, kind.radius, kind.mass).0;
+        let acceleration_in = |state: &SphereState, time: f64| {
+            linear.acceleration + forces::total_of_others(system.forces, state, time) / kind.mass
+        };
+        timeline.begin_flight(slot, position, velocity, start);
+        let before = acceleration_in(&state(position, velocity), start);
+        timeline.set_acceleration(slot, before);
+        let (position, velocity) = timeline.state_of(slot, start + half);
+        let middle = acceleration_in(&state(position, velocity), start + half);
+        timeline.set_acceleration(slot, middle);
+    }
+}

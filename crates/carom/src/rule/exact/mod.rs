@@ -1,0 +1,91 @@
+//! The rule `exact`: spheres fly in closed form from event to event.
+//!
+//! 1. **predict** what each sphere comes upon next: another sphere, a surface, the end of its cell
+//! 2. take the first event from the **queue**
+//! 3. **impact**: answer it, with all that touch there, and predict anew what changed
+//!
+//! until the frame ends. What was predicted stays good from frame to frame.
+
+mod axis_motion;
+mod body;
+mod cells;
+mod cluster;
+mod group;
+mod hold;
+mod impact;
+mod predict;
+mod queue;
+mod stage;
+mod support;
+mod timeline;
+mod touch;
+
+use stage::Stage;
+pub(crate) use timeline::Timeline;
+use timeline::{Next, Target};
+
+use super::Rule;
+use crate::bodies::SphereId;
+use crate::report::StepReport;
+use crate::system::System;
+
+/// A step, or its part up to some time, on the world's clock \[s\].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Span {
+    /// Beginning of the step.
+    pub start: f64,
+    /// End of the part.
+    pub end: f64,
+}
+
+/// More happened in a frame than the parameters allow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct TooManyImpacts {
+    /// A sphere that was at work then.
+    pub sphere: SphereId,
+    /// The bound per sphere.
+    pub limit: u32,
+}
+
+/// Advances all spheres to `end` \[s\] on the world's clock, in the step that began at `start`
+/// (`docs/physics.md`, rule `exact`).
+pub(crate) fn advance(
+    system: &System,
+    timeline: &mut Timeline,
+    Span { start, end }: Span,
+    report: &mut StepReport,
+) -> Result<(), TooManyImpacts> {
+    let Rule::Exact(parameters) = system.settings.rule else { return Ok(()) };
+    let period = system.settings.boundary.period();
+    let most = u64::from(parameters.max_impacts) * system.spheres.id.len() as u64;
+    let mut answered = 0;
+    let mut stage = Stage { system, parameters, report, start, period };
+    while let Some((slot, next)) = timeline.next(end) {
+        let event = match next {
+            Next::Event(event) => event,
+            Next::Crossing(crossing) => {
+                predict::cross(timeline, system, slot, crossing);
+                continue;
+            }
+        };
+        match event.target {
+            Target::Nothing => {}
+            Target::Sphere(other) if timeline.bodies[other as usize].flights != event.flights => {
+                predict::predict(timeline, system, slot, event.time);
+            }
+            Target::Sphere(other) => {
+                impact::of_spheres(timeline, &mut stage, [slot, other], event.time);
+            }
+            Target::Surface(surface) => {
+                group::answer(timeline, &mut stage, &[slot], Some(surface), event.time);
+            }
+            Target::Cluster => group::answer(timeline, &mut stage, &[slot], None, event.time),
+        }
+        answered += 1;
+        if answered > most {
+            let limit = parameters.max_impacts;
+            return Err(TooManyImpacts { sphere: stage.id_of(timeline, slot), limit });
+        }
+    }
+    Ok(())
+}

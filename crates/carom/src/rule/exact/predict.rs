@@ -1,0 +1,199 @@
+//! What a sphere comes upon next.
+
+use glam::DVec3;
+
+use super::body::{Body, Kind};
+use super::cells::{Crossing, Near};
+use super::timeline::{Event, Target, Timeline};
+use crate::contact_time;
+use crate::detect::contact::Bodies;
+use crate::system::System;
+
+/// Predicts what a sphere meets next as of `now` \[s\], and notes it.
+///
+/// Times follow from the flights alone: whoever predicts a meeting, and whenever, finds the same
+/// time to the bit.
+pub(super) fn predict(timeline: &mut Timeline, system: &System, slot: u32, now: f64) {
+    let body = timeline.bodies[slot as usize];
+    let kind = timeline.kinds[body.kind as usize];
+    let mut first = Event::NEVER;
+    if system.settings.spheres_collide {
+        let mut near = std::mem::take(&mut timeline.near[0]);
+        timeline.cells.near(slot, kind.level, &mut near);
+        meet_spheres(timeline, slot, &near, &mut first);
+        timeline.near[0] = near;
+    }
+    meet_others(timeline, system, slot, &mut first);
+    let crossing = timeline.cells.next_crossing(slot, &body, &kind, now);
+    timeline.schedule(slot, first, crossing);
+}
+
+/// Puts a sphere that leaves its cell into the next one, and looks for what it may meet there.
+pub(super) fn cross(timeline: &mut Timeline, system: &System, slot: u32, crossing: Crossing) {
+    let Crossing { time, face } = crossing;
+    let body = timeline.bodies[slot as usize];
+    let kind = timeline.kinds[body.kind as usize];
+    let mut first = timeline.events[slot as usize];
+    if timeline.cells.cross(slot, &body, &kind, face, time) {
+        if system.settings.spheres_collide {
+            let mut near = std::mem::take(&mut timeline.near[0]);
+            timeline.cells.near_beyond(slot, kind.level, face, &mut near);
+            meet_spheres(timeline, slot, &near, &mut first);
+            timeline.near[0] = near;
+        }
+        meet_surfaces(timeline, system, slot, &body, &kind, &mut first);
+    }
+    let crossing = timeline.cells.next_crossing(slot, &body, &kind, time);
+    timeline.schedule(slot, first, crossing);
+}
+
+/// Puts what a sphere meets besides other spheres in the place of `first`, if it comes first.
+pub(super) fn meet_others(timeline: &Timeline, system: &System, slot: u32, first: &mut Event) {
+    let body = &timeline.bodies[slot as usize];
+    let kind = &timeline.kinds[body.kind as usize];
+    meet_surfaces(timeline, system, slot, body, kind, first);
+    if let Some(cluster) = kind.cluster {
+        let renewal = timeline.clusters.renewal_by(cluster, slot);
+        if renewal < first.time {
+            *first = Event { time: renewal, target: Target::Cluster, flights: 0 };
+        }
+    }
+}
+
+/// Likewise the first of the spheres near it that it meets.
+#[inline]
+fn meet_spheres(timeline: &Timeline, slot: u32, near: &[Near], first: &mut Event) {
+    let Timeline { bodies, kinds, .. } = timeline;
+    let body = &bodies[slot as usize];
+    let kind = &kinds[body.kind as usize];
+    for near in near {
+        let other = &bodies[near.slot as usize];
+        let other_kind = &kinds[other.kind as usize];
+        let time = if kind.flies_like(other_kind) {
+            let start = body.time.max(other.time);
+            let offset = offset_of_alike([body, other], kind.acceleration, near.shift, start);
+            meeting_of_alike([body, other], [kind, other_kind], offset, start)
+        } else if last_together(timeline, [slot, near.slot], [kind, other_kind]) {
+            f64::INFINITY
+        } else {
+            meeting([body, other], [kind, other_kind], near.shift, first.time)
+        };
+        if time < first.time {
+            let target = Target::Sphere(near.slot);
+            *first = Event { time, target, flights: other.flights };
+        }
+    }
+}
+
+/// Whether two spheres are in lasting contact with each other: then no impact ends their flights.
+fn last_together(timeline: &Timeline, slots: [u32; 2], kinds: [&Kind; 2]) -> bool {
+    kinds[0].cluster.is_some_and(|cluster| {
+        let pair = Bodies::pair(slots.map(|slot| timeline.index_of[slot as usize]));
+        kinds[1].cluster == Some(cluster) && timeline.clusters.contains(cluster, pair)
+    })
+}
+
+/// From the centre of the first sphere to that of the second, at `start` \[s\], which is the start
+/// of one of their flights and not before that of the other \[m\]; of spheres that fly alike.
+#[inline(always)]
+pub(super) fn offset_of_alike(
+    [a, b]: [&Body; 2],
+    acceleration: DVec3,
+    shift: DVec3,
+    start: f64,
+) -> DVec3 {
+    let (age_a, age_b) = (start - a.time, start - b.time);
+    let offset = b.position - a.position + shift + (age_b * b.velocity - age_a * a.velocity);
+    if acceleration == DVec3::ZERO {
+        return offset;
+    }
+    offset + (0.5 * (age_b * age_b - age_a * age_a)) * acceleration
+}
+
+/// When two spheres meet that fly alike, so that each sees the other move in a straight line at
+/// constant speed, on the world's clock \[s\]; infinite if they never do. `offset` \[m\] is where the
+/// second is seen from the first at `start` \[s\].
+#[inline(always)]
+pub(super) fn meeting_of_alike(
+    [a, b]: [&Body; 2],
+    kinds: [&Kind; 2],
+    offset: DVec3,
+    start: f64,
+) -> f64 {
+    let mut velocity = b.velocity - a.velocity;
+    let acceleration = kinds[0].acceleration;
+    if acceleration != DVec3::ZERO {
+        velocity += ((start - b.time) - (start - a.time)) * acceleration;
+    }
+    let closing = offset.dot(velocity);
+    if closing >= 0.0 {
+        return f64::INFINITY;
+    }
+    let radius_sum = kinds[0].radius + kinds[1].radius;
+    let gap = offset.length_squared() - radius_sum * radius_sum;
+    if gap.abs() <= TOUCHING * radius_sum * radius_sum {
+        // Two that touch close only if they do so by more than the rounding of their speeds.
+        let rounding = TOUCHING * radius_sum * (a.velocity.length() + b.velocity.length());
+        if -closing <= rounding {
+            return f64::INFINITY;
+        }
+    }
+    match contact_time::sphere_sphere_linear(offset, velocity, radius_sum) {
+        Some(delay) => start + delay,
+        None => f64::INFINITY,
+    }
+}
+
+/// Relative rounding of a distance and of a speed of two spheres that touch.
+const TOUCHING: f64 = 64.0 * f64::EPSILON;
+
+/// When two spheres meet that fly differently, up to `end` \[s\] on the world's clock.
+fn meeting(bodies: [&Body; 2], kinds: [&Kind; 2], shift: DVec3, end: f64) -> f64 {
+    let start = bodies[0].time.max(bodies[1].time);
+    let first = bodies[0].flight_from(kinds[0], start);
+    let mut second = bodies[1].flight_from(kinds[1], start);
+    second.position += shift;
+    let radius_sum = kinds[0].radius + kinds[1].radius;
+    match contact_time::sphere_sphere(&first, &second, radius_sum, end - start) {
+        Some(delay) => start + delay,
+        None => f64::INFINITY,
+    }
+}
+
+/// Likewise for surfaces.
+fn meet_surfaces(
+    timeline: &Timeline,
+    system: &System,
+    slot: u32,
+    body: &Body,
+    kind: &Kind,
+    first: &mut Event,
+) {
+    for (number, shift) in timeline.surfaces_near(slot) {
+        let lasts = kind.cluster.is_some_and(|cluster| {
+            let sphere = timeline.index_of[slot as usize];
+            let bodies = Bodies::Surface { sphere, surface: number };
+            timeline.clusters.contains(cluster, bodies)
+        });
+        if lasts {
+            continue;
+        }
+        let surface = &system.surfaces[number as usize];
+        // A surface that moves is given as it is at the start of the frame.
+        let start =
+            if surface.motion.is_at_rest() { body.time } else { body.time.max(timeline.frame[0]) };
+        let (form, motion) = surface.after(start - timeline.frame[0]);
+        let mut flight = body.flight_from(kind, start);
+        flight.position -= shift;
+        let turns = motion.angular_velocity != DVec3::ZERO;
+        let end = if turns { first.time.min(timeline.frame[1]) } else { first.time };
+        let horizon = end - start;
+        let delay = contact_time::sphere_surface(&flight, kind.radius, &form, &motion, horizon);
+        if let Some(delay) = delay
+            && start + delay < first.time
+        {
+            let target = Target::Surface(number);
+            *first = Event { time: start + delay, target, flights: 0 };
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! What every part of the rule reads in a frame, and the account it writes.
+
+use glam::DVec3;
+
+use super::body::Body;
+use super::timeline::Timeline;
+use crate::bodies::SphereId;
+use crate::detect::sphere_surface;
+use crate::report::{Impact, ImpactGroup, StepReport};
+use crate::rule::Exact;
+use crate::settings::RestitutionRule;
+use crate::surface::{Form, SurfaceMotion};
+use crate::system::System;
+
+/// The world in one frame, and the report of the frame.
+pub(super) struct Stage<'a> {
+    pub system: &'a System<'a>,
+    pub parameters: Exact,
+    pub report: &'a mut StepReport,
+    /// Start of the step, on the world's clock \[s\]: impacts count their time from there, and there
+    /// surfaces are where the system says.
+    pub start: f64,
+    /// Edges of the periodic box \[m\]; infinite along an open axis.
+    pub period: DVec3,
+}
+
+impl Stage<'_> {
+    pub fn restitution_rule(&self) -> RestitutionRule {
+        self.system.settings.restitution_rule
+    }
+
+    pub fn id_of(&self, timeline: &Timeline, slot: u32) -> SphereId {
+        self.system.spheres.id[timeline.index_of[slot as usize] as usize]
+    }
+
+    /// Restitution of an impact of spheres: 1 instead of less where all were hit less than a
+    /// contact's duration ago. Luding and McNamara, "How to handle the inelastic collapse of a
+    /// dissipative hard-sphere gas with the TC model", Granular Matter 1, 113 (1998).
+    pub fn restitution_at<const N: usize>(
+        &self,
+        bodies: [&Body; N],
+        restitution: f64,
+        time: f64,
+    ) -> f64 {
+        let was_hit =
+            |body: &&Body| body.flights > 0 && time - body.time < self.parameters.contact_duration;
+        if restitution < 1.0 && bodies.iter().all(was_hit) { 1.0 } else { restitution }
+    }
+
+    /// Writes down impacts that were answered together.
+    pub fn record(&mut self, impacts: &[Impact], account: ImpactGroup) {
+        let (first, count) = (self.report.impacts.len(), impacts.len());
+        self.report.impacts.extend_from_slice(impacts);
+        let law = self.system.settings.impact_law;
+        self.report.groups.push(ImpactGroup { first, count, law, ..account });
+    }
+
+    /// Geometry and motion of a surface at `time` \[s\].
+    pub fn surface_at(&self, surface: u32, time: f64) -> (Form, SurfaceMotion) {
+        self.system.surfaces[surface as usize].after(time - self.start)
+    }
+
+    /// Whether no surface is within `margin` \[m\] of a sphere at `place` \[m\] at `time` \[s\].
+    pub fn touches_no_surface(
+        &self,
+        timeline: &Timeline,
+        slot: u32,
+        place: DVec3,
+        margin: f64,
+        time: f64,
+    ) -> bool {
+        let radius = timeline.kind_of(slot).radius;
+        timeline.surfaces_near(slot).all(|(surface, shift)| {
+            let (form, _) = self.surface_at(surface, time);
+            let separation = sphere_surface(&form, place - shift, radius);
+            separation.is_none_or(|separation| separation.distance > margin)
+        })
+    }
+}

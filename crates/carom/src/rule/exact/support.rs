@@ -1,0 +1,406 @@
+//! Lasting contacts: which ones stay, with which forces, and for how long those hold.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::axis_motion::AxisMotion;
+use super::group::{Group, Member};
+use super::stage::Stage;
+use super::touch::{Bend, Touch, beyond};
+use crate::detect::contact::Bodies;
+use crate::respond::group::contact_forces;
+use crate::sum::Sum;
+use crate::surface::Form;
+
+/// A contact with a normal acceleration below this part of the free accelerations neither presses
+/// nor opens, but for rounding.
+const IDLE: f64 = 1e-12;
+/// Spheres in lasting contact whose speed is below this part of the speeds they came with are at
+/// rest, but for rounding.
+const REST: f64 = 1e-12;
+/// How far the normal of a lasting contact turns before its force is found anew \[rad\]. The path
+/// between is a parabola through the middle of the turn; its gap to the true one is of the third
+/// order, below 1e-10 of the radius of the curve.
+const TURN: f64 = 1e-3;
+/// Below this turn \[rad\] a force that ends within a piece of the path ends at its beginning.
+const SHORTEST_TURN: f64 = 1e-6;
+
+/// Spheres that lasting contacts bear from now on.
+#[derive(Debug, Clone)]
+pub(super) struct Support {
+    /// Slots of the spheres, in the order of their indices, with the acceleration of each, of
+    /// everything but drag \[m/s²\].
+    pub members: Vec<(u32, DVec3)>,
+    /// Ascending, with the shift between the frames of the two bodies \[m\].
+    pub contacts: Vec<(Bodies, DVec3)>,
+    /// When the forces have to be found anew, on the world's clock \[s\].
+    pub renewal: f64,
+}
+
+/// Finds the contacts of a group that stay closed and what they do; brings their gaps and normal
+/// velocities to zero.
+pub(super) fn find(stage: &Stage, group: &mut Group) -> Vec<Support> {
+    let mut lasting = staying(stage, group);
+    while !lasting.is_empty() {
+        correct(stage, group, &mut lasting);
+        let forces = forces(&group.members, &lasting);
+        let (accelerations, hold) = match turning_time(&group.members, &lasting, &forces) {
+            f64::INFINITY => (borne(&group.members, &lasting, &forces), f64::INFINITY),
+            turning => match through_the_middle(stage, group, &lasting, &forces, turning) {
+                Ok(found) => found,
+                Err(released) => {
+                    let mut released = released.into_iter();
+                    lasting.retain(|_| !released.next().unwrap_or(false));
+                    continue;
+                }
+            },
+        };
+        let accelerations = rest(group, accelerations, hold);
+        let hold = hold.min(sliding_time(stage, group, &lasting, &accelerations));
+        return connected(group, &lasting, &accelerations, group.time + hold);
+    }
+    Vec::new()
+}
+
+/// The touches that stay closed: those whose bodies would be back in contact within a contact's
+/// duration, and whose forces press.
+fn staying(stage: &Stage, group: &Group) -> Vec<Touch> {
+    let members = &group.members;
+    let is_slow = |touch: &&Touch| {
+        let free = touch.first.map_or(DVec3::ZERO, |first| free_acceleration(&members[first]));
+        let free = free.length() + free_acceleration(&members[touch.second]).length();
+        // Thrown up with speed u against an acceleration a, a body is back after 2 u / a.
+        let acceleration = free + bias(touch, members).abs();
+        let back_within = 0.5 * acceleration * stage.parameters.contact_duration;
+        acceleration > 0.0 && touch.normal_velocity(members) <= back_within
+    };
+    let slow: Vec<Touch> = group.touches.iter().filter(is_slow).copied().collect();
+    if slow.is_empty() {
+        return slow;
+    }
+    let forces = forces(members, &slow);
+    let mut is_borne = vec![false; members.len()];
+    for (touch, &force) in slow.iter().zip(&forces) {
+        if force > 0.0 {
+            touch.first.into_iter().chain([touch.second]).for_each(|place| is_borne[place] = true);
+        }
+    }
+    let accelerations = borne(members, &slow, &forces);
+    let stays = |(touch, force): (Touch, f64)| {
+        let all_borne = is_borne[touch.second] && touch.first.is_none_or(|first| is_borne[first]);
+        let scale = free_acceleration(&members[touch.second]).length() + accelerations.largest;
+        let is_idle = accelerations.along(&touch, members) <= IDLE * scale;
+        (force > 0.0 || (all_borne && is_idle)).then_some(touch)
+    };
+    slow.into_iter().zip(forces).filter_map(stays).collect()
+}
+
+/// Acceleration of a sphere without contact forces \[m/s²\].
+fn free_acceleration(member: &Member) -> DVec3 {
+    member.kind.acceleration - member.kind.drag_rate * member.velocity
+}
+
+/// Acceleration of the gap \[m/s²\] that comes from the turning of the normal: `v²/R` where the
+/// bodies slide along a curve, and the swing of a surface that turns.
+fn bias(touch: &Touch, members: &[Member]) -> f64 {
+    let velocity = touch.relative_velocity(members);
+    let tangential = velocity - velocity.dot(touch.normal) * touch.normal;
+    let sliding = touch.bend.turning(tangential);
+    let curve = sliding.map_or(0.0, |(turning, distance)| turning.length_squared() / distance);
+    let spin = touch.surface_spin;
+    if spin == DVec3::ZERO {
+        return curve;
+    }
+    // Of the gap n·(x - p), with n' = w × n.
+    curve + 2.0 * spin.cross(touch.normal).dot(tangential) + touch.surface_pull.dot(touch.normal)
+}
+
+/// Forces \[N\] of contacts, each >= 0.
+fn forces(members: &[Member], touches: &[Touch]) -> Vec<f64> {
+    let contacts: Vec<_> = touches.iter().map(Touch::contact).collect();
+    let masses: Vec<f64> = members.iter().map(|member| member.kind.mass).collect();
+    let free: Vec<DVec3> = members.iter().map(free_acceleration).collect();
+    let bias: Vec<f64> = touches.iter().map(|touch| bias(touch, members)).collect();
+    contact_forces(&contacts, &masses, &free, &bias)
+}
+
+/// Accelerations of the members of a group.
+struct Accelerations {
+    /// Of everything but drag \[m/s²\].
+    each: Vec<DVec3>,
+    /// The largest part that a contact force has in one \[m/s²\].
+    largest: f64,
+}
+
+impl Accelerations {
+    /// Acceleration of a gap \[m/s²\].
+    fn along(&self, touch: &Touch, members: &[Member]) -> f64 {
+        let total = |place: usize| {
+            self.each[place] - members[place].kind.drag_rate * members[place].velocity
+        };
+        let first = touch.first.map_or(DVec3::ZERO, total);
+        (total(touch.second) - first).dot(touch.normal) + bias(touch, members)
+    }
+}
+
+/// Accelerations under contact forces \[N\].
+fn borne(members: &[Member], touches: &[Touch], forces: &[f64]) -> Accelerations {
+    let mut each: Vec<DVec3> = members.iter().map(|member| member.kind.acceleration).collect();
+    let mut largest = 0.0f64;
+    for (touch, &force) in touches.iter().zip(forces) {
+        let part = force / members[touch.second].kind.mass;
+        each[touch.second] += part * touch.normal;
+        largest = largest.max(part);
+        if let Some(first) = touch.first {
+            let part = force / members[first].kind.mass;
+            each[first] -= part * touch.normal;
+            largest = largest.max(part);
+        }
+    }
+    Accelerations { each, largest }
+}
+
+/// Time \[s\] in which the normal of some contact turns by [`TURN`]; infinite where none does.
+fn turning_time(members: &[Member], touches: &[Touch], forces: &[f64]) -> f64 {
+    let accelerations = borne(members, touches, forces);
+    let mut time = f64::INFINITY;
+    for touch in touches {
+        let spin = touch.surface_spin.length();
+        if spin > 0.0 {
+            time = time.min(TURN / spin);
+        }
+        let acceleration = |place: usize| {
+            accelerations.each[place] - members[place].kind.drag_rate * members[place].velocity
+        };
+        let relative = acceleration(touch.second) - touch.first.map_or(DVec3::ZERO, acceleration);
+        let across = |vector: DVec3| vector - vector.dot(touch.normal) * touch.normal;
+        let velocity = across(touch.relative_velocity(members));
+        let (Some((velocity, distance)), Some((acceleration, _))) =
+            (touch.bend.turning(velocity), touch.bend.turning(across(relative)))
+        else {
+            continue;
+        };
+        let scale = IDLE * (accelerations.largest + relative.length());
+        if velocity.length() > 0.0 {
+            time = time.min(TURN * distance / velocity.length());
+        }
+        if acceleration.length() > scale {
+            time = time.min((2.0 * TURN * distance / acceleration.length()).sqrt());
+        }
+    }
+    time
+}
+
+/// Accelerations in the middle of a turn that takes `turning` \[s\], and how long they hold \[s\];
+/// or the contacts that part before.
+fn through_the_middle(
+    stage: &Stage,
+    group: &Group,
+    touches: &[Touch],
+    forces_before: &[f64],
+    turning: f64,
+) -> Result<(Accelerations, f64), Vec<bool>> {
+    let start = borne(&group.members, touches, forces_before);
+    let mut hold = turning;
+    loop {
+        let middle: Vec<Member> = group
+            .members
+            .iter()
+            .zip(&start.each)
+            .map(|(member, &acceleration)| member.after(acceleration, 0.5 * hold))
+            .collect();
+        let time = group.time + 0.5 * hold;
+        let measured: Vec<Option<Touch>> =
+            touches.iter().map(|touch| touch.measured_at(stage, &middle, time)).collect();
+        let still: Vec<Touch> = measured.iter().flatten().copied().collect();
+        let forces = forces(&middle, &still);
+        let mut in_middle = forces.iter();
+        let released: Vec<bool> = measured
+            .iter()
+            .zip(forces_before)
+            .map(|(measured, &before)| match measured {
+                Some(_) => in_middle.next() == Some(&0.0) && before > 0.0,
+                None => true,
+            })
+            .collect();
+        if !released.contains(&true) {
+            return Ok((borne(&middle, &still, &forces), hold));
+        }
+        hold *= 0.5;
+        if hold < turning * (SHORTEST_TURN / TURN) {
+            return Err(released);
+        }
+    }
+}
+
+/// Stops what moves and accelerates by no more than rounding.
+fn rest(group: &mut Group, mut accelerations: Accelerations, hold: f64) -> Accelerations {
+    if hold < f64::INFINITY {
+        return accelerations;
+    }
+    let fastest = group.fastest;
+    for (member, acceleration) in group.members.iter_mut().zip(&mut accelerations.each) {
+        let scale = member.kind.acceleration.length() + accelerations.largest;
+        if acceleration.length() <= IDLE * scale {
+            *acceleration = DVec3::ZERO;
+        }
+        if member.velocity.length() <= REST * fastest {
+            member.velocity = DVec3::ZERO;
+        }
+    }
+    accelerations
+}
+
+/// Time \[s\] until a sphere may slide off the part of a rectangle that it is in contact with.
+fn sliding_time(
+    stage: &Stage,
+    group: &Group,
+    touches: &[Touch],
+    accelerations: &Accelerations,
+) -> f64 {
+    let mut time = f64::INFINITY;
+    for touch in touches {
+        let Bodies::Surface { surface, .. } = touch.bodies else { continue };
+        let (form, _) = stage.surface_at(surface, group.time);
+        let Form::Rectangle(rectangle) = form else { continue };
+        let member = &group.members[touch.second];
+        let center = member.position + touch.shift;
+        let velocity = member.velocity - touch.surface_velocity;
+        let distances = beyond(&rectangle, center);
+        for (axis, beyond) in [rectangle.axis_x, rectangle.axis_z].into_iter().zip(distances) {
+            if beyond >= 0.0 {
+                continue;
+            }
+            let (half_length, place) = {
+                let place = (center - rectangle.center).dot(axis);
+                (place.abs() - beyond, place)
+            };
+            let motion = AxisMotion {
+                velocity: velocity.dot(axis),
+                acceleration: accelerations.each[touch.second].dot(axis),
+                drag_rate: member.kind.drag_rate,
+            };
+            time = time.min(motion.leaves(-half_length - place, half_length - place).0);
+        }
+    }
+    time
+}
+
+/// The spheres and contacts that hang together, each set by itself.
+fn connected(
+    group: &Group,
+    touches: &[Touch],
+    accelerations: &Accelerations,
+    renewal: f64,
+) -> Vec<Support> {
+    let mut root: Vec<usize> = (0..group.members.len()).collect();
+    let mut is_borne = vec![false; root.len()];
+    for touch in touches {
+        is_borne[touch.second] = true;
+        if let Some(first) = touch.first {
+            is_borne[first] = true;
+            let (a, b) = (root_of(&root, first), root_of(&root, touch.second));
+            root[a.max(b)] = a.min(b);
+        }
+    }
+    let mut supports: BTreeMap<usize, Support> = BTreeMap::new();
+    let of = |supports: &mut BTreeMap<usize, Support>, place: usize| {
+        let empty = || Support { members: Vec::new(), contacts: Vec::new(), renewal };
+        let root = root_of(&root, place);
+        supports.entry(root).or_insert_with(empty);
+        root
+    };
+    for (place, member) in group.members.iter().enumerate().filter(|(place, _)| is_borne[*place]) {
+        let root = of(&mut supports, place);
+        if let Some(support) = supports.get_mut(&root) {
+            support.members.push((member.slot, accelerations.each[place]));
+        }
+    }
+    for touch in touches {
+        let root = of(&mut supports, touch.second);
+        if let Some(support) = supports.get_mut(&root) {
+            support.contacts.push((touch.bodies, touch.shift));
+        }
+    }
+    supports.into_values().collect()
+}
+
+/// The smallest place that hangs together with this one.
+fn root_of(root: &[usize], mut place: usize) -> usize {
+    while root[place] != place {
+        place = root[place];
+    }
+    place
+}
+
+/// Brings the gaps and the normal velocities of lasting contacts to zero, and measures them anew.
+fn correct(stage: &Stage, group: &mut Group, touches: &mut Vec<Touch>) {
+    let bends = |touch: &Touch| touch.bend != Bend::Flat || touch.surface_spin != DVec3::ZERO;
+    if touches.iter().any(bends) {
+        let gaps: Vec<f64> = touches.iter().map(|touch| touch.gap).collect();
+        let moves = corrections(&group.members, touches, &gaps);
+        for (member, by) in group.members.iter_mut().zip(moves) {
+            member.position += by;
+        }
+        let (members, time) = (&group.members, group.time);
+        *touches = touches.iter().filter_map(|it| it.measured_at(stage, members, time)).collect();
+    }
+    let speeds: Vec<f64> =
+        touches.iter().map(|touch| touch.normal_velocity(&group.members)).collect();
+    let changes = corrections(&group.members, touches, &speeds);
+    for (member, by) in group.members.iter_mut().zip(changes) {
+        member.velocity += by;
+    }
+}
+
+/// The least change of the members, weighted by mass, that takes away `excess` along the normals:
+/// `M⁻¹ N λ` with `Nᵀ M⁻¹ N λ = -excess`, by conjugate gradients.
+fn corrections(members: &[Member], touches: &[Touch], excess: &[f64]) -> Vec<DVec3> {
+    let spread = |weights: &[f64]| {
+        let mut changes = vec![DVec3::ZERO; members.len()];
+        for (touch, weight) in touches.iter().zip(weights) {
+            changes[touch.second] += weight / members[touch.second].kind.mass * touch.normal;
+            if let Some(first) = touch.first {
+                changes[first] -= weight / members[first].kind.mass * touch.normal;
+            }
+        }
+        changes
+    };
+    let along = |changes: &[DVec3]| -> Vec<f64> {
+        let of = |touch: &Touch| {
+            let first = touch.first.map_or(DVec3::ZERO, |first| changes[first]);
+            (changes[touch.second] - first).dot(touch.normal)
+        };
+        touches.iter().map(of).collect()
+    };
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).collect::<Sum>().value();
+    let mut weights = vec![0.0; touches.len()];
+    let mut residual: Vec<f64> = excess.iter().map(|excess| -excess).collect();
+    let mut direction = residual.clone();
+    let mut square = dot(&residual, &residual);
+    let enough = square * f64::EPSILON * f64::EPSILON;
+    for _ in 0..2 * touches.len() {
+        if square <= enough {
+            break;
+        }
+        let image = along(&spread(&direction));
+        let curvature = dot(&direction, &image);
+        if curvature <= 0.0 {
+            break;
+        }
+        let step = square / curvature;
+        for (weight, part) in weights.iter_mut().zip(&direction) {
+            *weight += step * part;
+        }
+        for (residual, part) in residual.iter_mut().zip(&image) {
+            *residual -= step * part;
+        }
+        let next = dot(&residual, &residual);
+        for (part, residual) in direction.iter_mut().zip(&residual) {
+            *part = residual + next / square * *part;
+        }
+        square = next;
+    }
+    spread(&weights)
+}

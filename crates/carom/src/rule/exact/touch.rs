@@ -1,0 +1,334 @@
+//! Who touches whom at one instant.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::cells::{self, Near};
+use super::group::{Group, Member};
+use super::stage::Stage;
+use super::timeline::Timeline;
+use crate::detect::contact::Bodies;
+use crate::detect::{Separation, sphere_sphere, sphere_surface};
+use crate::respond::group::TouchingContact;
+use crate::surface::{Form, Rectangle, SurfaceMotion};
+
+/// Bodies touch when the gap between them is below this many roundings of their coordinates: what
+/// the time of an impact and the way to it leave uncertain.
+const TOUCHING: f64 = 256.0 * f64::EPSILON;
+
+/// Two bodies that touch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Touch {
+    pub bodies: Bodies,
+    /// Places of the spheres among the members; the first body may be a surface.
+    pub first: Option<usize>,
+    pub second: usize,
+    /// Unit normal from body 1 to body 2.
+    pub normal: DVec3,
+    /// Where on body 1 \[m\].
+    pub point: DVec3,
+    /// Between the two surfaces \[m\]: nearly 0.
+    pub gap: f64,
+    /// How the normal turns when the spheres slide.
+    pub bend: Bend,
+    /// Of the surface at the point \[m/s\]; 0 where body 1 is a sphere.
+    pub surface_velocity: DVec3,
+    /// Of the surface \[rad/s\].
+    pub surface_spin: DVec3,
+    /// Acceleration of the gap from the turning of the surface, without sliding, is its part along
+    /// the normal \[m/s²\].
+    pub surface_pull: DVec3,
+    /// From where the position of body 2 counts to where that of body 1 does \[m\].
+    pub shift: DVec3,
+}
+
+/// How the normal of a contact turns when the bodies slide along each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Bend {
+    /// Not at all: a plane.
+    Flat,
+    /// About a point, this far from the centre of body 2 \[m\].
+    Round(f64),
+    /// About an edge in this direction, this far from the centre of body 2 \[m\].
+    Edge(DVec3, f64),
+}
+
+impl Bend {
+    /// Velocity along which the normal turns, and the distance about which it does.
+    pub fn turning(&self, tangential: DVec3) -> Option<(DVec3, f64)> {
+        match *self {
+            Self::Flat => None,
+            Self::Round(distance) => Some((tangential, distance)),
+            Self::Edge(direction, distance) => {
+                Some((tangential - tangential.dot(direction) * direction, distance))
+            }
+        }
+    }
+}
+
+impl Touch {
+    /// Velocity of body 2 relative to body 1 \[m/s\].
+    pub fn relative_velocity(&self, members: &[Member]) -> DVec3 {
+        let first = self.first.map_or(self.surface_velocity, |first| members[first].velocity);
+        members[self.second].velocity - first
+    }
+
+    /// Its part along the normal: negative where the bodies close.
+    pub fn normal_velocity(&self, members: &[Member]) -> f64 {
+        self.relative_velocity(members).dot(self.normal)
+    }
+
+    /// As the impact laws take it, restitution 0.
+    pub fn contact(&self) -> TouchingContact {
+        TouchingContact {
+            first: self.first,
+            second: self.second,
+            normal: self.normal,
+            surface_velocity: self.surface_velocity,
+            restitution: 0.0,
+        }
+    }
+
+    /// The same two bodies in other places; `None` where they no longer face each other.
+    pub fn measured_at(&self, stage: &Stage, members: &[Member], time: f64) -> Option<Self> {
+        let second = &members[self.second];
+        match self.bodies {
+            Bodies::Pair(..) => {
+                let first = &members[self.first?];
+                let centers = [first.position, second.position + self.shift];
+                let separation = sphere_sphere(centers, [first.kind.radius, second.kind.radius]);
+                let distance = (centers[1] - centers[0]).length();
+                Some(Self { bend: Bend::Round(distance), ..self.with(separation) })
+            }
+            Bodies::Surface { surface, .. } => {
+                let (form, motion) = stage.surface_at(surface, time);
+                let center = second.position + self.shift;
+                let separation = sphere_surface(&form, center, second.kind.radius)?;
+                let bend = bend_of(&form, center, &separation);
+                Some(Self { bend, ..self.with(separation).with_motion(&motion) })
+            }
+        }
+    }
+
+    fn with(self, separation: Separation) -> Self {
+        let Separation { distance, normal, point } = separation;
+        Self { gap: distance, normal, point, ..self }
+    }
+
+    fn with_motion(self, motion: &SurfaceMotion) -> Self {
+        let surface_velocity = motion.velocity_at(self.point);
+        let spin = motion.angular_velocity;
+        // The point of the surface is drawn towards the axis.
+        let surface_pull = -spin.cross(spin.cross(self.point - motion.origin));
+        Self { surface_velocity, surface_spin: spin, surface_pull, ..self }
+    }
+
+    /// The bodies, not yet measured.
+    fn between(bodies: Bodies, first: Option<usize>, second: usize, shift: DVec3) -> Self {
+        Self {
+            bodies,
+            first,
+            second,
+            shift,
+            normal: DVec3::ZERO,
+            point: DVec3::ZERO,
+            gap: 0.0,
+            bend: Bend::Flat,
+            surface_velocity: DVec3::ZERO,
+            surface_spin: DVec3::ZERO,
+            surface_pull: DVec3::ZERO,
+        }
+    }
+}
+
+/// How the normal turns where a sphere about `center` \[m\] touches a surface.
+fn bend_of(form: &Form, center: DVec3, separation: &Separation) -> Bend {
+    let distance = (center - separation.point).length();
+    match form {
+        Form::Sphere { center: fixed, .. } => Bend::Round((center - *fixed).length()),
+        Form::HalfSpace { .. } | Form::Box(_) => Bend::Flat,
+        Form::Rectangle(rectangle) => {
+            let [beyond_x, beyond_z] = beyond(rectangle, center);
+            match (beyond_x >= 0.0, beyond_z >= 0.0) {
+                (false, false) => Bend::Flat,
+                (true, false) => Bend::Edge(rectangle.axis_z, distance),
+                (false, true) => Bend::Edge(rectangle.axis_x, distance),
+                (true, true) => Bend::Round(distance),
+            }
+        }
+    }
+}
+
+/// How far a point is beyond the edges of a rectangle along its axes \[m\]; negative inside. At the
+/// very edge it counts as beyond, so that what slides over it goes on.
+pub(super) fn beyond(rectangle: &Rectangle, point: DVec3) -> [f64; 2] {
+    let offset = point - rectangle.center;
+    let slack = TOUCHING * (offset.length() + rectangle.half_x + rectangle.half_z);
+    [(rectangle.axis_x, rectangle.half_x), (rectangle.axis_z, rectangle.half_z)]
+        .map(|(axis, half)| offset.dot(axis).abs() - half + slack)
+}
+
+/// Gathers the spheres at `seeds`, whatever touches them at `time` \[s\], what touches that, and so
+/// on, clusters as a whole.
+pub(super) fn gather(
+    timeline: &Timeline,
+    stage: &Stage,
+    seeds: &[u32],
+    surface: Option<u32>,
+    time: f64,
+) -> Group {
+    let mut gathering = Gathering { timeline, stage, time, ..Gathering::empty(timeline, stage) };
+    seeds.iter().for_each(|&seed| gathering.join(seed));
+    if let [first, second] = *seeds {
+        gathering.connect_seeds(first, second);
+    }
+    if let (Some(surface), [slot]) = (surface, seeds) {
+        gathering.connect_surface(*slot, surface);
+    }
+    while let Some(slot) = gathering.frontier.pop() {
+        gathering.touch_spheres(slot);
+        gathering.touch_surfaces(slot);
+        gathering.join_cluster(slot);
+    }
+    gathering.finish()
+}
+
+/// A group while it is gathered.
+struct Gathering<'a> {
+    timeline: &'a Timeline,
+    stage: &'a Stage<'a>,
+    time: f64,
+    /// By index, so in order.
+    members: BTreeMap<u32, Member>,
+    /// With the shift from body 2 to body 1.
+    touches: BTreeMap<Bodies, DVec3>,
+    /// Slots of members whose surroundings were not looked at yet.
+    frontier: Vec<u32>,
+}
+
+impl<'a> Gathering<'a> {
+    fn empty(timeline: &'a Timeline, stage: &'a Stage<'a>) -> Self {
+        let (members, touches) = (BTreeMap::new(), BTreeMap::new());
+        Self { timeline, stage, time: 0.0, members, touches, frontier: Vec::new() }
+    }
+
+    fn join(&mut self, slot: u32) {
+        let index = self.timeline.index_of[slot as usize];
+        if self.members.contains_key(&index) {
+            return;
+        }
+        let (position, velocity) = self.timeline.state_of(slot, self.time);
+        let kind = *self.timeline.free_kind_of(slot);
+        self.members.insert(index, Member { slot, position, velocity, kind });
+        self.frontier.push(slot);
+    }
+
+    /// Notes that two spheres touch, with the shift from where the second one counts to where the
+    /// first does.
+    fn connect(&mut self, slots: [u32; 2], shift: DVec3) {
+        let indices = slots.map(|slot| self.timeline.index_of[slot as usize]);
+        let shift = if indices[0] < indices[1] { shift } else { -shift };
+        self.touches.insert(Bodies::pair(indices), shift);
+    }
+
+    /// Two spheres that were predicted to meet now touch, whatever rounding says.
+    fn connect_seeds(&mut self, first: u32, second: u32) {
+        let place = |slot| self.timeline.state_of(slot, self.time).0;
+        let offset = place(second) - place(first);
+        let shift = cells::folded(offset, self.stage.period) - offset;
+        self.connect([first, second], shift);
+    }
+
+    /// Likewise for a sphere and a surface.
+    fn connect_surface(&mut self, slot: u32, surface: u32) {
+        let sphere = self.timeline.index_of[slot as usize];
+        let place = self.timeline.state_of(slot, self.time).0;
+        let distance = |shift: DVec3| {
+            let (form, _) = self.stage.surface_at(surface, self.time);
+            let separation = sphere_surface(&form, place - shift, 0.0);
+            separation.map_or(f64::INFINITY, |separation| separation.distance)
+        };
+        let images = self.timeline.surfaces_near(slot).filter(|near| near.0 == surface);
+        let nearest = images.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+        if let Some((_, shift)) = nearest {
+            self.touches.insert(Bodies::Surface { sphere, surface }, -shift);
+        }
+    }
+
+    fn touch_spheres(&mut self, slot: u32) {
+        if !self.stage.system.settings.spheres_collide {
+            return;
+        }
+        let timeline = self.timeline;
+        let kind = *timeline.kind_of(slot);
+        let (place, velocity) = timeline.state_of(slot, self.time);
+        let mut found = Vec::new();
+        let mut around = Vec::new();
+        timeline.cells.near(slot, kind.level, &mut around);
+        for Near { slot: near, shift } in around {
+            let (near_place, near_velocity) = timeline.state_of(near, self.time);
+            let radius_sum = kind.radius + timeline.kind_of(near).radius;
+            let gap = (near_place + shift - place).length() - radius_sum;
+            let coordinates = place.length() + near_place.length() + radius_sum;
+            let speed = (near_velocity - velocity).length();
+            if gap <= self.touching_gap(coordinates, speed) {
+                found.push((near, shift));
+            }
+        }
+        for (near, shift) in found {
+            self.connect([slot, near], shift);
+            self.join(near);
+        }
+    }
+
+    fn touch_surfaces(&mut self, slot: u32) {
+        let timeline = self.timeline;
+        let sphere = timeline.index_of[slot as usize];
+        let (place, velocity) = timeline.state_of(slot, self.time);
+        let radius = timeline.kind_of(slot).radius;
+        for (surface, shift) in timeline.surfaces_near(slot) {
+            let (form, motion) = self.stage.surface_at(surface, self.time);
+            let Some(separation) = sphere_surface(&form, place - shift, radius) else { continue };
+            let speed = (velocity - motion.velocity_at(separation.point)).length();
+            let coordinates = place.length() + separation.point.length() + radius;
+            if separation.distance <= self.touching_gap(coordinates, speed) {
+                self.touches.insert(Bodies::Surface { sphere, surface }, -shift);
+            }
+        }
+    }
+
+    /// Gap \[m\] up to which two bodies touch: rounding of their coordinates, and how far they
+    /// move in the rounding of the clock.
+    fn touching_gap(&self, coordinates: f64, speed: f64) -> f64 {
+        TOUCHING * coordinates + 4.0 * f64::EPSILON * self.time.abs() * speed
+    }
+
+    /// A cluster is in a group as a whole.
+    fn join_cluster(&mut self, slot: u32) {
+        let timeline = self.timeline;
+        let Some(number) = timeline.kind_of(slot).cluster else { return };
+        let cluster = timeline.clusters.get(number);
+        cluster.members.iter().for_each(|&member| self.join(member));
+        for &(bodies, shift) in &cluster.contacts {
+            self.touches.entry(bodies).or_insert(shift);
+        }
+    }
+
+    fn finish(self) -> Group {
+        let Self { stage, time, .. } = self;
+        let places: BTreeMap<u32, usize> =
+            self.members.keys().enumerate().map(|(place, &index)| (index, place)).collect();
+        let members: Vec<Member> = self.members.into_values().collect();
+        let touches = self.touches.into_iter().filter_map(|(bodies, shift)| {
+            let (first, second) = match bodies {
+                Bodies::Pair(first, second) => (Some(places[&first]), places[&second]),
+                Bodies::Surface { sphere, .. } => (None, places[&sphere]),
+            };
+            Touch::between(bodies, first, second, shift).measured_at(stage, &members, time)
+        });
+        let touches = touches.collect();
+        let fastest = members.iter().map(|member| member.velocity.length()).fold(0.0, f64::max);
+        Group { time, members, touches, fastest }
+    }
+}
