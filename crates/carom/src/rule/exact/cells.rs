@@ -50,6 +50,8 @@ struct Level {
     width: DVec3,
     counts: [u16; 3],
     periodic: [bool; 3],
+    /// Edges of the periodic box \[m\]; infinite along an open axis.
+    period: DVec3,
     /// Spheres of the level's own size class, by cell.
     own: Vec<Cell>,
     /// Smaller ones; empty if there are none.
@@ -82,12 +84,58 @@ const EMPTY: Cell = Cell { marks: [NONE; 3], more: NONE };
 /// Flag of a mark: the turns of this sphere are not all 0.
 const TURNED: u32 = 1 << 31;
 
-/// A sphere that another one may meet before it leaves its cell.
-#[derive(Debug, Clone, Copy)]
+/// Spheres that another one may meet before it leaves its cell.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Near {
-    pub slot: u32,
-    /// From where its position counts to its image that is near \[m\].
-    pub shift: DVec3,
+    /// Those whose positions count in the same box; from here on:
+    slots: Vec<u32>,
+    /// how many of them there are,
+    count: usize,
+    /// and those whose image is near, with the shift to it \[m\].
+    images: Vec<(u32, DVec3)>,
+}
+
+impl Near {
+    fn clear(&mut self) {
+        self.count = 0;
+        self.images.clear();
+    }
+
+    /// Each sphere, with the shift \[m\] from where its position counts to its image that is near.
+    #[inline]
+    pub fn iter(&self) -> impl Iterator<Item = (u32, DVec3)> {
+        let same_box = self.slots[..self.count].iter().map(|&slot| (slot, DVec3::ZERO));
+        same_box.chain(self.images.iter().copied())
+    }
+
+    /// Appends the marks of a row of cells that are not turned, but for `own`. Without branches
+    /// on what is in a cell, which no processor can foresee.
+    #[inline(always)]
+    fn add_row(&mut self, row: &[Cell], own: u32) -> u32 {
+        let most = self.count + row.len() * EMPTY.marks.len();
+        if self.slots.len() < most {
+            self.slots.resize(most, 0);
+        }
+        let mut rest = 0;
+        let (mut count, slots) = (self.count, &mut self.slots[..most]);
+        for cell in row {
+            for mark in cell.marks {
+                slots[count.min(most - 1)] = mark;
+                let is_plain = (mark < TURNED) & (mark != own);
+                count += usize::from(is_plain);
+                rest |= u32::from((mark >= TURNED) & (mark != NONE));
+            }
+            rest |= u32::from(cell.more != NONE);
+        }
+        self.count = count;
+        rest
+    }
+
+    fn add(&mut self, slot: u32) {
+        self.slots.truncate(self.count);
+        self.slots.push(slot);
+        self.count += 1;
+    }
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -190,20 +238,18 @@ impl Cells {
 
     /// Finds the spheres that may meet the one at `slot` before a cell is left.
     #[inline]
-    pub fn near(&self, slot: u32, own_level: u32, near: &mut Vec<Near>) {
+    pub fn near(&self, slot: u32, own_level: u32, near: &mut Near) {
         near.clear();
         for (number, level) in self.levels.iter().enumerate().take(own_level as usize + 1) {
-            let around = level.around(&level.links[slot as usize], None);
-            level.collect(slot, &around, number == own_level as usize, self.period, near);
+            level.collect(slot, None, number == own_level as usize, near);
         }
     }
 
     /// Finds those that have come near because the sphere went through a face.
-    pub fn near_beyond(&self, slot: u32, own_level: u32, face: Face, near: &mut Vec<Near>) {
+    pub fn near_beyond(&self, slot: u32, own_level: u32, face: Face, near: &mut Near) {
         near.clear();
         let level = &self.levels[face.level as usize];
-        let around = level.around(&level.links[slot as usize], Some(face));
-        level.collect(slot, &around, u32::from(face.level) == own_level, self.period, near);
+        level.collect(slot, Some(face), u32::from(face.level) == own_level, near);
     }
 
     /// Surfaces that the sphere may meet before it leaves its cell, with the shift \[m\] that brings
@@ -317,6 +363,7 @@ impl Level {
             width,
             counts,
             periodic,
+            period,
             own: vec![EMPTY; cells],
             visitors: if any_smaller { vec![EMPTY; cells] } else { Vec::new() },
             links: vec![unregistered; bodies.len()],
@@ -421,10 +468,11 @@ impl Level {
         ]
     }
 
-    /// The cells around a sphere, or of those the ones beyond the face it just came through.
+    /// Appends the spheres in the cells around a sphere, or in those of them beyond the face it just
+    /// came through.
     #[inline]
-    fn around(&self, link: &Link, came_through: Option<Face>) -> Around {
-        let mut around = Around::default();
+    fn collect(&self, slot: u32, came_through: Option<Face>, with_visitors: bool, near: &mut Near) {
+        let link = &self.links[slot as usize];
         let mut steps = [[-1, 1]; 3];
         if let Some(face) = came_through {
             let step = if face.upward { 1 } else { -1 };
@@ -432,32 +480,55 @@ impl Level {
         }
         let is_inside =
             (0..3).all(|axis| link.cell[axis] > 0 && link.cell[axis] + 1 < self.counts[axis]);
-        if is_inside {
-            let [nx, ny, _] = self.counts.map(|count| count as i32);
-            let center = self.index(link.cell) as i32;
-            for z in steps[2][0]..=steps[2][1] {
-                for y in steps[1][0]..=steps[1][1] {
-                    for x in steps[0][0]..=steps[0][1] {
-                        around.push((center + x + nx * (y + ny * z)) as u32, [0; 3]);
-                    }
-                }
-            }
-            return around;
+        let with_visitors = with_visitors && !self.visitors.is_empty();
+        if is_inside && link.turns == [0; 3] && !with_visitors {
+            self.collect_inside(slot, steps, near);
+            return;
         }
+        let mut visit = |cell: [u16; 3], turns: [i8; 3]| {
+            let index = self.index(cell);
+            self.add_marks(&self.own[index], slot, turns, near);
+            if with_visitors {
+                self.add_marks(&self.visitors[index], slot, turns, near);
+            }
+        };
         for z in steps[2][0]..=steps[2][1] {
             let Some((cell_z, turn_z)) = self.neighbour(link, 2, z) else { continue };
             for y in steps[1][0]..=steps[1][1] {
                 let Some((cell_y, turn_y)) = self.neighbour(link, 1, y) else { continue };
                 for x in steps[0][0]..=steps[0][1] {
                     let Some((cell_x, turn_x)) = self.neighbour(link, 0, x) else { continue };
-                    let cell = self.index([cell_x, cell_y, cell_z]);
-                    around.push(cell as u32, [turn_x, turn_y, turn_z]);
+                    visit([cell_x, cell_y, cell_z], [turn_x, turn_y, turn_z]);
                 }
             }
         }
-        around
     }
 
+    /// Likewise where all these cells are in the box, for a sphere that did not go round.
+    #[inline]
+    fn collect_inside(&self, slot: u32, steps: [[i32; 2]; 3], near: &mut Near) {
+        let [nx, ny, _] = self.counts.map(|count| count as i32);
+        let center = self.index(self.links[slot as usize].cell) as i32;
+        let [low, high] = steps[0];
+        for z in steps[2][0]..=steps[2][1] {
+            for y in steps[1][0]..=steps[1][1] {
+                let middle = center + nx * (y + ny * z);
+                let row = &self.own[(middle + low) as usize..=(middle + high) as usize];
+                let rest = near.add_row(row, slot);
+                if rest != 0 {
+                    row.iter().for_each(|cell| self.add_rest(cell, slot, near));
+                }
+            }
+        }
+    }
+
+    /// Appends what [`Near::add_row`] leaves out.
+    fn add_rest(&self, cell: &Cell, slot: u32, near: &mut Near) {
+        for mark in cell.marks.into_iter().filter(|&mark| mark >= TURNED && mark != NONE) {
+            self.add_mark(mark, slot, [0; 3], near);
+        }
+        self.for_each_other_mark(cell, |mark| self.add_mark(mark, slot, [0; 3], near));
+    }
     /// The neighbouring cell along an axis, and how often the way there goes round the axis.
     fn neighbour(&self, link: &Link, axis: usize, step: i32) -> Option<(u16, i8)> {
         let count = i32::from(self.counts[axis]);
@@ -468,58 +539,33 @@ impl Level {
         self.periodic[axis].then(|| (cell.rem_euclid(count) as u16, cell.div_euclid(count) as i8))
     }
 
-    /// Appends the spheres of some cells, but for the one at `slot` itself.
-    #[inline]
-    fn collect(
-        &self,
-        slot: u32,
-        around: &Around,
-        with_visitors: bool,
-        period: DVec3,
-        near: &mut Vec<Near>,
-    ) {
-        let link = &self.links[slot as usize];
-        let is_turned = link.turns != [0; 3];
-        for (&index, turns) in around.cells[..around.count].iter().zip(&around.turns) {
-            let crosses = is_turned || *turns != [0; 3];
-            let mut add = |mark: u32| {
-                let other = mark & !TURNED;
-                if other == slot {
-                    return;
-                }
-                let shift = if crosses || mark != other {
-                    let theirs = &self.links[other as usize].turns;
-                    turned(
-                        [0, 1, 2].map(|axis| {
-                            i32::from(turns[axis]) + i32::from(link.turns[axis])
-                                - i32::from(theirs[axis])
-                        }),
-                        period,
-                    )
-                } else {
-                    DVec3::ZERO
-                };
-                near.push(Near { slot: other, shift });
-            };
-            self.for_each_mark(&self.own[index as usize], &mut add);
-            if with_visitors && !self.visitors.is_empty() {
-                self.for_each_mark(&self.visitors[index as usize], &mut add);
-            }
+    /// Appends the spheres of a cell that is so many turns away.
+    fn add_marks(&self, cell: &Cell, slot: u32, turns: [i8; 3], near: &mut Near) {
+        for mark in cell.marks.into_iter().take_while(|&mark| mark != NONE) {
+            self.add_mark(mark, slot, turns, near);
+        }
+        self.for_each_other_mark(cell, |mark| self.add_mark(mark, slot, turns, near));
+    }
+
+    fn for_each_other_mark(&self, cell: &Cell, mut visit: impl FnMut(u32)) {
+        let mut mark = cell.more;
+        while mark != NONE {
+            visit(mark);
+            mark = self.links[(mark & !TURNED) as usize].next;
         }
     }
 
-    #[inline(always)]
-    fn for_each_mark(&self, cell: &Cell, add: &mut impl FnMut(u32)) {
-        for &mark in &cell.marks {
-            if mark == NONE {
-                return;
-            }
-            add(mark);
+    fn add_mark(&self, mark: u32, slot: u32, turns: [i8; 3], near: &mut Near) {
+        let other = mark & !TURNED;
+        if other == slot {
+            return;
         }
-        let mut mark = cell.more;
-        while mark != NONE {
-            add(mark);
-            mark = self.links[(mark & !TURNED) as usize].next;
+        let of = |slot: u32, axis: usize| i32::from(self.links[slot as usize].turns[axis]);
+        let turns = [0, 1, 2].map(|axis| i32::from(turns[axis]) + of(slot, axis) - of(other, axis));
+        if turns == [0; 3] {
+            near.add(other);
+        } else {
+            near.images.push((other, turned(turns, self.period)));
         }
     }
 
@@ -590,23 +636,6 @@ fn turns_of(place: DVec3, period: DVec3) -> [i16; 3] {
         let turns = place[axis] / period[axis] + 0.5;
         turns.floor() as i16
     })
-}
-
-/// Cells around a sphere.
-#[derive(Default)]
-struct Around {
-    cells: [u32; 27],
-    /// How often the way to each goes round the axes.
-    turns: [[i8; 3]; 27],
-    count: usize,
-}
-
-impl Around {
-    #[inline(always)]
-    fn push(&mut self, cell: u32, turns: [i8; 3]) {
-        (self.cells[self.count], self.turns[self.count]) = (cell, turns);
-        self.count += 1;
-    }
 }
 
 /// Radii are widened by this when surfaces are listed: more than rounding.

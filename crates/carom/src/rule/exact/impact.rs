@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::cells::Near;
+use super::body::Body;
 use super::predict;
 use super::stage::Stage;
-use super::timeline::Timeline;
+use super::timeline::{Surroundings, Timeline};
 use super::{cells, group};
 use crate::report::{Impact, ImpactGroup, Participants};
 use crate::respond;
@@ -22,18 +22,66 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
     let kinds = slots.map(|slot| *timeline.kind_of(slot));
     let states = slots.map(|slot| timeline.state_of(slot, time));
     let alike = kinds[0].flies_like(&kinds[1]) && kinds.iter().all(|kind| kind.cluster.is_none());
-    let mut near = std::mem::take(&mut timeline.near);
+    let mut around = std::mem::take(&mut timeline.around);
     let is_alone = alike
         && (0..2).all(|one| {
-            let others = &mut near[one];
-            timeline.cells.near(slots[one], kinds[one].level, others);
-            is_alone(timeline, stage, (slots[one], slots[1 - one]), others, time)
+            let (slot, place) = (slots[one], states[one].0);
+            timeline.cells.near(slot, kinds[one].level, &mut around[one].near);
+            measure(timeline, slot, place, &mut around[one], time);
+            is_alone(timeline, [slot, slots[1 - one]], &around[one])
+                && stage.touches_no_surface(timeline, slot, place, kinds[one].radius * NEARBY, time)
         });
-    timeline.near = near;
-    if !is_alone {
+    if is_alone {
+        answer(timeline, stage, slots, states, time);
+        for one in 0..2 {
+            let slot = slots[one];
+            if timeline.bodies[slot as usize].position == states[one].0 {
+                predict::predict_from(timeline, stage.system, slot, &mut around[one], time);
+            } else {
+                // Its position was folded into the box: distances round differently now.
+                predict::predict(timeline, stage.system, slot, time);
+            }
+        }
+    } else {
         group::answer(timeline, stage, &slots, None, time);
-        return;
     }
+    timeline.around = around;
+}
+
+/// Measures how far it is from a sphere at `place` \[m\] to those near it at `time` \[s\].
+#[inline]
+fn measure(timeline: &Timeline, slot: u32, place: DVec3, around: &mut Surroundings, time: f64) {
+    let begun = Body { position: place, time, ..timeline.bodies[slot as usize] };
+    let acceleration = timeline.kind_of(slot).acceleration;
+    around.offsets.clear();
+    around.offsets.extend(around.near.iter().map(|(near, shift)| {
+        let body = &timeline.bodies[near as usize];
+        predict::offset_of_alike([&begun, body], acceleration, shift, time)
+    }));
+}
+
+/// Whether a sphere touches nothing but one other. Of spheres that fly differently nothing is known
+/// here: one that is near enough to matter counts as touching.
+#[inline]
+fn is_alone(timeline: &Timeline, [slot, other]: [u32; 2], around: &Surroundings) -> bool {
+    let kind = timeline.kind_of(slot);
+    around.near.iter().zip(&around.offsets).all(|((near, _), offset)| {
+        let near_kind = timeline.kind_of(near);
+        let reach = (kind.radius + near_kind.radius) * (1.0 + NEARBY);
+        let is_apart = offset.length_squared() > reach * reach && near_kind.flies_like(kind);
+        is_apart || near == other
+    })
+}
+
+/// Gives the two spheres their impulse, and writes it down.
+fn answer(
+    timeline: &mut Timeline,
+    stage: &mut Stage,
+    slots: [u32; 2],
+    states: [(DVec3, DVec3); 2],
+    time: f64,
+) {
+    let kinds = slots.map(|slot| *timeline.kind_of(slot));
     let [(x1, v1), (x2, v2)] = states;
     let offset = cells::folded(x2 - x1, stage.period);
     let normal = offset / offset.length();
@@ -66,29 +114,6 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
         timeline.begin_flight(slots[0], x1, v1, time);
         timeline.begin_flight(slots[1], x2, v2, time);
     }
-    for slot in slots {
-        predict::predict(timeline, stage.system, slot, time);
-    }
-}
-
-/// Whether a sphere touches nothing but one other at `time` \[s\].
-#[inline]
-fn is_alone(
-    timeline: &Timeline,
-    stage: &Stage,
-    (slot, other): (u32, u32),
-    near: &[Near],
-    time: f64,
-) -> bool {
-    let kind = timeline.kind_of(slot);
-    let place = timeline.state_of(slot, time).0;
-    near.iter().all(|near| {
-        let body = &timeline.bodies[near.slot as usize];
-        let near_kind = &timeline.kinds[body.kind as usize];
-        let offset = body.state_at(near_kind, time).0 + near.shift - place;
-        let reach = (kind.radius + near_kind.radius) * (1.0 + NEARBY);
-        offset.length_squared() > reach * reach || near.slot == other
-    }) && stage.touches_no_surface(timeline, slot, place, kind.radius * NEARBY, time)
 }
 
 /// What an impact of two spheres did to momentum and energy.

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::body::{Body, Kind};
-use super::cells::{Crossing, Near};
-use super::timeline::{Event, Target, Timeline};
+use super::cells::Crossing;
+use super::timeline::{Closing, Event, Surroundings, Target, Timeline};
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 use crate::system::System;
@@ -18,11 +18,31 @@ pub(super) fn predict(timeline: &mut Timeline, system: &System, slot: u32, now: 
     let kind = timeline.kinds[body.kind as usize];
     let mut first = Event::NEVER;
     if system.settings.spheres_collide {
-        let mut near = std::mem::take(&mut timeline.near[0]);
-        timeline.cells.near(slot, kind.level, &mut near);
-        meet_spheres(timeline, slot, &near, &mut first);
-        timeline.near[0] = near;
+        let mut around = std::mem::take(&mut timeline.around[0]);
+        timeline.cells.near(slot, kind.level, &mut around.near);
+        meet_spheres(timeline, slot, &mut around, &mut first);
+        timeline.around[0] = around;
     }
+    meet_others(timeline, system, slot, &mut first);
+    let crossing = timeline.cells.next_crossing(slot, &body, &kind, now);
+    timeline.schedule(slot, first, crossing);
+}
+
+/// Likewise for a sphere whose flight begins now, when it is known who is near it, and how far it is
+/// from its centre to theirs \[m\].
+#[inline]
+pub(super) fn predict_from(
+    timeline: &mut Timeline,
+    system: &System,
+    slot: u32,
+    around: &mut Surroundings,
+    now: f64,
+) {
+    let body = timeline.bodies[slot as usize];
+    let kind = timeline.kinds[body.kind as usize];
+    let mut first = Event::NEVER;
+    find_closing(timeline, slot, around, |_| now);
+    meet_closing(timeline, slot, around, &mut first);
     meet_others(timeline, system, slot, &mut first);
     let crossing = timeline.cells.next_crossing(slot, &body, &kind, now);
     timeline.schedule(slot, first, crossing);
@@ -36,10 +56,10 @@ pub(super) fn cross(timeline: &mut Timeline, system: &System, slot: u32, crossin
     let mut first = timeline.events[slot as usize];
     if timeline.cells.cross(slot, &body, &kind, face, time) {
         if system.settings.spheres_collide {
-            let mut near = std::mem::take(&mut timeline.near[0]);
-            timeline.cells.near_beyond(slot, kind.level, face, &mut near);
-            meet_spheres(timeline, slot, &near, &mut first);
-            timeline.near[0] = near;
+            let mut around = std::mem::take(&mut timeline.around[0]);
+            timeline.cells.near_beyond(slot, kind.level, face, &mut around.near);
+            meet_spheres(timeline, slot, &mut around, &mut first);
+            timeline.around[0] = around;
         }
         meet_surfaces(timeline, system, slot, &body, &kind, &mut first);
     }
@@ -62,24 +82,68 @@ pub(super) fn meet_others(timeline: &Timeline, system: &System, slot: u32, first
 
 /// Likewise the first of the spheres near it that it meets.
 #[inline]
-fn meet_spheres(timeline: &Timeline, slot: u32, near: &[Near], first: &mut Event) {
+fn meet_spheres(timeline: &Timeline, slot: u32, around: &mut Surroundings, first: &mut Event) {
+    let Timeline { bodies, .. } = timeline;
+    let body = &bodies[slot as usize];
+    let acceleration = timeline.kind_of(slot).acceleration;
+    let start_with = |other: &Body| body.time.max(other.time);
+    around.offsets.clear();
+    around.offsets.extend(around.near.iter().map(|(slot, shift)| {
+        let other = &bodies[slot as usize];
+        offset_of_alike([body, other], acceleration, shift, start_with(other))
+    }));
+    find_closing(timeline, slot, around, start_with);
+    meet_closing(timeline, slot, around, first);
+}
+
+/// Finds, of the spheres near it, those that a sphere may meet: of those that fly alike, the ones
+/// that come closer and do not pass by. Without branches on that, which no processor can foresee.
+#[inline(always)]
+fn find_closing(
+    timeline: &Timeline,
+    slot: u32,
+    around: &mut Surroundings,
+    start_with: impl Fn(&Body) -> f64,
+) {
     let Timeline { bodies, kinds, .. } = timeline;
     let body = &bodies[slot as usize];
     let kind = &kinds[body.kind as usize];
-    for near in near {
-        let other = &bodies[near.slot as usize];
+    let Surroundings { near, offsets, closing } = around;
+    closing.resize(offsets.len(), Closing::default());
+    let mut count = 0;
+    for ((other_slot, shift), &offset) in near.iter().zip(offsets.iter()) {
+        let other = &bodies[other_slot as usize];
+        let other_kind = &kinds[other.kind as usize];
+        let start = start_with(other);
+        let velocity = velocity_of_alike([body, other], kind.acceleration, start);
+        let rate = offset.dot(velocity);
+        let radius_sum = kind.radius + other_kind.radius;
+        let across = offset.cross(velocity).length_squared();
+        let meets = across <= velocity.length_squared() * (radius_sum * radius_sum);
+        closing[count] = Closing { slot: other_slot, start, offset, velocity, shift };
+        count += usize::from(((rate < 0.0) & meets) | !kind.flies_like(other_kind));
+    }
+    closing.truncate(count);
+}
+
+/// Puts the first meeting with one of those in the place of `first`, if it comes first.
+#[inline(always)]
+fn meet_closing(timeline: &Timeline, slot: u32, around: &Surroundings, first: &mut Event) {
+    let Timeline { bodies, kinds, .. } = timeline;
+    let body = &bodies[slot as usize];
+    let kind = &kinds[body.kind as usize];
+    for closing in &around.closing {
+        let other = &bodies[closing.slot as usize];
         let other_kind = &kinds[other.kind as usize];
         let time = if kind.flies_like(other_kind) {
-            let start = body.time.max(other.time);
-            let offset = offset_of_alike([body, other], kind.acceleration, near.shift, start);
-            meeting_of_alike([body, other], [kind, other_kind], offset, start)
-        } else if last_together(timeline, [slot, near.slot], [kind, other_kind]) {
+            meeting_of_alike([body, other], kind.radius + other_kind.radius, closing)
+        } else if last_together(timeline, [slot, closing.slot], [kind, other_kind]) {
             f64::INFINITY
         } else {
-            meeting([body, other], [kind, other_kind], near.shift, first.time)
+            meeting([body, other], [kind, other_kind], closing.shift, first.time)
         };
         if time < first.time {
-            let target = Target::Sphere(near.slot);
+            let target = Target::Sphere(closing.slot);
             *first = Event { time, target, flights: other.flights };
         }
     }
@@ -110,31 +174,27 @@ pub(super) fn offset_of_alike(
     offset + (0.5 * (age_b * age_b - age_a * age_a)) * acceleration
 }
 
-/// When two spheres meet that fly alike, so that each sees the other move in a straight line at
-/// constant speed, on the world's clock \[s\]; infinite if they never do. `offset` \[m\] is where the
-/// second is seen from the first at `start` \[s\].
+/// Velocity \[m/s\] of the second sphere seen from the first at `start` \[s\]; of spheres that fly
+/// alike.
 #[inline(always)]
-pub(super) fn meeting_of_alike(
-    [a, b]: [&Body; 2],
-    kinds: [&Kind; 2],
-    offset: DVec3,
-    start: f64,
-) -> f64 {
-    let mut velocity = b.velocity - a.velocity;
-    let acceleration = kinds[0].acceleration;
-    if acceleration != DVec3::ZERO {
-        velocity += ((start - b.time) - (start - a.time)) * acceleration;
+fn velocity_of_alike([a, b]: [&Body; 2], acceleration: DVec3, start: f64) -> DVec3 {
+    let velocity = b.velocity - a.velocity;
+    if acceleration == DVec3::ZERO {
+        return velocity;
     }
-    let closing = offset.dot(velocity);
-    if closing >= 0.0 {
-        return f64::INFINITY;
-    }
-    let radius_sum = kinds[0].radius + kinds[1].radius;
+    velocity + ((start - b.time) - (start - a.time)) * acceleration
+}
+
+/// When two spheres meet that fly alike, so that each sees the other move in a straight line at
+/// constant speed, on the world's clock \[s\]; infinite if they never do.
+#[inline(always)]
+fn meeting_of_alike([a, b]: [&Body; 2], radius_sum: f64, closing: &Closing) -> f64 {
+    let Closing { offset, velocity, start, .. } = *closing;
     let gap = offset.length_squared() - radius_sum * radius_sum;
     if gap.abs() <= TOUCHING * radius_sum * radius_sum {
         // Two that touch close only if they do so by more than the rounding of their speeds.
         let rounding = TOUCHING * radius_sum * (a.velocity.length() + b.velocity.length());
-        if -closing <= rounding {
+        if -offset.dot(velocity) <= rounding {
             return f64::INFINITY;
         }
     }

@@ -48,7 +48,30 @@ pub(crate) struct Timeline {
     holds_forces: bool,
     events_since_arranged: u64,
     /// Working memory: spheres near those at work.
-    pub(super) near: [Vec<Near>; 2],
+    pub(super) around: [Surroundings; 2],
+}
+
+/// Who is near a sphere.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Surroundings {
+    pub near: Near,
+    /// From the centre of the sphere to that of each \[m\].
+    pub offsets: Vec<DVec3>,
+    /// Those that it may meet.
+    pub closing: Vec<Closing>,
+}
+
+/// A sphere that another one may meet, as seen from there.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Closing {
+    pub slot: u32,
+    /// On the world's clock \[s\].
+    pub start: f64,
+    /// Between the centres \[m\] and velocity \[m/s\] at the start, of spheres that fly alike.
+    pub offset: DVec3,
+    pub velocity: DVec3,
+    /// From where its position counts to its image that is near \[m\].
+    pub shift: DVec3,
 }
 
 /// What a sphere meets next.

@@ -264,9 +264,9 @@ impl<'a> Gathering<'a> {
         let kind = *timeline.kind_of(slot);
         let (place, velocity) = timeline.state_of(slot, self.time);
         let mut found = Vec::new();
-        let mut around = Vec::new();
+        let mut around = Near::default();
         timeline.cells.near(slot, kind.level, &mut around);
-        for Near { slot: near, shift } in around {
+        for (near, shift) in around.iter() {
             let (near_place, near_velocity) = timeline.state_of(near, self.time);
             let radius_sum = kind.radius + timeline.kind_of(near).radius;
             let gap = (near_place + shift - place).length() - radius_sum;
