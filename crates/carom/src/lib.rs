@@ -25,7 +25,7 @@ pub mod contact_time;
 pub mod detect;
 mod emitter;
 mod error;
-pub mod flight;
+mod flight;
 mod forces;
 mod hash;
 mod integrate;
