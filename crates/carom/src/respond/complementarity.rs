@@ -12,6 +12,7 @@
 
 use glam::DVec3;
 
+use super::face::Face;
 use super::order_free::{self, Grid};
 
 /// One contact of a problem: what its impulse moves, and the rate it asks for.
@@ -71,11 +72,20 @@ pub(super) enum Outcome {
 /// is the square of 16 of them.
 const STANDSTILL: f64 = 256.0 * f64::EPSILON * f64::EPSILON;
 
-/// Iterations allowed per contact, and for any number of contacts. Conjugate gradients on exact
-/// numbers need one for each contact of the final active set; the rest is for finding that set
-/// and for rounding.
-const ITERATIONS_PER_LINK: usize = 40;
-const ITERATIONS: usize = 200;
+/// Iterations, per contact and besides, of the quick method. Conjugate gradients on exact numbers
+/// need one for each contact of the final face.
+const QUICK: usize = 50;
+const QUICK_PER_LINK: usize = 4;
+
+/// Iterations, per contact and besides, of the careful method, which ends by itself but may go
+/// through many faces; and a bound of iterations times contacts, some seconds' work.
+const CAREFUL: usize = 100;
+const CAREFUL_PER_LINK: usize = 50;
+const CAREFUL_WORK: usize = 10_000_000;
+
+/// Contacts up to which the careful method solves directly, in memory and time that grow with
+/// the square and cube of their number; beyond, by conjugate gradients.
+const DIRECT: usize = 200;
 
 /// Part of the norm of A's bound that a step of fixed length takes; must be below 2, and is best
 /// close to it (Dostál, "Optimal Quadratic Programming Algorithms", 2009, section 5.9).
@@ -84,13 +94,25 @@ const STEP_LENGTH: f64 = 1.9;
 /// Iterations without progress after which a solution within the coarse tolerance is taken.
 const PATIENCE: usize = 4;
 
+/// What is done where a step would take an impulse below zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Leaving {
+    /// A step of fixed length follows, cut off at zero: many impulses may end at once.
+    Projected,
+    /// It ends there; other contacts are taken up only once all that have impulses are right.
+    Stopped,
+}
+
 /// Working memory of [`Solver::solve`].
 ///
-/// Modified proportioning with reduced gradient projections (Dostál and Schöberl, "Minimizing
+/// First, modified proportioning with reduced gradient projections (Dostál and Schöberl, "Minimizing
 /// quadratic functions over non-negative cone with the rate of convergence and finite
 /// termination", Comput. Optim. Appl. 30, 2005): conjugate gradients among the contacts with
 /// impulses, projected steps where an impulse would fall below zero, and gradient steps that
-/// take up contacts that close. The graph of contacts is all it needs of A.
+/// take up contacts that close. Where that is slow, because masses differ much, the older method
+/// of faces (Polyak, "The conjugate gradient method in extremal problems", USSR Comput. Math.
+/// Math. Phys. 9, 1969), which ends after finitely many faces whatever the masses. The graph of
+/// contacts is all that is needed of A.
 ///
 /// Everything is done to all contacts alike or is a sum that does not depend on the order
 /// ([`Grid`]), so mirrored or renumbered problems give mirrored or renumbered solutions to the
@@ -110,6 +132,7 @@ pub(super) struct Solver {
     steps: Vec<[i128; 3]>,
     /// Length of a step along the gradient that never overshoots.
     step_length: f64,
+    face: Face,
 }
 
 impl Solver {
@@ -143,11 +166,31 @@ impl Solver {
         tolerance: Tolerance,
         velocities: &mut [DVec3],
     ) -> Outcome {
+        let links = problem.links.len();
+        let careful = (CAREFUL + CAREFUL_PER_LINK * links).min(CAREFUL_WORK / links.max(1));
+        self.measure(problem, tolerance, velocities);
+        let quick = QUICK + QUICK_PER_LINK * links;
+        let outcome = self.descend(problem, tolerance, velocities, Leaving::Projected, quick);
+        if outcome != Outcome::Unfinished {
+            return outcome;
+        }
+        let o = self.descend(problem, tolerance, velocities, Leaving::Stopped, careful);
+        if std::env::var("DBG").is_ok() {eprintln!("T {o:?} viol={:e} tol={:e} x={:?} g={:?} s={:?}", self.violation(), tolerance.coarse, self.x, self.gradient, self.scales);}
+        o
+    }
+
+    fn descend(
+        &mut self,
+        problem: &Problem,
+        tolerance: Tolerance,
+        velocities: &mut [DVec3],
+        leaving: Leaving,
+        bound: usize,
+    ) -> Outcome {
+        let direct = leaving == Leaving::Stopped && problem.links.len() <= DIRECT;
         let mut best = f64::INFINITY;
         let mut without_progress = 0;
-        let bound = ITERATIONS + ITERATIONS_PER_LINK * problem.links.len();
-        self.measure(problem, velocities);
-        self.direction.fill(0.0);
+        // Whether the direction is already the one to go on with.
         let mut conjugate = false;
         for _ in 0..bound {
             let violation = self.violation();
@@ -160,34 +203,28 @@ impl Solver {
             if violation <= tolerance.fine || stalled {
                 return Outcome::Solved;
             }
-            let proportional = self.is_proportional();
-            if !proportional {
+            let on_face = self.stays_on_face(leaving);
+            if !on_face {
                 self.direction_of_closing();
+            } else if direct {
+                self.direction_to_minimum(problem);
             } else if !conjugate {
                 self.direction_of_free();
             }
             self.apply(problem);
             let Some(length) = self.best_length() else {
-                return if violation <= tolerance.coarse {
-                    Outcome::Solved
-                } else {
-                    Outcome::Jammed
-                };
+                let solved = violation <= tolerance.coarse;
+                return if solved { Outcome::Solved } else { Outcome::Jammed };
             };
             let reach = self.reach();
-            if !proportional || length <= reach {
-                self.advance(length, velocities);
-                self.measure(problem, velocities);
-                conjugate = proportional;
-                if conjugate {
-                    self.make_conjugate();
-                }
-            } else {
-                self.advance(reach, velocities);
-                self.measure(problem, velocities);
+            self.advance(length.min(reach), velocities);
+            self.measure(problem, tolerance, velocities);
+            conjugate = on_face && length <= reach;
+            if conjugate && !direct {
+                self.make_conjugate();
+            } else if on_face && length > reach && leaving == Leaving::Projected {
                 self.project(problem, velocities);
-                self.measure(problem, velocities);
-                conjugate = false;
+                self.measure(problem, tolerance, velocities);
             }
         }
         if self.violation() <= tolerance.coarse { Outcome::Solved } else { Outcome::Unfinished }
@@ -210,6 +247,7 @@ impl Solver {
         self.moved.resize(bodies, DVec3::ZERO);
         self.steps.clear();
         self.steps.resize(bodies, [0; 3]);
+        self.face.clear();
         self.step_length = STEP_LENGTH / self.norm_bound(problem);
     }
 
@@ -233,10 +271,13 @@ impl Solver {
         problem.links.iter().zip(&self.scales).map(row).fold(0.0, f64::max)
     }
 
-    /// The gradient: scaled rates of opening.
-    fn measure(&mut self, problem: &Problem, velocities: &[DVec3]) {
+    /// The gradient: scaled rates of opening. Those below the fine tolerance count as zero: to
+    /// follow their rounding would disturb contacts at lighter bodies.
+    fn measure(&mut self, problem: &Problem, tolerance: Tolerance, velocities: &[DVec3]) {
         for (i, link) in problem.links.iter().enumerate() {
-            self.gradient[i] = self.scales[i] * link.rate(velocities);
+            let rate = link.rate(velocities);
+            let told_apart = rate.abs() > tolerance.fine;
+            self.gradient[i] = if told_apart { self.scales[i] * rate } else { 0.0 };
         }
     }
 
@@ -259,21 +300,34 @@ impl Solver {
         if self.x[i] > 0.0 { 0.0 } else { self.gradient[i].min(0.0) }
     }
 
-    /// Whether more is to be gained among contacts with impulses than by taking up others.
-    fn is_proportional(&self) -> bool {
+    /// Whether to go on among contacts with impulses rather than to take up others: as long as
+    /// more is to be gained there, or anything.
+    fn stays_on_face(&self, leaving: Leaving) -> bool {
         let count = self.x.len();
-        let closing = order_free::sum((0..count).map(|i| self.closing(i) * self.closing(i)));
         let free = order_free::sum((0..count).map(|i| {
-            let reduced = self.free(i).min(self.x[i] / self.step_length);
+            let reduced = match leaving {
+                Leaving::Projected => self.free(i).min(self.x[i] / self.step_length),
+                Leaving::Stopped => self.free(i),
+            };
             reduced * self.free(i)
         }));
-        closing <= free
+        let closing = order_free::sum((0..count).map(|i| self.closing(i) * self.closing(i)));
+        match leaving {
+            Leaving::Projected => closing <= free,
+            Leaving::Stopped => free > 0.0,
+        }
     }
 
     fn direction_of_closing(&mut self) {
         for i in 0..self.x.len() {
             self.direction[i] = self.closing(i);
         }
+    }
+
+    fn direction_to_minimum(&mut self, problem: &Problem) {
+        let Self { face, x, scales, gradient, direction, .. } = self;
+        face.set(problem, scales, |contact| x[contact] > 0.0);
+        face.solve(gradient, direction);
     }
 
     fn direction_of_free(&mut self) {
@@ -315,10 +369,8 @@ impl Solver {
 
     fn advance(&mut self, length: f64, velocities: &mut [DVec3]) {
         for (x, p) in self.x.iter_mut().zip(&self.direction) {
-            // A direction of zero must leave zero, also if the length is infinite.
-            if *p != 0.0 {
-                *x = (*x - length * p).max(0.0);
-            }
+            // What the step just reaches ends at zero exactly.
+            *x = if *p > 0.0 && *x / *p <= length { 0.0 } else { *x - length * p };
         }
         for (velocity, moved) in velocities.iter_mut().zip(&self.moved) {
             *velocity -= length * *moved;
@@ -329,9 +381,10 @@ impl Solver {
     /// below zero end there.
     fn project(&mut self, problem: &Problem, velocities: &mut [DVec3]) {
         for i in 0..self.x.len() {
-            let x = (self.x[i] - self.step_length * self.free(i)).max(0.0);
-            self.direction[i] = self.x[i] - x;
-            self.x[i] = x;
+            // Not the difference of the rounded impulses: large ones would drown small changes.
+            let change = (self.step_length * self.free(i)).min(self.x[i]);
+            self.direction[i] = change;
+            self.x[i] -= change;
         }
         self.push_along_direction(problem);
         for (velocity, moved) in velocities.iter_mut().zip(&self.moved) {

@@ -3,6 +3,7 @@
 
 mod complementarity;
 mod contact_force;
+mod face;
 mod generalized_reflection;
 mod group;
 mod line_of_centres;

@@ -8,6 +8,10 @@ use super::group::{Group, speed_scale, tolerance};
 /// Marks a body that is in no component.
 const NONE: u32 = u32::MAX;
 
+/// Largest ratio of masses that is reckoned with; beyond it a sphere counts as heavier than it
+/// is. Far beyond what speeds in double precision can tell, and its square does not overflow.
+const MASS_RATIO: f64 = 1e150;
+
 /// Projects motions, component by component: contacts that share no sphere, directly or through
 /// others, do not feel each other. Working memory, kept to spare its allocation.
 #[derive(Debug, Clone, Default)]
@@ -25,12 +29,19 @@ pub(super) struct Projector {
     velocities: Vec<DVec3>,
     component_impulses: Vec<f64>,
     impulses: Vec<f64>,
+    /// The coarsest tolerance of rates that was used.
+    resolution: f64,
 }
 
 impl Projector {
     /// Impulses of the last projection, one per contact of the group.
     pub fn impulses(&self) -> &[f64] {
         &self.impulses
+    }
+
+    /// The coarsest tolerance of rates that any projection used.
+    pub fn resolution(&self) -> f64 {
+        self.resolution
     }
 
     /// Moves the velocities, by impulses at `active` contacts, to the nearest ones (in kinetic
@@ -103,9 +114,10 @@ impl Projector {
         let masses = self.bodies.iter().map(|body| group.masses[*body as usize]);
         let largest_mass = masses.clone().fold(0.0, f64::max);
         self.problem.inverse_masses.clear();
-        self.problem.inverse_masses.extend(masses.map(|mass| largest_mass / mass));
+        self.problem.inverse_masses.extend(masses.map(|mass| (largest_mass / mass).min(MASS_RATIO)));
 
         let tolerance = tolerance(speed_scale(self.velocities.iter().copied()));
+        self.resolution = self.resolution.max(tolerance.coarse);
         let (problem, impulses) = (&self.problem, &mut self.component_impulses);
         let outcome = self.solver.solve(problem, tolerance, &mut self.velocities, impulses);
         for (local, &body) in self.bodies.iter().enumerate() {

@@ -36,7 +36,8 @@ pub fn resolve(
     };
     let group = Group::new(contacts, masses, unit);
     let start: Vec<DVec3> = velocities.iter().map(|velocity| *velocity / unit).collect();
-    let (motion, energy, complete) = answer(law, &group, &start);
+    let mut projector = Projector::default();
+    let (motion, energy, complete) = answer(law, &group, &start, &mut projector);
     for (velocity, scaled) in velocities.iter_mut().zip(&motion.velocities) {
         *velocity = unit * *scaled;
     }
@@ -48,7 +49,7 @@ pub fn resolve(
     GroupResponse {
         restitution_energy: energy * unit * unit,
         surface_work: order_free::sum(contacts.iter().zip(&motion.impulses).map(work)),
-        resolution: unit * tolerance(speed).coarse,
+        resolution: unit * tolerance(speed).coarse.max(projector.resolution()),
         cut_short: !complete,
         impulses: motion.impulses.into_iter().map(|impulse| unit * impulse).collect(),
     }
@@ -56,21 +57,25 @@ pub fn resolve(
 
 /// The motion after the impacts, the change of energy asked for, and whether the law came to an
 /// end of its own.
-fn answer(law: ImpactLaw, group: &Group, start: &[DVec3]) -> (Motion, f64, bool) {
+fn answer(
+    law: ImpactLaw,
+    group: &Group,
+    start: &[DVec3],
+    projector: &mut Projector,
+) -> (Motion, f64, bool) {
     if !group.closes(start) {
         return (Motion::start(group, start), 0.0, true);
     }
-    let mut projector = Projector::default();
     let (motion, complete) = match law {
         ImpactLaw::Reflection => {
-            return generalized_reflection::resolve(group, start, &mut projector);
+            return generalized_reflection::resolve(group, start, projector);
         }
         ImpactLaw::Simultaneous => {
-            simultaneous::resolve(group, &group.restitutions, start, &mut projector)
+            simultaneous::resolve(group, &group.restitutions, start, projector)
         }
         ImpactLaw::Sequential => {
             let mut motion = Motion::start(group, start);
-            let complete = sequential::resolve(group, &mut motion, &mut projector);
+            let complete = sequential::resolve(group, &mut motion, projector);
             (motion, complete)
         }
     };
