@@ -15,7 +15,7 @@ pub(crate) struct Surface {
 }
 
 /// How a surface moves: it turns about `origin`, which moves itself.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SurfaceMotion {
     /// Now \[m\].
     pub origin: DVec3,
@@ -26,6 +26,10 @@ pub(crate) struct SurfaceMotion {
 }
 
 impl SurfaceMotion {
+    /// Of a surface at rest.
+    pub const REST: Self =
+        Self { origin: DVec3::ZERO, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO };
+
     pub fn is_at_rest(&self) -> bool {
         self.velocity == DVec3::ZERO && self.angular_velocity == DVec3::ZERO
     }

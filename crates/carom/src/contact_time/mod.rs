@@ -28,5 +28,4 @@ mod turning;
 
 pub use bisection::{Bisection, Probe, bisect};
 pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};
-#[cfg_attr(not(test), allow(unused_imports))]
-pub(crate) use sphere_surface::{SurfaceMotion, sphere_surface};
+pub(crate) use sphere_surface::sphere_surface;

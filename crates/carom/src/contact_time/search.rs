@@ -97,8 +97,11 @@ fn pin_down(now: &Look, look: impl Fn(f64) -> Look, before: f64, t: f64) -> f64 
     }
     // What is left is below rounding, but one step more makes the most of the digits.
     let Gap { distance, speed, acceleration } = now.gap;
-    let step =
-        if distance > 0.0 { time_to_fall(distance, speed, -acceleration) } else { -distance / speed };
+    let step = if distance > 0.0 {
+        time_to_fall(distance, speed, -acceleration)
+    } else {
+        -distance / speed
+    };
     let polished = (t + step).max(before);
     if polished.is_finite() {
         let there = look(polished);
@@ -182,7 +185,8 @@ impl Look {
             return 0.0;
         }
         let doublings = (close_steps - exact_steps) / STEPS_OF_A_DEPTH;
-        let depth = (0..doublings.min(MOST_DOUBLINGS)).fold(self.zero.distance, |depth, _| 2.0 * depth);
+        let depth =
+            (0..doublings.min(MOST_DOUBLINGS)).fold(self.zero.distance, |depth, _| 2.0 * depth);
         // Within an overlap nothing can be lost but time.
         if self.is_overlap() { depth } else { depth.min(CLOSE * self.size.length) }
     }

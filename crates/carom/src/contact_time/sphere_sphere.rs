@@ -67,8 +67,7 @@ pub fn sphere_sphere(
     radius_sum: f64,
     horizon: f64,
 ) -> Option<f64> {
-    let size =
-        Magnitudes::of(first) + Magnitudes::of(second) + Magnitudes::of_length(radius_sum);
+    let size = Magnitudes::of(first) + Magnitudes::of(second) + Magnitudes::of_length(radius_sum);
     if first.drag_rate == second.drag_rate {
         return sphere_point(&second.relative_to(first), radius_sum, size, horizon);
     }

@@ -9,25 +9,7 @@ use super::search;
 use super::sphere_sphere::sphere_point;
 use super::turning::{Orbit, Turning, Turns};
 use crate::flight::Flight;
-use crate::surface::{Form, Rectangle};
-
-/// How a surface moves: it turns about an origin that moves along.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct SurfaceMotion {
-    /// Where the origin is at time 0 \[m\].
-    pub origin: DVec3,
-    /// Velocity of the origin \[m/s\], constant.
-    pub velocity: DVec3,
-    /// Angular velocity \[rad/s\], constant.
-    pub angular_velocity: DVec3,
-}
-
-#[cfg_attr(not(test), allow(dead_code))]
-impl SurfaceMotion {
-    /// Of a surface at rest.
-    pub const REST: Self =
-        Self { origin: DVec3::ZERO, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO };
-}
+use crate::surface::{Form, Rectangle, SurfaceMotion};
 
 /// Time \[s\] at which a sphere in flight comes into contact with a surface.
 ///

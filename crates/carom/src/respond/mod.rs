@@ -1,11 +1,25 @@
-//! What an impact does to velocities. One file per law.
+//! What an impact does to velocities, and what lasting contacts do to accelerations. One file
+//! per law.
 
-pub mod group;
+mod complementarity;
+mod contact_force;
+mod face;
+mod generalized_reflection;
+mod group;
 mod line_of_centres;
+mod order_free;
+mod project;
 mod reflection;
+mod resolve;
+mod sequential;
+mod simultaneous;
+mod touching;
 
+pub use contact_force::contact_forces;
 pub use line_of_centres::line_of_centres;
 pub use reflection::reflection;
+pub use resolve::resolve;
+pub use touching::{GroupResponse, ImpactLaw, TouchingContact};
 
 use crate::bodies::Motion;
 use crate::detect::Separation;
@@ -101,13 +115,4 @@ pub(crate) fn put_on_surface(contact: &Contact, system: &System, motion: &mut Mo
         motion.position[sphere as usize] = point + system.spheres.radius[sphere as usize] * normal;
     }
     is_flat
-}
-
-/// placeholder until merged
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ImpactLaw {
-    Sequential,
-    Simultaneous,
-    #[default]
-    Reflection,
 }

@@ -15,7 +15,6 @@ mod situation;
 use generate::{Air, Kind, Numbers};
 use situation::Situation;
 
-
 /// How far answers may be off, in roundings of the sizes involved: the 16 that count as zero in
 /// the search, and a few for the difference between its sizes and those here.
 const ROUNDINGS: f64 = 24.0;

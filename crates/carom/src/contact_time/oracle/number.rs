@@ -70,9 +70,14 @@ impl Number for Big {
         if z.clone().to_f64().value().abs() < 1e-12 {
             // Four terms of the series: the next is z⁴/5!, below 1e-50.
             let series = |d: [f64; 4]| {
-                d.iter().rev().fold(Self::of(0.0), |sum, &d| (Self::of(1.0) - z.clone() * sum) / Self::of(d))
+                d.iter()
+                    .rev()
+                    .fold(Self::of(0.0), |sum, &d| (Self::of(1.0) - z.clone() * sum) / Self::of(d))
             };
-            return (t.clone() * series([1.0, 2.0, 3.0, 4.0]), square * series([2.0, 3.0, 4.0, 5.0]));
+            return (
+                t.clone() * series([1.0, 2.0, 3.0, 4.0]),
+                square * series([2.0, 3.0, 4.0, 5.0]),
+            );
         }
         // e^-1000 has 434 zeros; dashu takes it by way of e^1000, which overflows at last.
         let decay = if z > Self::of(1000.0) { Self::of(0.0) } else { (-z).exp() };

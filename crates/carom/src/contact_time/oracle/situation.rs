@@ -3,15 +3,25 @@
 use glam::DVec3;
 
 use super::number::{Big, Number, Vector};
-use crate::contact_time::{SurfaceMotion, sphere_sphere, sphere_surface};
+use crate::contact_time::{sphere_sphere, sphere_surface};
 use crate::flight::{Flight, Propagator};
+use crate::surface::SurfaceMotion;
 use crate::surface::{Form, Rectangle};
 
 #[derive(Debug, Clone, Copy)]
 pub enum Bodies {
     /// With the sum of the radii.
-    Spheres { first: Flight, second: Flight, radius_sum: f64 },
-    Surface { flight: Flight, radius: f64, form: Form, motion: SurfaceMotion },
+    Spheres {
+        first: Flight,
+        second: Flight,
+        radius_sum: f64,
+    },
+    Surface {
+        flight: Flight,
+        radius: f64,
+        form: Form,
+        motion: SurfaceMotion,
+    },
 }
 
 #[derive(Debug, Clone, Copy)]

@@ -13,7 +13,7 @@ use crate::detect::contact::Bodies;
 use crate::flight::Flight;
 use crate::report::{Impact, ImpactGroup, Participants};
 use crate::respond;
-use crate::respond::group::TouchingContact;
+use crate::respond::TouchingContact;
 use crate::sum::Sum;
 
 /// Bodies that touch at one instant.
@@ -77,12 +77,12 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
     let before: Vec<DVec3> = group.members.iter().map(|member| member.velocity).collect();
     let mut after = before.clone();
     let response =
-        respond::group::resolve(stage.system.settings.impact_law, &contacts, &masses, &mut after);
+        respond::resolve(stage.system.settings.impact_law, &contacts, &masses, &mut after);
     for (member, velocity) in group.members.iter_mut().zip(&after) {
         member.velocity = *velocity;
     }
     let mut account = account_of([&before, &after], &masses);
-    account.energy_demanded = response.demanded_energy_change;
+    account.energy_demanded = response.restitution_energy;
     let mut impacts = Vec::new();
     for ((touch, &impulse), approach_speed) in
         group.touches.iter().zip(&response.impulses).zip(approach)

@@ -9,7 +9,7 @@ use super::group::{Group, Member};
 use super::stage::Stage;
 use super::touch::{Bend, Touch, beyond};
 use crate::detect::contact::Bodies;
-use crate::respond::group::contact_forces;
+use crate::respond::contact_forces;
 use crate::sum::Sum;
 use crate::surface::Form;
 
@@ -120,9 +120,9 @@ fn bias(touch: &Touch, members: &[Member]) -> f64 {
 fn forces(members: &[Member], touches: &[Touch]) -> Vec<f64> {
     let contacts: Vec<_> = touches.iter().map(Touch::contact).collect();
     let masses: Vec<f64> = members.iter().map(|member| member.kind.mass).collect();
-    let free: Vec<DVec3> = members.iter().map(free_acceleration).collect();
+    let mut accelerations: Vec<DVec3> = members.iter().map(free_acceleration).collect();
     let bias: Vec<f64> = touches.iter().map(|touch| bias(touch, members)).collect();
-    contact_forces(&contacts, &masses, &free, &bias)
+    contact_forces(&contacts, &masses, &mut accelerations, &bias)
 }
 
 /// Accelerations of the members of a group.

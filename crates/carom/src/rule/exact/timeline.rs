@@ -271,7 +271,7 @@ impl Timeline {
 
     /// Notes what a sphere meets next, and when it leaves its cell.
     #[inline]
-    pub fn schedule(&mut self, slot: u32, event: Event, crossing: Crossing) {
+    pub(super) fn schedule(&mut self, slot: u32, event: Event, crossing: Crossing) {
         self.events[slot as usize] = event;
         self.crossings[slot as usize] = crossing;
         let index = self.index_of[slot as usize];
@@ -279,7 +279,7 @@ impl Timeline {
     }
 
     /// What happens next, not later than `end` \[s\], and to which sphere.
-    pub fn next(&mut self, end: f64) -> Option<(u32, Next)> {
+    pub(super) fn next(&mut self, end: f64) -> Option<(u32, Next)> {
         let Self { events, crossings, .. } = self;
         let entry = self.queue.pop(end, |entry| is_live(events, crossings, entry))?;
         self.events_since_arranged += 1;
@@ -292,12 +292,12 @@ impl Timeline {
         Some((entry.slot, next))
     }
 
-    pub fn kind_of(&self, slot: u32) -> &Kind {
+    pub(super) fn kind_of(&self, slot: u32) -> &Kind {
         &self.kinds[self.bodies[slot as usize].kind as usize]
     }
 
     /// What the sphere is without contact forces.
-    pub fn free_kind_of(&self, slot: u32) -> &Kind {
+    pub(super) fn free_kind_of(&self, slot: u32) -> &Kind {
         &self.kinds[self.kind_of(slot).free as usize]
     }
 
@@ -318,7 +318,7 @@ impl Timeline {
     }
 
     /// Makes spheres that are free a cluster.
-    pub fn set_supported(&mut self, support: Support) {
+    pub(super) fn set_supported(&mut self, support: Support) {
         let Support { members, contacts, renewal } = support;
         let slots = members.iter().map(|member| member.0).collect();
         let cluster = self.clusters.add(Cluster { members: slots, contacts, renewal });

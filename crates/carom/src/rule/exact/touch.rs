@@ -10,7 +10,7 @@ use super::stage::Stage;
 use super::timeline::Timeline;
 use crate::detect::contact::Bodies;
 use crate::detect::{Separation, sphere_sphere, sphere_surface};
-use crate::respond::group::TouchingContact;
+use crate::respond::TouchingContact;
 use crate::surface::{Form, Rectangle, SurfaceMotion};
 
 /// Bodies touch when the gap between them is below this many roundings of their coordinates: what
