@@ -105,7 +105,7 @@ pub struct Run {
     pub choice: Choice,
     /// Step rule, instead of the scene's own. `bisect` winds back only the spheres that meet
     /// unless the scene says simulation.bisect.wind_back = "all", the tutorial's way.
-    #[arg(long, value_parser = ["discrete", "bisect"])]
+    #[arg(long, value_parser = ["exact", "bisect", "discrete"])]
     pub rule: Option<String>,
     /// Length of a frame, instead of the scene's own.
     #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]

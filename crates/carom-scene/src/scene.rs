@@ -98,6 +98,12 @@ pub struct Simulation {
     pub restitution_rule: RestitutionRule,
     /// Whether spheres may overlap each other or colliders at the start.
     pub allow_overlap: bool,
+    /// How impacts at one instant among spheres that touch are answered, by the rule `exact`.
+    pub impact_law: ImpactLaw,
+    /// What is around the spheres, besides colliders.
+    pub boundary: Boundary,
+    /// Parameters of the rule `exact`.
+    pub exact: Exact,
     /// Parameters of the rule `bisect`.
     pub bisect: Bisect,
 }
@@ -112,6 +118,9 @@ impl Default for Simulation {
             spheres_collide: true,
             restitution_rule: RestitutionRule::default(),
             allow_overlap: false,
+            impact_law: ImpactLaw::default(),
+            boundary: Boundary::default(),
+            exact: Exact::default(),
             bisect: Bisect::default(),
         }
     }
@@ -124,8 +133,56 @@ pub enum Rule {
     /// Move every sphere by the frame, then answer what overlaps (the course's rule).
     Discrete,
     /// Wind back what intersects and find the time of contact by bisection (the tutorial's rule).
-    #[default]
     Bisect,
+    /// Fly in closed form from impact to impact, each at its own time: nothing is missed.
+    #[default]
+    Exact,
+}
+
+/// How impacts at one instant among spheres that touch are answered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ImpactLaw {
+    /// Pair after pair, as other engines do; it breaks symmetries.
+    Sequential,
+    /// Newton's law of restitution at all contacts at once; it does not pass impacts on.
+    Simultaneous,
+    /// Generalized reflection: keeps symmetries, and passes impacts on as Newton's cradle does.
+    #[default]
+    Reflection,
+}
+
+/// What is around the spheres, besides colliders.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Boundary {
+    /// Nothing.
+    #[default]
+    Open,
+    /// A box about the origin that repeats itself without end; only with the rule `exact`.
+    Periodic {
+        /// Edges, in m, each > 0; `inf` along an axis that is open.
+        size: Vector,
+    },
+}
+
+/// Parameters of the rule `exact`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Exact {
+    /// How long a contact lasts, in s, > 0: bodies that would meet again sooner stay together.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub contact_duration: f64,
+    /// Impacts per sphere in a frame, >= 1; more are refused.
+    #[schemars(range(min = 1))]
+    pub max_impacts: u32,
+}
+
+impl Default for Exact {
+    fn default() -> Self {
+        let carom::Exact { contact_duration, max_impacts } = carom::Exact::default();
+        Self { contact_duration, max_impacts }
+    }
 }
 
 /// How spheres move under forces.
@@ -352,6 +409,12 @@ pub struct Collider {
     /// How it is turned.
     #[serde(default = "unturned")]
     pub rotation: Quaternion,
+    /// How fast its centre moves, in m/s.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub velocity: Vector,
+    /// How fast it turns about its centre, along the axis, in rad/s.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub angular_velocity: Vector,
     /// Coefficient of restitution in [0, 1].
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
@@ -365,6 +428,10 @@ pub struct Collider {
     /// Its colour; the scene's own for surfaces where it is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
+}
+
+fn is_zero(vector: &Vector) -> bool {
+    *vector == [0.0; 3]
 }
 
 fn unturned() -> Quaternion {

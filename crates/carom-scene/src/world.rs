@@ -7,8 +7,8 @@ use crate::error::Problem;
 use crate::generate;
 use crate::overlap;
 use crate::scene::{
-    Bisect, Collider, Emitter, Force, Integrator, Quaternion, RestitutionRule, Rule, Scene, Shape,
-    Simulation, Sphere, Vector, WindBack,
+    Bisect, Boundary, Collider, Emitter, Exact, Force, ImpactLaw, Integrator, Quaternion,
+    RestitutionRule, Rule, Scene, Shape, Simulation, Sphere, Vector, WindBack,
 };
 
 impl Scene {
@@ -34,7 +34,7 @@ pub(crate) fn build(scene: &Scene) -> Result<World, Problem> {
     }
     check_numbers(scene)?;
     let mut world = World::new(settings(&scene.simulation))
-        .map_err(|error| problem("simulation.bisect", error))?;
+        .map_err(|error| settings_problem(&scene.simulation, error))?;
     add_forces(&mut world, &scene.forces)?;
     for (i, collider) in scene.colliders.iter().enumerate() {
         let path = format!("colliders[{i}]");
@@ -140,6 +140,8 @@ fn collider(collider: &Collider) -> carom::Collider {
     carom::Collider {
         shape,
         pose: Pose { position: vector(collider.position), rotation: quaternion(collider.rotation) },
+        velocity: vector(collider.velocity),
+        angular_velocity: vector(collider.angular_velocity),
         restitution: collider.restitution,
         trigger: collider.trigger,
     }
@@ -161,6 +163,7 @@ fn emitter(emitter: &Emitter, path: &str) -> Result<carom::Emitter, Problem> {
 
 fn settings(simulation: &Simulation) -> Settings {
     let Bisect { tolerance, max_halvings, max_impacts, wind_back } = simulation.bisect;
+    let Exact { contact_duration, max_impacts: most } = simulation.exact;
     let wind_back = match wind_back {
         WindBack::Touched => carom::WindBack::Touched,
         WindBack::All => carom::WindBack::All,
@@ -168,6 +171,7 @@ fn settings(simulation: &Simulation) -> Settings {
     Settings {
         rule: match simulation.rule {
             Rule::Discrete => carom::Rule::Discrete,
+            Rule::Exact => carom::Rule::Exact(carom::Exact { contact_duration, max_impacts: most }),
             Rule::Bisect => carom::Rule::Bisect(carom::Bisect {
                 tolerance,
                 max_halvings,
@@ -188,7 +192,29 @@ fn settings(simulation: &Simulation) -> Settings {
             RestitutionRule::Average => carom::RestitutionRule::Average,
         },
         spheres_collide: simulation.spheres_collide,
+        impact_law: match simulation.impact_law {
+            ImpactLaw::Sequential => carom::ImpactLaw::Sequential,
+            ImpactLaw::Simultaneous => carom::ImpactLaw::Simultaneous,
+            ImpactLaw::Reflection => carom::ImpactLaw::Reflection,
+        },
+        boundary: match simulation.boundary {
+            Boundary::Open => carom::Boundary::Open,
+            Boundary::Periodic { size } => carom::Boundary::Periodic { size: vector(size) },
+        },
     }
+}
+
+/// A refusal of the settings, about the table they are written in.
+fn settings_problem(simulation: &Simulation, error: carom::Error) -> Problem {
+    let path = match &error {
+        carom::Error::Invalid { source, .. } if source.field == "size" => {
+            "simulation.boundary.periodic"
+        }
+        carom::Error::Invalid { source, .. } if source.field == "boundary" => "simulation",
+        _ if simulation.rule == Rule::Exact => "simulation.exact",
+        _ => "simulation.bisect",
+    };
+    problem(path, error)
 }
 
 /// A refusal of the physics, about what is written at `path`.

@@ -46,6 +46,8 @@ fn collider() -> impl Strategy<Value = Collider> {
         |(shape, position, rotation, restitution, trigger)| Collider {
             shape,
             pose: Pose { position, rotation },
+            velocity: DVec3::ZERO,
+            angular_velocity: DVec3::ZERO,
             restitution,
             trigger,
         },
@@ -59,7 +61,7 @@ fn settings() -> impl Strategy<Value = Settings> {
             Rule::Bisect(Bisect { tolerance, max_halvings, max_impacts, wind_back })
         },
     );
-    let rule = prop_oneof![Just(Rule::Discrete), bisect];
+    let rule = prop_oneof![Just(Rule::Discrete), bisect, Just(Rule::default())];
     let integrator = prop::sample::select(vec![
         Integrator::SemiImplicitEuler,
         Integrator::ExplicitEuler,
@@ -78,6 +80,7 @@ fn settings() -> impl Strategy<Value = Settings> {
             integrator,
             restitution_rule,
             spheres_collide,
+            ..Settings::default()
         },
     )
 }

@@ -20,7 +20,7 @@ pub use classify::{ContactState, classify};
 pub use separation::Separation;
 pub(crate) use sphere_box::sphere_box;
 pub use sphere_half_space::sphere_half_space;
-pub(crate) use sphere_rectangle::sphere_rectangle;
+pub(crate) use sphere_rectangle::{sphere_rectangle, sphere_rectangle_known_in_front};
 pub use sphere_sphere::sphere_sphere;
 
 use crate::surface::Form;

@@ -16,18 +16,25 @@ pub(crate) fn sphere_rectangle(
     center: DVec3,
     radius: f64,
 ) -> Option<Separation> {
+    let height = (center - rectangle.center).dot(rectangle.normal);
+    (height >= 0.0).then(|| sphere_rectangle_known_in_front(rectangle, center, radius))
+}
+
+/// Likewise for a sphere that is known to be in front, whatever rounding says.
+pub(crate) fn sphere_rectangle_known_in_front(
+    rectangle: &Rectangle,
+    center: DVec3,
+    radius: f64,
+) -> Separation {
     let offset = center - rectangle.center;
     let height = offset.dot(rectangle.normal);
-    if height < 0.0 {
-        return None;
-    }
     let (x, z) = (offset.dot(rectangle.axis_x), offset.dot(rectangle.axis_z));
     let nearest_x = x.clamp(-rectangle.half_x, rectangle.half_x);
     let nearest_z = z.clamp(-rectangle.half_z, rectangle.half_z);
     let point = rectangle.center + nearest_x * rectangle.axis_x + nearest_z * rectangle.axis_z;
     if nearest_x == x && nearest_z == z {
         let normal = rectangle.normal;
-        return Some(Separation { distance: height - radius, normal, point });
+        return Separation { distance: height - radius, normal, point };
     }
-    Some(Separation::from_point(point, center, radius, rectangle.normal))
+    Separation::from_point(point, center, radius, rectangle.normal)
 }

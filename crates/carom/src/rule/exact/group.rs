@@ -59,17 +59,39 @@ pub(super) fn answer(
     time: f64,
 ) {
     let mut group = touch::gather(timeline, stage, seeds, surface, time);
-    respond_to_impacts(timeline, stage, &mut group);
+    let struck = respond_to_impacts(timeline, stage, &mut group);
     let supports = support::find(stage, &mut group);
-    begin_flights(timeline, stage, &group, supports);
+    let held = supports.iter().flat_map(|support| &support.contacts).map(|contact| contact.0);
+    let answered: Vec<Bodies> = struck.into_iter().chain(held).collect();
+    begin_flights(timeline, &group, supports);
+    for member in &group.members {
+        predict::predict(timeline, stage.system, member.slot, group.time);
+    }
+    if let Some(bodies) = met(timeline, seeds, surface)
+        && !answered.contains(&bodies)
+    {
+        let until = time + stage.parameters.contact_duration;
+        seeds.iter().for_each(|&seed| predict::pause(timeline, seed, bodies, until));
+    }
 }
 
-/// Gives every closing contact its impulse, by the impact law, and writes them down.
-fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group) {
+/// The two bodies whose meeting was predicted, if any was.
+fn met(timeline: &Timeline, seeds: &[u32], surface: Option<u32>) -> Option<Bodies> {
+    let index = |slot: u32| timeline.index_of[slot as usize];
+    match (seeds, surface) {
+        (&[first, second], _) => Some(Bodies::pair([first, second].map(index))),
+        (&[slot], Some(surface)) => Some(Bodies::Surface { sphere: index(slot), surface }),
+        _ => None,
+    }
+}
+
+/// Gives every closing contact its impulse, by the impact law, and writes them down; tells who got
+/// one.
+fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group) -> Vec<Bodies> {
     let contacts = contacts_of(timeline, stage, group);
     let is_closing = |touch: &Touch| touch.normal_velocity(&group.members) < 0.0;
     if !group.touches.iter().any(is_closing) {
-        return;
+        return Vec::new();
     }
     let approach: Vec<f64> =
         group.touches.iter().map(|touch| -touch.normal_velocity(&group.members)).collect();
@@ -83,7 +105,7 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
     }
     let mut account = account_of([&before, &after], &masses);
     account.energy_demanded = response.restitution_energy;
-    let mut impacts = Vec::new();
+    let (mut impacts, mut struck) = (Vec::new(), Vec::new());
     for ((touch, &impulse), approach_speed) in
         group.touches.iter().zip(&response.impulses).zip(approach)
     {
@@ -94,6 +116,7 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
             account.momentum_after -= impulse * touch.normal;
             account.energy_after -= impulse * touch.normal.dot(touch.surface_velocity);
         }
+        struck.push(touch.bodies);
         impacts.push(Impact {
             time: group.time - stage.start,
             between: Participants::of(touch.bodies, stage.system),
@@ -105,6 +128,7 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
         });
     }
     stage.record(&impacts, account);
+    struck
 }
 
 /// The touches as the impact laws take them.
@@ -152,13 +176,10 @@ fn account_of([before, after]: [&[DVec3]; 2], masses: &[f64]) -> ImpactGroup {
 }
 
 /// Begins a new flight of every sphere of the group, borne by its lasting contacts.
-fn begin_flights(timeline: &mut Timeline, stage: &Stage, group: &Group, supports: Vec<Support>) {
+fn begin_flights(timeline: &mut Timeline, group: &Group, supports: Vec<Support>) {
     for member in &group.members {
         timeline.set_free(member.slot);
         timeline.begin_flight(member.slot, member.position, member.velocity, group.time);
     }
     supports.into_iter().for_each(|support| timeline.set_supported(support));
-    for member in &group.members {
-        predict::predict(timeline, stage.system, member.slot, group.time);
-    }
 }

@@ -69,7 +69,7 @@ pub(crate) fn advance(
             }
         };
         match event.target {
-            Target::Nothing => {}
+            Target::Restart => predict::restart(timeline, system, slot, event.time),
             Target::Sphere(other) if timeline.bodies[other as usize].flights != event.flights => {
                 predict::predict(timeline, system, slot, event.time);
             }

@@ -48,6 +48,30 @@ pub(super) fn predict_from(
     timeline.schedule(slot, first, crossing);
 }
 
+/// Lets a sphere pass over a meeting that is due before `until` \[s\], to begin another flight then.
+///
+/// Two bodies that hardly touch may meet, by the rounding of one formula, and have nothing to
+/// answer, by that of another. Whatever they are in doubt about is over within a contact's duration.
+pub(super) fn pause(timeline: &mut Timeline, slot: u32, bodies: Bodies, until: f64) {
+    let event = timeline.events[slot as usize];
+    let sphere = timeline.index_of[slot as usize];
+    let again = match event.target {
+        Target::Sphere(other) => Bodies::pair([sphere, timeline.index_of[other as usize]]),
+        Target::Surface(surface) => Bodies::Surface { sphere, surface },
+        Target::Cluster | Target::Restart => return,
+    };
+    if again == bodies && event.time < until {
+        timeline.reschedule(slot, Event { time: until, target: Target::Restart, flights: 0 });
+    }
+}
+
+/// Begins another flight of a sphere from where it is at `now` \[s\].
+pub(super) fn restart(timeline: &mut Timeline, system: &System, slot: u32, now: f64) {
+    let (position, velocity) = timeline.state_of(slot, now);
+    timeline.begin_flight(slot, position, velocity, now);
+    predict(timeline, system, slot, now);
+}
+
 /// Puts a sphere that leaves its cell into the next one, and looks for what it may meet there.
 pub(super) fn cross(timeline: &mut Timeline, system: &System, slot: u32, crossing: Crossing) {
     let Crossing { time, face } = crossing;

@@ -94,16 +94,17 @@ pub(super) enum Next {
 /// What a sphere comes upon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Target {
-    Nothing,
     /// Another sphere, by slot.
     Sphere(u32),
     Surface(u32),
     /// The forces of its lasting contacts have to be found anew.
     Cluster,
+    /// Nothing: its flight begins anew from where it is.
+    Restart,
 }
 
 impl Event {
-    pub const NEVER: Self = Self { time: f64::INFINITY, target: Target::Nothing, flights: 0 };
+    pub const NEVER: Self = Self { time: f64::INFINITY, target: Target::Restart, flights: 0 };
 }
 
 impl Timeline {
@@ -267,6 +268,11 @@ impl Timeline {
             self.predict_all(system, frame[0]);
         }
         self.arrange_if_due(system, frame[0]);
+    }
+
+    /// Notes what a sphere meets next.
+    pub(super) fn reschedule(&mut self, slot: u32, event: Event) {
+        self.schedule(slot, event, self.crossings[slot as usize]);
     }
 
     /// Notes what a sphere meets next, and when it leaves its cell.

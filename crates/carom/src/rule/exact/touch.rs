@@ -9,7 +9,7 @@ use super::group::{Group, Member};
 use super::stage::Stage;
 use super::timeline::Timeline;
 use crate::detect::contact::Bodies;
-use crate::detect::{Separation, sphere_sphere, sphere_surface};
+use crate::detect::{Separation, sphere_rectangle_known_in_front, sphere_sphere, sphere_surface};
 use crate::respond::TouchingContact;
 use crate::surface::{Form, Rectangle, SurfaceMotion};
 
@@ -41,6 +41,8 @@ pub(super) struct Touch {
     pub surface_pull: DVec3,
     /// From where the position of body 2 counts to where that of body 1 does \[m\].
     pub shift: DVec3,
+    /// Predicted, so not in doubt.
+    pub is_given: bool,
 }
 
 /// How the normal of a contact turns when the bodies slide along each other.
@@ -104,7 +106,12 @@ impl Touch {
             Bodies::Surface { surface, .. } => {
                 let (form, motion) = stage.surface_at(surface, time);
                 let center = second.position + self.shift;
-                let separation = sphere_surface(&form, center, second.kind.radius)?;
+                let separation = match &form {
+                    Form::Rectangle(rectangle) if self.is_given => {
+                        sphere_rectangle_known_in_front(rectangle, center, second.kind.radius)
+                    }
+                    form => sphere_surface(form, center, second.kind.radius)?,
+                };
                 let bend = bend_of(&form, center, &separation);
                 Some(Self { bend, ..self.with(separation).with_motion(&motion) })
             }
@@ -125,8 +132,14 @@ impl Touch {
     }
 
     /// The bodies, not yet measured.
-    fn between(bodies: Bodies, first: Option<usize>, second: usize, shift: DVec3) -> Self {
+    fn between(
+        bodies: Bodies,
+        first: Option<usize>,
+        second: usize,
+        Found { shift, is_given }: Found,
+    ) -> Self {
         Self {
+            is_given,
             bodies,
             first,
             second,
@@ -194,6 +207,15 @@ pub(super) fn gather(
     gathering.finish()
 }
 
+/// How two bodies were found to touch.
+#[derive(Clone, Copy)]
+struct Found {
+    /// From where the position of body 2 counts to where that of body 1 does \[m\].
+    shift: DVec3,
+    /// Predicted, so not in doubt.
+    is_given: bool,
+}
+
 /// A group while it is gathered.
 struct Gathering<'a> {
     timeline: &'a Timeline,
@@ -201,8 +223,7 @@ struct Gathering<'a> {
     time: f64,
     /// By index, so in order.
     members: BTreeMap<u32, Member>,
-    /// With the shift from body 2 to body 1.
-    touches: BTreeMap<Bodies, DVec3>,
+    touches: BTreeMap<Bodies, Found>,
     /// Slots of members whose surroundings were not looked at yet.
     frontier: Vec<u32>,
 }
@@ -227,9 +248,10 @@ impl<'a> Gathering<'a> {
     /// Notes that two spheres touch, with the shift from where the second one counts to where the
     /// first does.
     fn connect(&mut self, slots: [u32; 2], shift: DVec3) {
+        let is_given = false;
         let indices = slots.map(|slot| self.timeline.index_of[slot as usize]);
         let shift = if indices[0] < indices[1] { shift } else { -shift };
-        self.touches.insert(Bodies::pair(indices), shift);
+        self.touches.entry(Bodies::pair(indices)).or_insert(Found { shift, is_given });
     }
 
     /// Two spheres that were predicted to meet now touch, whatever rounding says.
@@ -252,7 +274,8 @@ impl<'a> Gathering<'a> {
         let images = self.timeline.surfaces_near(slot).filter(|near| near.0 == surface);
         let nearest = images.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
         if let Some((_, shift)) = nearest {
-            self.touches.insert(Bodies::Surface { sphere, surface }, -shift);
+            let found = Found { shift: -shift, is_given: true };
+            self.touches.insert(Bodies::Surface { sphere, surface }, found);
         }
     }
 
@@ -293,7 +316,9 @@ impl<'a> Gathering<'a> {
             let speed = (velocity - motion.velocity_at(separation.point)).length();
             let coordinates = place.length() + separation.point.length() + radius;
             if separation.distance <= self.touching_gap(coordinates, speed) {
-                self.touches.insert(Bodies::Surface { sphere, surface }, -shift);
+                let bodies = Bodies::Surface { sphere, surface };
+                let found = Found { shift: -shift, is_given: false };
+                self.touches.entry(bodies).or_insert(found);
             }
         }
     }
@@ -311,7 +336,7 @@ impl<'a> Gathering<'a> {
         let cluster = timeline.clusters.get(number);
         cluster.members.iter().for_each(|&member| self.join(member));
         for &(bodies, shift) in &cluster.contacts {
-            self.touches.entry(bodies).or_insert(shift);
+            self.touches.entry(bodies).or_insert(Found { shift, is_given: false });
         }
     }
 
@@ -320,12 +345,12 @@ impl<'a> Gathering<'a> {
         let places: BTreeMap<u32, usize> =
             self.members.keys().enumerate().map(|(place, &index)| (index, place)).collect();
         let members: Vec<Member> = self.members.into_values().collect();
-        let touches = self.touches.into_iter().filter_map(|(bodies, shift)| {
+        let touches = self.touches.into_iter().filter_map(|(bodies, found)| {
             let (first, second) = match bodies {
                 Bodies::Pair(first, second) => (Some(places[&first]), places[&second]),
                 Bodies::Surface { sphere, .. } => (None, places[&sphere]),
             };
-            Touch::between(bodies, first, second, shift).measured_at(stage, &members, time)
+            Touch::between(bodies, first, second, found).measured_at(stage, &members, time)
         });
         let touches = touches.collect();
         let fastest = members.iter().map(|member| member.velocity.length()).fold(0.0, f64::max);
