@@ -12,8 +12,8 @@
 //! 5. **respond** with impulses ([`respond`])
 //!
 //! Right-handed frame, y up, SI units, double precision. The same input gives the same bits on
-//! every platform: only `+ - * /` and `sqrt` are used, in a fixed order
-//! ([`World::state_hash`]). The formulas and their sources are in `docs/physics.md`.
+//! every platform: only `+ - * /`, `sqrt` and the functions of the `libm` crate are used, in a
+//! fixed order ([`World::state_hash`]). The formulas and their sources are in `docs/physics.md`.
 
 #![warn(clippy::unwrap_used)]
 
@@ -25,6 +25,7 @@ pub mod contact_time;
 pub mod detect;
 mod emitter;
 mod error;
+mod flight;
 mod forces;
 mod hash;
 mod integrate;
@@ -48,6 +49,7 @@ pub use bodies::{Mass, Sphere, SphereId, Spheres, volume};
 pub use collider::{Collider, ColliderId, Pose, Shape};
 pub use emitter::{Emitter, EmitterId};
 pub use error::{Error, InvalidValue, Subject};
+pub use flight::Flight;
 pub use forces::{ConstantForce, Force, ForceId, Gravity, SphereState, ViscousDrag};
 pub use hash::StateHash;
 pub use integrate::Integrator;

@@ -1,0 +1,34 @@
+//! When a contact begins.
+//!
+//! For spheres in free flight ([`Flight`](crate::Flight)) the time follows from the paths: in
+//! closed form where there is one ([`sphere_sphere_linear`], half-spaces), by a search that
+//! cannot step over a contact where there is none. For motion that is known only step by step,
+//! [`bisect`] halves the interval.
+//!
+//! **Contact** means the same everywhere: the earliest time t >= 0, up to a horizon, at which the
+//! distance d(t) of the surfaces is <= 0 and is about to fall: `d' < 0`, or `d' = 0` and
+//! `d'' < 0`. So two bodies that touch and part, or touch at rest without pressing, are not in
+//! contact, but their return is found; bodies that overlap and part are in contact once they
+//! return or, should they turn before they are apart, where they turn. "Zero" is within the
+//! rounding of the numbers that d and its derivatives are made of (`roundoff`).
+//!
+//! The formulas, and why nothing is missed, are in `docs/physics.md`, "Contact times".
+
+mod bisection;
+#[cfg(test)]
+mod claims;
+mod half_space;
+mod obstacle;
+#[cfg(test)]
+mod oracle;
+mod path;
+mod roundoff;
+mod search;
+mod sphere_sphere;
+mod sphere_surface;
+mod turning;
+
+pub use bisection::{Bisection, Probe, bisect};
+pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};
+#[cfg_attr(not(test), allow(unused_imports))]
+pub(crate) use sphere_surface::{SurfaceMotion, sphere_surface};

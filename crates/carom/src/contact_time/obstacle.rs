@@ -1,0 +1,136 @@
+//! What a sphere may meet, as a convex core: the surfaces touch where the centre is at the
+//! distance of a radius from it.
+
+use glam::DVec3;
+
+use crate::surface::Rectangle;
+
+/// An obstacle at rest. Its core is convex, so the distance from it lies above each of its
+/// tangent planes; the search rests on that.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Obstacle {
+    /// The origin.
+    Point { radius: f64 },
+    /// Everything below a plane through `point`.
+    HalfSpace { point: DVec3, normal: DVec3, radius: f64 },
+    /// A rectangle, which meets only centres in front of its plane.
+    Rectangle { rectangle: Rectangle, radius: f64 },
+}
+
+/// An obstacle as seen from one point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sight {
+    /// From the core \[m\].
+    pub from_core: f64,
+    /// Of the surfaces, `from_core` less the radius \[m\].
+    pub distance: f64,
+    /// Direction in which the distance grows fastest.
+    pub normal: DVec3,
+    /// Whether the normal changes from place to place.
+    pub is_round: bool,
+    /// How far \[m\] the centre may go without a change of the normal.
+    pub flat_within: f64,
+    /// Second derivative \[m/s²\] of the distance for a point that moves at a constant velocity.
+    pub turning: f64,
+    /// A plane that the centre must pass before there can be contact.
+    pub barrier: Option<Barrier>,
+    /// Whether nothing is met from here, whatever the distance: the centre is behind.
+    pub is_behind: bool,
+}
+
+/// A half-space that holds every place of contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Barrier {
+    /// From the half-space \[m\].
+    pub distance: f64,
+    /// Unit normal out of it.
+    pub normal: DVec3,
+}
+
+impl Obstacle {
+    /// Seen from a centre with a velocity.
+    pub fn seen_from(&self, position: DVec3, velocity: DVec3) -> Sight {
+        match *self {
+            Self::Point { radius } => Sight::of_offset(position, velocity, radius, DVec3::Y),
+            Self::HalfSpace { point, normal, radius } => {
+                let height = (position - point).dot(normal);
+                Sight::of_face(height, normal, radius, f64::INFINITY)
+            }
+            Self::Rectangle { ref rectangle, radius } => {
+                see_rectangle(rectangle, radius, position, velocity)
+            }
+        }
+    }
+}
+
+impl Sight {
+    fn of_face(height: f64, normal: DVec3, radius: f64, flat_within: f64) -> Self {
+        Self {
+            from_core: height,
+            distance: height - radius,
+            normal,
+            is_round: false,
+            flat_within,
+            turning: 0.0,
+            barrier: None,
+            is_behind: false,
+        }
+    }
+
+    /// Of a point or an edge, from the nearest place on it; `across` is the velocity without its
+    /// part along the edge. The distance ρ has `ρ'' = (v² - ρ'²)/ρ`.
+    fn of_offset(offset: DVec3, across: DVec3, radius: f64, normal_at_zero: DVec3) -> Self {
+        let from_core = offset.length();
+        let (normal, turning) = if from_core > 0.0 {
+            let normal = offset / from_core;
+            (normal, normal.cross(across).length_squared() / from_core)
+        } else {
+            (normal_at_zero, 0.0)
+        };
+        Self {
+            from_core,
+            distance: from_core - radius,
+            normal,
+            is_round: true,
+            flat_within: 0.0,
+            turning,
+            barrier: None,
+            is_behind: false,
+        }
+    }
+}
+
+/// As in `detect/sphere_rectangle.rs`.
+fn see_rectangle(rectangle: &Rectangle, radius: f64, position: DVec3, velocity: DVec3) -> Sight {
+    let offset = position - rectangle.center;
+    let (axis_x, axis_z) = (rectangle.axis_x, rectangle.axis_z);
+    let height = offset.dot(rectangle.normal);
+    let (x, z) = (offset.dot(axis_x), offset.dot(axis_z));
+    let nearest_x = x.clamp(-rectangle.half_x, rectangle.half_x);
+    let nearest_z = z.clamp(-rectangle.half_z, rectangle.half_z);
+    let (over_x, over_z) = (nearest_x == x, nearest_z == z);
+    let mut sight = if over_x && over_z {
+        let (height, normal) =
+            if height < 0.0 { (-height, -rectangle.normal) } else { (height, rectangle.normal) };
+        let to_edge = (rectangle.half_x - x.abs()).min(rectangle.half_z - z.abs());
+        Sight::of_face(height, normal, radius, to_edge)
+    } else {
+        let from_nearest =
+            height * rectangle.normal + (x - nearest_x) * axis_x + (z - nearest_z) * axis_z;
+        let mut across = velocity;
+        if over_x {
+            across -= velocity.dot(axis_x) * axis_x;
+        }
+        if over_z {
+            across -= velocity.dot(axis_z) * axis_z;
+        }
+        Sight::of_offset(from_nearest, across, radius, rectangle.normal)
+    };
+    sight.is_behind = height < 0.0;
+    sight.barrier = if sight.is_behind {
+        Some(Barrier { distance: -height, normal: -rectangle.normal })
+    } else {
+        (height > radius).then_some(Barrier { distance: height - radius, normal: rectangle.normal })
+    };
+    sight
+}

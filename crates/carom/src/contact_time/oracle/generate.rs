@@ -1,0 +1,245 @@
+//! Situations with a contact planted at a known time: hits, near misses, grazes within rounding,
+//! starts in contact.
+
+use glam::DVec3;
+
+use super::situation::{Bodies, Situation};
+use crate::contact_time::SurfaceMotion;
+use crate::flight::{Flight, Propagator};
+use crate::surface::{Form, Rectangle};
+
+/// Numbers in [0, 1), the same in every run: SplitMix64 (Steele, Lea, Flood 2014).
+pub struct Numbers(pub u64);
+
+impl Numbers {
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// 10 to a power in this range.
+    pub fn decade(&mut self, low: f64, high: f64) -> f64 {
+        libm::exp10(self.between(low, high))
+    }
+
+    pub fn one_in(&mut self, count: u64) -> bool {
+        self.bits().is_multiple_of(count)
+    }
+
+    pub fn direction(&mut self) -> DVec3 {
+        loop {
+            let v = DVec3::from_array(std::array::from_fn(|_| self.between(-1.0, 1.0)));
+            if (0.1..1.0).contains(&v.length()) {
+                return v.normalize();
+            }
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    Spheres,
+    Sphere,
+    HalfSpace,
+    Rectangle,
+}
+
+/// Whether paths are parabolas and surfaces do not turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Air {
+    None,
+    Drag,
+}
+
+/// Scales of one situation.
+struct Scales {
+    /// Of radii and sizes \[m\].
+    length: f64,
+    /// Of the relative motion \[m/s\].
+    speed: f64,
+    /// When the planted contact is \[s\].
+    time: f64,
+}
+
+/// Centre and velocity, relative to an obstacle at rest, at the planted time.
+struct Planted {
+    point: DVec3,
+    normal: DVec3,
+}
+
+pub fn situation(numbers: &mut Numbers, kind: Kind, air: Air, turns: bool) -> Situation {
+    let scales = scales(numbers);
+    let time = scales.time;
+    let bodies = if kind == Kind::Spheres {
+        spheres(numbers, &scales, air)
+    } else {
+        surface(numbers, &scales, kind, air, turns)
+    };
+    let longest = if time > 0.0 { time } else { scales.length / scales.speed };
+    let horizon = match numbers.bits() % 4 {
+        0 if !turns => f64::INFINITY,
+        0 | 1 => 1.001 * time,
+        2 => longest * numbers.decade(-1.0, 1.5),
+        _ => 3.0 * longest,
+    };
+    Situation { bodies, horizon }
+}
+
+fn scales(numbers: &mut Numbers) -> Scales {
+    let length = numbers.decade(-3.0, 3.0);
+    let speed = numbers.decade(-6.0, 8.0);
+    let travelled = length * numbers.decade(-2.0, 4.0);
+    let time = if numbers.one_in(4) { 0.0 } else { travelled / speed };
+    Scales { length, speed, time }
+}
+
+fn spheres(numbers: &mut Numbers, scales: &Scales, air: Air) -> Bodies {
+    let radius_sum = scales.length * (1.0 + numbers.decade(-3.0, 0.0));
+    let normal = numbers.direction();
+    let planted = Planted { point: DVec3::ZERO, normal };
+    let (offset, velocity) = approach(numbers, scales, &planted, radius_sum);
+    let place = if numbers.one_in(3) { DVec3::ZERO } else { far_place(numbers, scales) };
+    let drift = scales.speed * numbers.decade(-3.0, 1.0) * numbers.direction();
+    let (a, g) = (acceleration(numbers, scales), drag_rate(numbers, scales, air));
+    let (a2, g2) = match numbers.bits() % 3 {
+        0 => (a, g),
+        1 => (acceleration(numbers, scales), g),
+        _ => (acceleration(numbers, scales), drag_rate(numbers, scales, air)),
+    };
+    let first = rewound(scales.time, place, drift, a, g);
+    let second = rewound(scales.time, place + offset, drift + velocity, a2, g2);
+    Bodies::Spheres { first, second, radius_sum }
+}
+
+fn surface(numbers: &mut Numbers, scales: &Scales, kind: Kind, air: Air, turns: bool) -> Bodies {
+    let radius = scales.length * numbers.decade(-3.0, 0.0);
+    let place = if numbers.one_in(2) { DVec3::ZERO } else { far_place(numbers, scales) };
+    let (form, planted) = form(numbers, scales, kind, place);
+    let (center, relative) = approach(numbers, scales, &planted, radius);
+    let motion = motion(numbers, scales, place, turns);
+    let (omega, t) = (motion.angular_velocity, scales.time);
+    let turn = |v: DVec3| {
+        let rate = omega.length();
+        if rate == 0.0 { v } else { glam::DQuat::from_axis_angle(omega / rate, rate * t) * v }
+    };
+    let arm = turn(center - motion.origin);
+    let x = motion.origin + t * motion.velocity + arm;
+    let v = motion.velocity + turn(relative) + omega.cross(arm);
+    let (a, g) = (acceleration(numbers, scales), drag_rate(numbers, scales, air));
+    Bodies::Surface { flight: rewound(t, x, v, a, g), radius, form, motion }
+}
+
+fn motion(numbers: &mut Numbers, scales: &Scales, place: DVec3, turns: bool) -> SurfaceMotion {
+    let moves = turns || numbers.one_in(3);
+    let speed = if moves { scales.speed * numbers.decade(-3.0, 1.0) } else { 0.0 };
+    let velocity = speed * numbers.direction();
+    let period = if scales.time > 0.0 { scales.time } else { scales.length / scales.speed };
+    let rate = if turns { numbers.decade(-2.0, 1.3) / period } else { 0.0 };
+    let arm = if numbers.one_in(3) { 0.0 } else { scales.length * numbers.between(0.0, 2.0) };
+    let origin = place + arm * numbers.direction();
+    let axis = if numbers.one_in(3) { DVec3::Y } else { numbers.direction() };
+    SurfaceMotion { origin, velocity, angular_velocity: rate * axis }
+}
+
+/// A surface and a point on it, with a normal there.
+fn form(numbers: &mut Numbers, scales: &Scales, kind: Kind, place: DVec3) -> (Form, Planted) {
+    let normal = if numbers.one_in(3) { DVec3::Y } else { numbers.direction() };
+    let (axis_x, axis_z) = normal.any_orthonormal_pair();
+    let length = scales.length;
+    let mut sideways = |half: f64| half * numbers.between(-1.0, 1.0);
+    match kind {
+        Kind::Spheres | Kind::Sphere => {
+            let radius = length * numbers.decade(-3.0, 0.0);
+            let point = place + radius * normal;
+            (Form::Sphere { center: place, radius }, Planted { point, normal })
+        }
+        Kind::HalfSpace => {
+            let point = place + sideways(length) * axis_x + sideways(length) * axis_z;
+            (Form::HalfSpace { point: place, normal }, Planted { point, normal })
+        }
+        Kind::Rectangle => {
+            let (half_x, half_z) = (length * numbers.decade(-1.0, 0.0), length);
+            let rectangle = Rectangle { center: place, axis_x, axis_z, normal, half_x, half_z };
+            // On the face, an edge or a corner.
+            let mut feature = |half: f64| match numbers.bits() % 4 {
+                0 => (half, numbers.between(0.0, 1.0)),
+                1 => (-half, -numbers.between(0.0, 1.0)),
+                _ => (half * numbers.between(-1.0, 1.0), 0.0),
+            };
+            let ((x, out_x), (z, out_z)) = (feature(half_x), feature(half_z));
+            let up = if out_x == 0.0 && out_z == 0.0 { 1.0 } else { numbers.between(0.0, 1.0) };
+            let normal = (out_x * axis_x + out_z * axis_z + up * normal).normalize();
+            let point = place + x * axis_x + z * axis_z;
+            (Form::Rectangle(rectangle), Planted { point, normal })
+        }
+    }
+}
+
+/// Centre and relative velocity of a sphere at the planted contact: hit, graze, near graze or
+/// opening.
+fn approach(
+    numbers: &mut Numbers,
+    scales: &Scales,
+    planted: &Planted,
+    reach: f64,
+) -> (DVec3, DVec3) {
+    let Planted { point, normal } = *planted;
+    let off = match numbers.bits() % 6 {
+        0 => numbers.decade(-16.0, -10.0),
+        1 => -numbers.decade(-16.0, -10.0),
+        2 => numbers.decade(-10.0, -1.0),
+        3 => -numbers.decade(-10.0, -1.0),
+        _ => 0.0,
+    };
+    let center = point + reach * normal * (1.0 + off);
+    let across = numbers.direction().cross(normal).normalize();
+    let closing = match numbers.bits() % 6 {
+        0 => 0.0,
+        1 => numbers.decade(-17.0, -12.0),
+        2 => numbers.decade(-12.0, -2.0),
+        3 => -numbers.decade(-12.0, 0.0),
+        _ => numbers.between(0.0, 2.0),
+    };
+    let sliding = if numbers.one_in(8) { 0.0 } else { 1.0 };
+    (center, scales.speed * (sliding * across - closing * normal))
+}
+
+fn far_place(numbers: &mut Numbers, scales: &Scales) -> DVec3 {
+    scales.length * numbers.decade(-1.0, 4.0) * numbers.direction()
+}
+
+fn acceleration(numbers: &mut Numbers, scales: &Scales) -> DVec3 {
+    if numbers.one_in(4) {
+        return DVec3::ZERO;
+    }
+    let turn_back = if scales.time > 0.0 { scales.speed / scales.time } else { 9.81 };
+    turn_back * numbers.decade(-4.0, 1.0) * numbers.direction()
+}
+
+fn drag_rate(numbers: &mut Numbers, scales: &Scales, air: Air) -> f64 {
+    // Beyond, a rewound flight started astronomically fast.
+    const MOST_SPENT: f64 = 8.0;
+    if air == Air::None {
+        return 0.0;
+    }
+    let rate = numbers.decade(-12.0, 3.0);
+    if rate * scales.time > MOST_SPENT {
+        numbers.between(0.0, MOST_SPENT) / scales.time
+    } else {
+        rate
+    }
+}
+
+/// The flight that is at a place with a velocity at a time.
+fn rewound(t: f64, x: DVec3, v: DVec3, acceleration: DVec3, drag_rate: f64) -> Flight {
+    let Propagator { decay, drift, fall } = Propagator::over(t, drag_rate);
+    let velocity = (v - drift * acceleration) / decay;
+    let position = x - (drift * velocity + fall * acceleration);
+    Flight { position, velocity, acceleration, drag_rate }
+}

@@ -1,0 +1,282 @@
+//! The search for a contact where there is no closed form: conservative advancement.
+
+use glam::DVec3;
+
+use super::bisection::{Probe, bisect};
+use super::obstacle::{Barrier, Obstacle, Sight};
+use super::path::{Path, State};
+use super::roundoff::{ACCELERATION_ROUNDOFF, Gap, Magnitudes, Phase, Zero};
+
+/// Steps close to the obstacle that aim exactly at it. Transversal contacts take a handful,
+/// passes at the distance of a rounding error some fifty.
+const EXACT_STEPS: u32 = 128;
+
+/// The same within an overlap, where the bound can be weak: a path along the surface turns its
+/// normal, and a step gains only a part of what is left.
+const EXACT_STEPS_INSIDE: u32 = 4096;
+
+/// After so many more steps close to the obstacle the search looks half as closely.
+const STEPS_OF_A_DEPTH: u32 = 16;
+
+/// Past this a search gives up. Flights take a handful of steps, seldom hundreds, and turning
+/// surfaces some tens per turn; this is for numbers whose squares overflow, and for a horizon of
+/// more turns than anyone waits for.
+const MAX_STEPS: u32 = 1 << 20;
+
+/// Doublings of a rounding error that make it larger than anything it is the rounding of.
+const MOST_DOUBLINGS: u32 = 64;
+
+/// What is close, as a part of the size of the coordinates: √ε. Up to here a distance has lost
+/// half its digits.
+const CLOSE: f64 = 1.5e-8;
+
+/// Halvings that use up the 53 bits of a time and the 11 of its exponent many times over.
+const MAX_HALVINGS: u32 = 128;
+
+/// Time \[s\] of the first contact in `[0, horizon]`.
+///
+/// With n the normal at a time t0, convexity of the obstacle puts it behind its tangent plane,
+/// so that `d(t) >= d + n·(x(t) - x)`, and with A an upper bound of the acceleration along -n,
+///
+/// ```text
+/// d(t0 + τ) >= d + d' τ - A τ²/2
+/// ```
+///
+/// Before this bound reaches zero there is no contact, so the search steps there and looks anew
+/// (Mirtich, *Impulse-based Dynamic Simulation* (1996), 2.3, with a bound of second order). It
+/// converges quadratically to contacts with d' < 0, and by halves to grazing ones. Where the
+/// bodies part, the step ends where the bound returns to zero or, of an overlap, where d' may.
+/// Derived in `docs/physics.md`, "Contact times".
+///
+/// A step is at least as long as the bound takes to fall by the distance from the obstacle: far
+/// away that is at least `√(2 CLOSE L/A)`, L the size of the coordinates. Steps that stay close
+/// to the obstacle for long (a path along its curvature) aim a rounding error below its surface,
+/// then twice as far with each [`STEPS_OF_A_DEPTH`], so that they come to an end; where they
+/// land in an overlap, the contact is found by halving. Only then can a contact go unnoticed
+/// that is deeper than rounding, and no deeper than `CLOSE L`.
+///
+/// - `size` of the numbers that the path and the obstacle are given by
+pub(super) fn first_contact(
+    path: &impl Path,
+    obstacle: &Obstacle,
+    size: Magnitudes,
+    horizon: f64,
+) -> Option<f64> {
+    let look = |t: f64| Look::at(path, obstacle, size, t);
+    let (mut before, mut t) = (0.0, 0.0);
+    let mut window = path.window();
+    let (mut close_steps, mut was_overlap) = (0, false);
+    for _ in 0..MAX_STEPS {
+        let now = look(t);
+        if !now.is_finite() {
+            return None;
+        }
+        if now.phase == Phase::Contact {
+            let pinned = if t == 0.0 { 0.0 } else { pin_down(&now, look, before, t) };
+            return Some(pinned.min(horizon));
+        }
+        let goes_on = now.is_close() && now.is_overlap() == was_overlap;
+        close_steps = if goes_on { close_steps + 1 } else { 0 };
+        was_overlap = now.is_overlap();
+        let aim = now.aim(close_steps);
+        let step = longest_step(path, &now, aim, t, &mut window, horizon);
+        let next = (t + step).max(t.next_up());
+        if next <= horizon && next.is_finite() {
+            (before, t) = (t, next);
+        } else {
+            return None;
+        }
+    }
+    None
+}
+
+/// The time of a contact that was seen at `t`, but not at `before`, to full precision.
+fn pin_down(now: &Look, look: impl Fn(f64) -> Look, before: f64, t: f64) -> f64 {
+    let mut earliest = t;
+    if now.is_overlap() {
+        let length = t - before;
+        bisect(length, MAX_HALVINGS, |elapsed| {
+            if look(before + elapsed).phase == Phase::Contact {
+                earliest = before + elapsed;
+                Probe::After
+            } else {
+                Probe::Before
+            }
+        });
+        return earliest;
+    }
+    // What is left is below rounding, but one step more makes the most of the digits.
+    let Gap { distance, speed, acceleration } = now.gap;
+    let step = if distance > 0.0 {
+        time_to_fall(distance, speed, -acceleration)
+    } else {
+        -distance / speed
+    };
+    let polished = (t + step).max(before);
+    if polished.is_finite() {
+        let there = look(polished);
+        let is_better = there.gap.distance.abs() < distance.abs();
+        if is_better && there.phase == Phase::Contact {
+            return polished;
+        }
+    }
+    t
+}
+
+/// The longest step \[s\] known to be safe. `window` is how far ahead the acceleration is bounded;
+/// it follows the steps.
+fn longest_step(
+    path: &impl Path,
+    now: &Look,
+    aim: f64,
+    t: f64,
+    window: &mut f64,
+    horizon: f64,
+) -> f64 {
+    let ahead = window.min(horizon - t);
+    let step = now.safe_step(path, aim, t, ahead);
+    if step >= ahead {
+        *window *= 2.0;
+        // Past the horizon, or on to the next window.
+        return if t + ahead >= horizon { step } else { ahead };
+    }
+    // The bound is closer over a nearer window, and allows a longer step.
+    let mut nearer = 4.0 * step;
+    *window = nearer.max(path.window());
+    let mut longest = step;
+    while 0.0 < nearer && nearer < ahead {
+        let step = now.safe_step(path, aim, t, nearer);
+        longest = step.min(nearer).max(longest);
+        if step < nearer {
+            break;
+        }
+        nearer *= 4.0;
+    }
+    longest
+}
+
+/// What there is to see at one instant.
+struct Look {
+    state: State,
+    sight: Sight,
+    gap: Gap,
+    zero: Zero,
+    phase: Phase,
+    /// Sizes of the numbers involved up to now.
+    size: Magnitudes,
+}
+
+impl Look {
+    fn at(path: &impl Path, obstacle: &Obstacle, size: Magnitudes, t: f64) -> Self {
+        let state = path.state_at(t);
+        let size = size + state.size;
+        let sight = obstacle.seen_from(state.position, state.velocity);
+        let gap = Gap {
+            distance: sight.distance,
+            speed: sight.normal.dot(state.velocity),
+            acceleration: sight.normal.dot(state.acceleration) + sight.turning,
+        };
+        let zero = if sight.is_round {
+            Zero::round(&size, sight.from_core, state.velocity.length(), sight.turning)
+        } else {
+            Zero::flat(&size)
+        };
+        let phase = if sight.is_behind { Phase::Apart } else { gap.phase(&zero) };
+        Self { state, sight, gap, zero, phase, size }
+    }
+
+    fn is_close(&self) -> bool {
+        self.gap.distance <= CLOSE * self.size.length
+    }
+
+    fn is_finite(&self) -> bool {
+        self.size.length.is_finite() && self.gap.speed.is_finite() && !self.gap.distance.is_nan()
+    }
+
+    /// Deeper than rounding.
+    fn is_overlap(&self) -> bool {
+        self.gap.distance < -self.zero.distance
+    }
+
+    /// How far \[m\] below the surface to aim, after so many steps close to it.
+    fn aim(&self, close_steps: u32) -> f64 {
+        let exact_steps = if self.is_overlap() { EXACT_STEPS_INSIDE } else { EXACT_STEPS };
+        if close_steps <= exact_steps {
+            return 0.0;
+        }
+        let doublings = (close_steps - exact_steps) / STEPS_OF_A_DEPTH;
+        let depth =
+            (0..doublings.min(MOST_DOUBLINGS)).fold(self.zero.distance, |depth, _| 2.0 * depth);
+        // What turns within an overlap is seen to close at the next look, and pinned down.
+        if self.is_overlap() { depth } else { depth.min(CLOSE * self.size.length) }
+    }
+
+    /// A step \[s\] before which no contact begins within the window; it may be longer than that,
+    /// and infinite.
+    fn safe_step(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
+        let bound = |normal: DVec3| self.pull(path, normal, t, window);
+        let barrier = self.sight.barrier.map_or(0.0, |Barrier { distance, normal }| {
+            let aim = if distance > self.zero.distance { aim } else { self.zero.distance.max(aim) };
+            time_to_fall(distance + aim, normal.dot(self.state.velocity), bound(normal))
+        });
+        let Gap { distance, speed, .. } = self.gap;
+        if distance > self.zero.distance {
+            return barrier.max(time_to_fall(distance + aim, speed, bound(self.sight.normal)));
+        }
+        if self.sight.is_behind {
+            return barrier;
+        }
+        let is_at_rest = self.gap.is_at_rest(&self.zero);
+        let (speed, aim) =
+            if is_at_rest { (0.0, aim.max(self.zero.distance)) } else { (speed, aim) };
+        let parting = if distance >= -self.zero.distance {
+            time_to_fall(aim, speed, bound(self.sight.normal))
+        } else {
+            // d' falls by A t at most, so an overlap opens until d' may be used up.
+            let pull = self.opening_pull(path, t, window);
+            if pull > 0.0 { speed / pull + (2.0 * aim / pull).sqrt() } else { f64::INFINITY }
+        };
+        barrier.max(parting)
+    }
+
+    /// An upper bound of the acceleration against a fixed normal.
+    fn pull(&self, path: &impl Path, normal: DVec3, t: f64, window: f64) -> f64 {
+        let pull = path.max_acceleration(-normal, t, t + window);
+        // Within the window, the rounding of the acceleration moves nothing by more than the
+        // rounding of positions.
+        let zero = ACCELERATION_ROUNDOFF * self.size.acceleration;
+        if pull.abs() <= zero { 0.0 } else { pull }
+    }
+
+    /// An upper bound of the acceleration against the normal as it changes on the way, which
+    /// bounds -d''. At a distance of ρ or more from a convex core, the normal turns by at most
+    /// 1/ρ for each metre.
+    fn opening_pull(&self, path: &impl Path, t: f64, window: f64) -> f64 {
+        let anywhere = path.max_acceleration_anywhere(t, t + window);
+        let way = window * (self.state.velocity.length() + 0.5 * anywhere * window);
+        let is_flat = self.sight.flat_within == f64::INFINITY || way <= self.sight.flat_within;
+        let turn = if is_flat { 0.0 } else { way / (self.sight.from_core - way) };
+        if (0.0..1.0).contains(&turn) {
+            self.pull(path, self.sight.normal, t, window) + turn * anywhere
+        } else {
+            anywhere
+        }
+    }
+}
+
+/// First time \[s\] at which `h + v t - a t²/2` falls to zero; infinite if it never does.
+///
+/// - height h \[m\], >= 0; speed v \[m/s\]; pull a \[m/s²\], all of any other sign
+pub(super) fn time_to_fall(height: f64, speed: f64, pull: f64) -> f64 {
+    let discriminant = speed * speed + 2.0 * pull * height;
+    if speed < 0.0 {
+        if discriminant < 0.0 {
+            return f64::INFINITY;
+        }
+        2.0 * height / (discriminant.sqrt() - speed)
+    } else if pull > 0.0 {
+        (speed + discriminant.sqrt()) / pull
+    } else {
+        f64::INFINITY
+    }
+}

@@ -1,0 +1,117 @@
+//! Contact of a sphere and a surface, at rest or moving.
+
+use glam::DVec3;
+
+use super::half_space::sphere_half_space;
+use super::obstacle::Obstacle;
+use super::roundoff::Magnitudes;
+use super::search;
+use super::sphere_sphere::sphere_point;
+use super::turning::{Orbit, Turning, Turns};
+use crate::flight::Flight;
+use crate::surface::{Form, Rectangle};
+
+/// How a surface moves: it turns about an origin that moves along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SurfaceMotion {
+    /// Where the origin is at time 0 \[m\].
+    pub origin: DVec3,
+    /// Velocity of the origin \[m/s\], constant.
+    pub velocity: DVec3,
+    /// Angular velocity \[rad/s\], constant.
+    pub angular_velocity: DVec3,
+}
+
+#[cfg_attr(not(test), allow(dead_code))]
+impl SurfaceMotion {
+    /// Of a surface at rest.
+    pub const REST: Self =
+        Self { origin: DVec3::ZERO, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO };
+}
+
+/// Time \[s\] at which a sphere in flight comes into contact with a surface.
+///
+/// `form` is the place of the surface at time 0. Drag is that of air at rest, whatever the
+/// surface does. A rectangle is met from its front only, edges and corners included. A box is
+/// not met: its faces deflect.
+///
+/// - `radius` of the sphere \[m\], > 0
+/// - `horizon` \[s\], >= 0; finite if the surface turns
+/// - returns \[s\] in `[0, horizon]`; `None` if there is no contact
+#[cfg_attr(not(test), allow(dead_code))]
+pub(crate) fn sphere_surface(
+    flight: &Flight,
+    radius: f64,
+    form: &Form,
+    motion: &SurfaceMotion,
+    horizon: f64,
+) -> Option<f64> {
+    if motion.angular_velocity != DVec3::ZERO {
+        debug_assert!(horizon.is_finite(), "a turning surface needs a finite horizon");
+        return sphere_turning_surface(flight, radius, form, motion, horizon);
+    }
+    let drift = Magnitudes { speed: motion.velocity.length(), ..size_of(form, radius) };
+    let size = Magnitudes::of(flight) + drift;
+    match *form {
+        Form::Sphere { center, radius: own } => {
+            let relative = flight.seen_from(center, motion.velocity);
+            sphere_point(&relative, own + radius, size, horizon)
+        }
+        Form::HalfSpace { point, normal } => {
+            let relative = flight.seen_from(DVec3::ZERO, motion.velocity);
+            sphere_half_space(&relative, radius, (point, normal), &size, horizon)
+        }
+        Form::Rectangle(rectangle) => {
+            let relative = flight.seen_from(DVec3::ZERO, motion.velocity);
+            let obstacle = Obstacle::Rectangle { rectangle, radius };
+            search::first_contact(&relative, &obstacle, size, horizon)
+        }
+        Form::Box(_) => None,
+    }
+}
+
+fn sphere_turning_surface(
+    flight: &Flight,
+    radius: f64,
+    form: &Form,
+    motion: &SurfaceMotion,
+    horizon: f64,
+) -> Option<f64> {
+    let SurfaceMotion { origin, velocity, angular_velocity } = *motion;
+    let from_origin = flight.seen_from(origin, velocity);
+    let turns = Turns::new(angular_velocity);
+    let drift = Magnitudes { speed: velocity.length(), ..size_of(form, radius) };
+    let size = Magnitudes::of(flight) + drift + Magnitudes::of_length(origin.length());
+    let path = Turning { flight: from_origin, turns };
+    match *form {
+        Form::Sphere { center, radius: own } => {
+            let path = Orbit { flight: from_origin, turns, arm: center - origin };
+            let obstacle = Obstacle::Point { radius: own + radius };
+            search::first_contact(&path, &obstacle, size, horizon)
+        }
+        Form::HalfSpace { point, normal } => {
+            let obstacle = Obstacle::HalfSpace { point: point - origin, normal, radius };
+            search::first_contact(&path, &obstacle, size, horizon)
+        }
+        Form::Rectangle(rectangle) => {
+            let center = rectangle.center - origin;
+            let rectangle = Rectangle { center, ..rectangle };
+            let obstacle = Obstacle::Rectangle { rectangle, radius };
+            search::first_contact(&path, &obstacle, size, horizon)
+        }
+        Form::Box(_) => None,
+    }
+}
+
+/// Size of the coordinates of a surface and of the radii.
+fn size_of(form: &Form, radius: f64) -> Magnitudes {
+    let length = match *form {
+        Form::Sphere { center, radius } => center.length() + radius,
+        Form::HalfSpace { point, .. } => point.length(),
+        Form::Rectangle(Rectangle { center, half_x, half_z, .. }) => {
+            center.length() + half_x + half_z
+        }
+        Form::Box(_) => 0.0,
+    };
+    Magnitudes::of_length(length + radius)
+}

@@ -1,0 +1,130 @@
+//! Free motion between impacts, in closed form.
+
+use glam::DVec3;
+
+/// A sphere in free flight: under a constant acceleration and viscous drag, `x'' = a - γ x'`.
+///
+/// Without drag the path is a parabola. With it (Lamb, *Dynamics* (1914), "resisted motion"):
+///
+/// ```text
+/// x(t) = x0 + v0 t f1(γt) + a t² f2(γt)       f1(z) = (1 - e^-z)/z
+/// v(t) = v0 e^-γt + a t f1(γt)                f2(z) = (z - 1 + e^-z)/z²
+/// ```
+///
+/// f1 -> 1 and f2 -> 1/2 as γ -> 0, where this is the parabola, to the last digit. The terminal
+/// velocity is a/γ. Derived in `docs/physics.md`, "Free flight".
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flight {
+    /// Centre at time 0, x0 \[m\].
+    pub position: DVec3,
+    /// Velocity at time 0, v0 \[m/s\].
+    pub velocity: DVec3,
+    /// Acceleration by everything but drag, a \[m/s²\].
+    pub acceleration: DVec3,
+    /// Drag coefficient over mass, γ = k/m \[1/s\], >= 0.
+    pub drag_rate: f64,
+}
+
+impl Flight {
+    /// Centre \[m\] at a time \[s\].
+    pub fn position_at(&self, t: f64) -> DVec3 {
+        self.after(t).0
+    }
+
+    /// Velocity \[m/s\] at a time \[s\].
+    pub fn velocity_at(&self, t: f64) -> DVec3 {
+        self.after(t).1
+    }
+
+    /// Centre \[m\] and velocity \[m/s\] at a time \[s\].
+    pub fn after(&self, t: f64) -> (DVec3, DVec3) {
+        let Propagator { decay, drift, fall } = Propagator::over(t, self.drag_rate);
+        let position = self.position + (drift * self.velocity + fall * self.acceleration);
+        let velocity = decay * self.velocity + drift * self.acceleration;
+        (position, velocity)
+    }
+
+    /// This flight as seen from a frame whose origin starts at `origin` \[m\] and moves with a
+    /// constant velocity u \[m/s\]. The air stays at rest, so that `w = v - u` obeys
+    /// `w' = (a - γu) - γw`.
+    pub(crate) fn seen_from(&self, origin: DVec3, u: DVec3) -> Self {
+        Self {
+            position: self.position - origin,
+            velocity: self.velocity - u,
+            acceleration: self.acceleration - self.drag_rate * u,
+            drag_rate: self.drag_rate,
+        }
+    }
+
+    /// This flight relative to another with the same drag rate.
+    pub(crate) fn relative_to(&self, other: &Self) -> Self {
+        Self {
+            position: self.position - other.position,
+            velocity: self.velocity - other.velocity,
+            acceleration: self.acceleration - other.acceleration,
+            drag_rate: self.drag_rate,
+        }
+    }
+
+    /// Acceleration with drag at time 0, `a - γ v0` \[m/s²\]; at time t it is e^-γt times that.
+    pub(crate) fn initial_acceleration(&self) -> DVec3 {
+        self.acceleration - self.drag_rate * self.velocity
+    }
+}
+
+/// What a stretch of time does to a flight:
+/// `x = x0 + drift v0 + fall a`, `v = decay v0 + drift a`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Propagator {
+    /// e^-γt, dimensionless.
+    pub decay: f64,
+    /// t f1(γt) \[s\]: the time that counts for a velocity that drag uses up; at most 1/γ.
+    pub drift: f64,
+    /// t² f2(γt) \[s²\].
+    pub fall: f64,
+}
+
+impl Propagator {
+    /// Over a time t \[s\] with the drag rate γ \[1/s\], both >= 0.
+    ///
+    /// Nothing is infinite, so that an absent velocity or acceleration still adds zero after any
+    /// time.
+    pub fn over(t: f64, drag_rate: f64) -> Self {
+        let z = drag_rate * t;
+        let Self { decay, drift, fall } = if z == 0.0 {
+            Self { decay: 1.0, drift: t, fall: 0.5 * t * t }
+        } else if z <= SERIES_LIMIT {
+            let lost = libm::expm1(-z);
+            Self { decay: 1.0 + lost, drift: t * (-lost / z), fall: t * t * f2_series(z) }
+        } else {
+            let decay = libm::exp(-z);
+            let drift = -libm::expm1(-z) / drag_rate;
+            Self { decay, drift, fall: (t - drift) / drag_rate }
+        };
+        Self { decay, drift: drift.min(f64::MAX), fall: fall.min(f64::MAX) }
+    }
+}
+
+/// The time t \[s\] at which `t f1(γt) = s`; `None` if that is never reached, s >= 1/γ.
+pub(crate) fn time_of_drift(s: f64, drag_rate: f64) -> Option<f64> {
+    let spent = drag_rate * s;
+    if spent < f64::EPSILON {
+        // t/s = 1 + γs/2 + ... rounds to 1; the quotient below could underflow.
+        return Some(s);
+    }
+    (spent < 1.0).then(|| -libm::log1p(-spent) / drag_rate)
+}
+
+/// Up to here f2 is taken from its series, beyond from `(t - drift)/γ`. At 1 the difference
+/// `z - (1 - e^-z)` loses less than two bits; below it loses more, above the series needs more
+/// terms.
+const SERIES_LIMIT: f64 = 1.0;
+
+/// f2(z) = Σ (-z)^k / (k + 2)! for 0 <= z <= [`SERIES_LIMIT`], to round-off.
+///
+/// The first term left out is below 1/20! = 4e-19, of a sum of at least 0.36.
+fn f2_series(z: f64) -> f64 {
+    const TERMS: u32 = 18;
+    // Horner's rule: 1/2 (1 - z/3 (1 - z/4 (1 - ...))).
+    (3..TERMS + 2).rev().fold(1.0, |sum, k| 1.0 - z / f64::from(k) * sum) * 0.5
+}
