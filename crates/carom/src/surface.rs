@@ -27,6 +27,7 @@ pub(crate) struct SurfaceMotion {
 
 impl SurfaceMotion {
     /// Of a surface at rest.
+    #[cfg(test)]
     pub const REST: Self =
         Self { origin: DVec3::ZERO, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO };
 

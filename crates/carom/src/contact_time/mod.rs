@@ -15,6 +15,8 @@
 //! The formulas, and why nothing is missed, are in `docs/physics.md`, "Contact times".
 
 mod bisection;
+#[cfg(test)]
+mod claims;
 mod half_space;
 mod obstacle;
 #[cfg(test)]

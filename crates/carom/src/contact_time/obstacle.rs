@@ -28,8 +28,8 @@ pub(super) struct Sight {
     pub normal: DVec3,
     /// Whether the normal changes from place to place.
     pub is_round: bool,
-    /// Whether the normal is the same everywhere.
-    pub is_plane: bool,
+    /// How far \[m\] the centre may go without a change of the normal.
+    pub flat_within: f64,
     /// Second derivative \[m/s²\] of the distance for a point that moves at a constant velocity.
     pub turning: f64,
     /// A plane that the centre must pass before there can be contact.
@@ -54,7 +54,7 @@ impl Obstacle {
             Self::Point { radius } => Sight::of_offset(position, velocity, radius, DVec3::Y),
             Self::HalfSpace { point, normal, radius } => {
                 let height = (position - point).dot(normal);
-                Sight { is_plane: true, ..Sight::of_face(height, normal, radius) }
+                Sight::of_face(height, normal, radius, f64::INFINITY)
             }
             Self::Rectangle { ref rectangle, radius } => {
                 see_rectangle(rectangle, radius, position, velocity)
@@ -64,13 +64,13 @@ impl Obstacle {
 }
 
 impl Sight {
-    fn of_face(height: f64, normal: DVec3, radius: f64) -> Self {
+    fn of_face(height: f64, normal: DVec3, radius: f64, flat_within: f64) -> Self {
         Self {
             from_core: height,
             distance: height - radius,
             normal,
             is_round: false,
-            is_plane: false,
+            flat_within,
             turning: 0.0,
             barrier: None,
             is_behind: false,
@@ -92,7 +92,7 @@ impl Sight {
             distance: from_core - radius,
             normal,
             is_round: true,
-            is_plane: false,
+            flat_within: 0.0,
             turning,
             barrier: None,
             is_behind: false,
@@ -112,7 +112,8 @@ fn see_rectangle(rectangle: &Rectangle, radius: f64, position: DVec3, velocity: 
     let mut sight = if over_x && over_z {
         let (height, normal) =
             if height < 0.0 { (-height, -rectangle.normal) } else { (height, rectangle.normal) };
-        Sight::of_face(height, normal, radius)
+        let to_edge = (rectangle.half_x - x.abs()).min(rectangle.half_z - z.abs());
+        Sight::of_face(height, normal, radius, to_edge)
     } else {
         let from_nearest =
             height * rectangle.normal + (x - nearest_x) * axis_x + (z - nearest_z) * axis_z;

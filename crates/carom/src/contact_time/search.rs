@@ -11,11 +11,17 @@ use super::roundoff::{ACCELERATION_ROUNDOFF, Gap, Magnitudes, Phase, Zero};
 /// passes at the distance of a rounding error some fifty.
 const EXACT_STEPS: u32 = 128;
 
-/// The same within an overlap, where the bound is weaker and converges by a part, not by digits.
+/// The same within an overlap, where the bound can be weak: a path along the surface turns its
+/// normal, and a step gains only a part of what is left.
 const EXACT_STEPS_INSIDE: u32 = 4096;
 
 /// After so many more steps close to the obstacle the search looks half as closely.
 const STEPS_OF_A_DEPTH: u32 = 16;
+
+/// Past this a search gives up. Flights take a handful of steps, seldom hundreds, and turning
+/// surfaces some tens per turn; this is for numbers whose squares overflow, and for a horizon of
+/// more turns than anyone waits for.
+const MAX_STEPS: u32 = 1 << 20;
 
 /// Doublings of a rounding error that make it larger than anything it is the rounding of.
 const MOST_DOUBLINGS: u32 = 64;
@@ -40,6 +46,7 @@ const MAX_HALVINGS: u32 = 128;
 /// (Mirtich, *Impulse-based Dynamic Simulation* (1996), 2.3, with a bound of second order). It
 /// converges quadratically to contacts with d' < 0, and by halves to grazing ones. Where the
 /// bodies part, the step ends where the bound returns to zero or, of an overlap, where d' may.
+/// Derived in `docs/physics.md`, "Contact times".
 ///
 /// A step is at least as long as the bound takes to fall by the distance from the obstacle: far
 /// away that is at least `√(2 CLOSE L/A)`, L the size of the coordinates. Steps that stay close
@@ -59,8 +66,11 @@ pub(super) fn first_contact(
     let (mut before, mut t) = (0.0, 0.0);
     let mut window = path.window();
     let (mut close_steps, mut was_overlap) = (0, false);
-    loop {
+    for _ in 0..MAX_STEPS {
         let now = look(t);
+        if !now.is_finite() {
+            return None;
+        }
         if now.phase == Phase::Contact {
             let pinned = if t == 0.0 { 0.0 } else { pin_down(&now, look, before, t) };
             return Some(pinned.min(horizon));
@@ -74,10 +84,10 @@ pub(super) fn first_contact(
         if next <= horizon && next.is_finite() {
             (before, t) = (t, next);
         } else {
-            // Also where numbers overflow.
             return None;
         }
     }
+    None
 }
 
 /// The time of a contact that was seen at `t`, but not at `before`, to full precision.
@@ -130,13 +140,19 @@ fn longest_step(
         // Past the horizon, or on to the next window.
         return if t + ahead >= horizon { step } else { ahead };
     }
-    // A nearer look allows a longer step.
-    let nearer = 4.0 * step;
+    // The bound is closer over a nearer window, and allows a longer step.
+    let mut nearer = 4.0 * step;
     *window = nearer.max(path.window());
-    if nearer >= ahead {
-        return step;
+    let mut longest = step;
+    while 0.0 < nearer && nearer < ahead {
+        let step = now.safe_step(path, aim, t, nearer);
+        longest = step.min(nearer).max(longest);
+        if step < nearer {
+            break;
+        }
+        nearer *= 4.0;
     }
-    now.safe_step(path, aim, t, nearer).min(nearer).max(step)
+    longest
 }
 
 /// What there is to see at one instant.
@@ -173,6 +189,10 @@ impl Look {
         self.gap.distance <= CLOSE * self.size.length
     }
 
+    fn is_finite(&self) -> bool {
+        self.size.length.is_finite() && self.gap.speed.is_finite() && !self.gap.distance.is_nan()
+    }
+
     /// Deeper than rounding.
     fn is_overlap(&self) -> bool {
         self.gap.distance < -self.zero.distance
@@ -187,19 +207,14 @@ impl Look {
         let doublings = (close_steps - exact_steps) / STEPS_OF_A_DEPTH;
         let depth =
             (0..doublings.min(MOST_DOUBLINGS)).fold(self.zero.distance, |depth, _| 2.0 * depth);
-        // Within an overlap nothing can be lost but time.
+        // What turns within an overlap is seen to close at the next look, and pinned down.
         if self.is_overlap() { depth } else { depth.min(CLOSE * self.size.length) }
     }
 
     /// A step \[s\] before which no contact begins within the window; it may be longer than that,
     /// and infinite.
     fn safe_step(&self, path: &impl Path, aim: f64, t: f64, window: f64) -> f64 {
-        let bound = |normal: DVec3| {
-            let pull = path.max_acceleration(-normal, t, t + window);
-            // Within the window, the rounding of the acceleration moves nothing by more than the
-            // rounding of positions.
-            if pull.abs() <= self.zero_pull() { 0.0 } else { pull }
-        };
+        let bound = |normal: DVec3| self.pull(path, normal, t, window);
         let barrier = self.sight.barrier.map_or(0.0, |Barrier { distance, normal }| {
             let aim = if distance > self.zero.distance { aim } else { self.zero.distance.max(aim) };
             time_to_fall(distance + aim, normal.dot(self.state.velocity), bound(normal))
@@ -217,19 +232,35 @@ impl Look {
         let parting = if distance >= -self.zero.distance {
             time_to_fall(aim, speed, bound(self.sight.normal))
         } else {
-            // d + A t²/2 is convex, so an overlap opens until d' may be used up.
-            let pull = if self.sight.is_plane {
-                bound(self.sight.normal)
-            } else {
-                path.max_acceleration_anywhere(t, t + window)
-            };
+            // d' falls by A t at most, so an overlap opens until d' may be used up.
+            let pull = self.opening_pull(path, t, window);
             if pull > 0.0 { speed / pull + (2.0 * aim / pull).sqrt() } else { f64::INFINITY }
         };
         barrier.max(parting)
     }
 
-    fn zero_pull(&self) -> f64 {
-        ACCELERATION_ROUNDOFF * self.size.acceleration
+    /// An upper bound of the acceleration against a fixed normal.
+    fn pull(&self, path: &impl Path, normal: DVec3, t: f64, window: f64) -> f64 {
+        let pull = path.max_acceleration(-normal, t, t + window);
+        // Within the window, the rounding of the acceleration moves nothing by more than the
+        // rounding of positions.
+        let zero = ACCELERATION_ROUNDOFF * self.size.acceleration;
+        if pull.abs() <= zero { 0.0 } else { pull }
+    }
+
+    /// An upper bound of the acceleration against the normal as it changes on the way, which
+    /// bounds -d''. At a distance of ρ or more from a convex core, the normal turns by at most
+    /// 1/ρ for each metre.
+    fn opening_pull(&self, path: &impl Path, t: f64, window: f64) -> f64 {
+        let anywhere = path.max_acceleration_anywhere(t, t + window);
+        let way = window * (self.state.velocity.length() + 0.5 * anywhere * window);
+        let is_flat = self.sight.flat_within == f64::INFINITY || way <= self.sight.flat_within;
+        let turn = if is_flat { 0.0 } else { way / (self.sight.from_core - way) };
+        if (0.0..1.0).contains(&turn) {
+            self.pull(path, self.sight.normal, t, window) + turn * anywhere
+        } else {
+            anywhere
+        }
     }
 }
 

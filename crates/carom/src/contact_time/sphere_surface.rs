@@ -20,7 +20,6 @@ use crate::surface::{Form, Rectangle, SurfaceMotion};
 /// - `radius` of the sphere \[m\], > 0
 /// - `horizon` \[s\], >= 0; finite if the surface turns
 /// - returns \[s\] in `[0, horizon]`; `None` if there is no contact
-#[cfg_attr(not(test), allow(dead_code))]
 pub(crate) fn sphere_surface(
     flight: &Flight,
     radius: f64,

@@ -79,12 +79,13 @@ fn straight_paths_meet_when_the_exact_root_says() {
                 contacts += 1;
                 let place = Vector::<Big>::of(r).plus(&Vector::of(v).times(&Big::of(t)));
                 let d = (place.length() - Big::of(radius_sum)).to_f64().value();
+                let start = (Vector::<Big>::of(r).length() - Big::of(radius_sum)).to_f64().value();
                 if *exact > Big::of(0.0) {
                     let off = d.abs() / rounding;
                     assert!(off <= ROUNDINGS, "d is {d:e}, {off} roundings: {}", situation());
                     worst = worst.max(off);
                 } else {
-                    assert!(t <= ROUNDINGS * rounding / v.length(), "late: {}", situation());
+                    assert!(start - d <= ROUNDINGS * rounding, "late: {}", situation());
                 }
             }
         }

@@ -16,11 +16,11 @@ use generate::{Air, Kind, Numbers};
 use situation::Situation;
 
 /// How far answers may be off, in roundings of the sizes involved: the 16 that count as zero in
-/// the search, and a few for the difference between its sizes and those here.
-const ROUNDINGS: f64 = 24.0;
+/// the search, times the difference between its sizes and those here. Only grazes use this up.
+const ROUNDINGS: f64 = 32.0;
 
-/// A violation must be beyond the rounding of the search and of looking for it.
-const VISIBLE: f64 = 1.25 * ROUNDINGS;
+/// From which depth an overlap counts, in the same units.
+const VISIBLE: f64 = ROUNDINGS;
 
 /// What a run of situations came to.
 #[derive(Debug, Default)]
@@ -105,24 +105,26 @@ fn earlier_overlap(situation: &Situation, answer: Option<f64>) -> Option<(f64, f
     });
     let times = times(end);
     let look = |t: f64| situation.distance(&t);
-    let visible = |t: f64, d: f64| d < -VISIBLE * f64::EPSILON * situation.sizes(t).0;
+    let visible = |t: f64| VISIBLE * f64::EPSILON * situation.sizes(t).0;
     let seen: Vec<_> = times.iter().map(|&t| look(t)).collect();
     for i in 1..times.len() {
         let (before, now) = (&seen[i - 1], &seen[i]);
-        if before.is_behind || now.is_behind {
+        if before.is_behind || now.is_behind || now.value > before.value {
             continue;
         }
-        let rounding = VISIBLE * f64::EPSILON * situation.sizes(times[i]).0;
-        if now.value < before.value - rounding && visible(times[i], now.value) {
+        let is_deep = |t, d: f64| d < -visible(t) && d < before.value - visible(t);
+        if now.value < 0.0 && is_deep(times[i], now.value) {
             return Some((times[i], now.value));
         }
         let Some(after) = seen.get(i + 1).filter(|after| !after.is_behind) else { continue };
-        if now.value <= before.value && now.value <= after.value {
+        // Further down than this goes no minimum, be it round or sharp.
+        let drop = 4.0 * (before.value - now.value + after.value - now.value);
+        if now.value <= after.value && now.value <= drop {
             let (t, d) = minimum(times[i - 1], times[i + 1], |t| look(t).value);
             // A centre may have passed the plane of a rectangle in between.
             let way = t - times[i - 1];
-            let is_whole = (0..40).all(|k| !look(t - way * libm::exp2(f64::from(-k))).is_behind);
-            if is_whole && visible(t, d) && d < before.value - rounding {
+            let is_whole = || (0..40).all(|k| !look(t - way * libm::exp2(f64::from(-k))).is_behind);
+            if is_deep(t, d) && is_whole() {
                 return Some((t, d));
             }
         }
@@ -132,7 +134,7 @@ fn earlier_overlap(situation: &Situation, answer: Option<f64>) -> Option<(f64, f
 
 /// Evenly spaced, and denser towards both ends.
 fn times(end: f64) -> Vec<f64> {
-    let even = (0..=96).map(|i| end * f64::from(i) / 96.0);
+    let even = (0..=64).map(|i| end * f64::from(i) / 64.0);
     let halves = (7..40).scan(end / 64.0, |part, _| {
         *part *= 0.5;
         Some(*part)
