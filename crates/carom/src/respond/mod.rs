@@ -1,10 +1,26 @@
-//! What an impact does to velocities. One file per law.
+//! What an impact does to velocities, and what lasting contacts do to accelerations. One file
+//! per law.
 
+mod complementarity;
+mod contact_force;
+mod face;
+mod generalized_reflection;
+mod group;
 mod line_of_centres;
+mod order_free;
+mod problem;
+mod project;
 mod reflection;
+mod resolve;
+mod sequential;
+mod simultaneous;
+mod touching;
 
+pub use contact_force::{ContactForces, contact_forces};
 pub use line_of_centres::line_of_centres;
 pub use reflection::reflection;
+pub use resolve::resolve;
+pub use touching::{GroupResponse, ImpactLaw, TouchingContact};
 
 use crate::bodies::Motion;
 use crate::detect::Separation;

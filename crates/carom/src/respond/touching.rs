@@ -1,0 +1,59 @@
+//! What is given: contacts of a group of bodies that touch at one instant.
+
+use glam::DVec3;
+
+/// One contact of a group of bodies that touch at one instant.
+///
+/// Body 1 is a sphere of the group, or a surface of infinite mass; body 2 a sphere of the group.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TouchingContact {
+    /// Index of sphere 1 in the group; none if body 1 is a surface.
+    pub first: Option<usize>,
+    /// Index of sphere 2 in the group.
+    pub second: usize,
+    /// Unit vector from body 1 to body 2.
+    pub normal: DVec3,
+    /// Velocity \[m/s\] of the surface where it is touched; without meaning if body 1 is a sphere.
+    pub surface_velocity: DVec3,
+    /// Coefficient of restitution e in \[0, 1\].
+    pub restitution: f64,
+}
+
+/// How the impacts of one instant are answered where several bodies touch.
+///
+/// All of them keep momentum, never gain energy, only push, and leave no contact closing. For a
+/// single contact they are one and the same. `docs/physics.md`, "Impacts at one instant",
+/// compares them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum ImpactLaw {
+    /// Pair after pair, in the order of the contacts, until no contact closes. The result depends
+    /// on the order, and breaks symmetries.
+    Sequential,
+    /// Newton's law of restitution at all contacts at once (Moreau 1988; Glocker 2001). Keeps
+    /// symmetries; does not pass impacts on, as a Newton's cradle does.
+    Simultaneous,
+    /// Generalized reflection (Smith, Kaufman, Vouga, Tamstorf, Grinspun 2012). Keeps symmetries
+    /// and passes impacts on.
+    #[default]
+    Reflection,
+}
+
+/// What the answer to the impacts of one instant was.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GroupResponse {
+    /// One per contact \[N s\], >= 0: along the normal on body 2, against it on body 1. Where
+    /// contacts are redundant, as in a lattice, one of many distributions.
+    pub impulses: Vec<f64>,
+    /// Change of kinetic energy \[J\] that the law asks for, <= 0, without rounding; reckoned
+    /// against the surfaces, so it does not depend on their velocities.
+    pub restitution_energy: f64,
+    /// Kinetic energy \[J\] that moving surfaces give besides: `Σ impulse · normal · velocity`.
+    pub surface_work: f64,
+    /// Closing speed \[m/s\] below which a contact counts as no longer closing: the rounding of
+    /// the speeds in the group.
+    pub resolution: f64,
+    /// Whether the law came to no end of its own and was finished otherwise
+    /// (`docs/physics.md` says how, for each law).
+    pub cut_short: bool,
+}
