@@ -9,9 +9,8 @@
 mod common;
 
 use carom::DVec3;
-use carom::respond::{
-    GroupResponse, ImpactLaw, TouchingContact, contact_forces, line_of_centres, resolve,
-};
+use carom::respond::{GroupResponse, ImpactLaw, line_of_centres, reflection, resolve};
+use common::group::{Group, pair, surface};
 use common::{Numbers, assert_close, assert_close_vec, vec};
 
 const LAWS: [ImpactLaw; 3] =
@@ -20,97 +19,6 @@ const SYMMETRIC: [ImpactLaw; 2] = [ImpactLaw::Simultaneous, ImpactLaw::Reflectio
 
 /// Roundings: results of a handful of operations on numbers of order 1.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
-const STRESS: usize = 5000;
-
-#[derive(Clone)]
-struct Group {
-    contacts: Vec<TouchingContact>,
-    masses: Vec<f64>,
-    velocities: Vec<DVec3>,
-}
-
-fn pair(first: usize, second: usize, normal: DVec3, restitution: f64) -> TouchingContact {
-    let surface_velocity = DVec3::ZERO;
-    TouchingContact { first: Some(first), second, normal, surface_velocity, restitution }
-}
-
-fn surface(second: usize, normal: DVec3, restitution: f64) -> TouchingContact {
-    let surface_velocity = DVec3::ZERO;
-    TouchingContact { first: None, second, normal, surface_velocity, restitution }
-}
-
-impl Group {
-    /// Balls in a row along x, each touching the next.
-    fn row(masses: &[f64], speeds: &[f64], e: f64) -> Self {
-        let contacts = (1..masses.len()).map(|i| pair(i - 1, i, DVec3::X, e)).collect();
-        let velocities = speeds.iter().map(|speed| vec(*speed, 0.0, 0.0)).collect();
-        Self { contacts, masses: masses.to_vec(), velocities }
-    }
-
-    /// Spheres whose centres are nearly two radii apart touch; those near the floor touch it.
-    fn touching(centres: &[DVec3], floor: bool, slack: f64, e: impl Fn(usize) -> f64) -> Self {
-        let mut contacts = Vec::new();
-        for (j, b) in centres.iter().enumerate() {
-            if floor && b.y < 0.5 + slack {
-                contacts.push(surface(j, DVec3::Y, e(contacts.len())));
-            }
-            for (i, a) in centres[..j].iter().enumerate() {
-                if (*b - *a).length() < 1.0 + slack {
-                    contacts.push(pair(i, j, (*b - *a).normalize(), e(contacts.len())));
-                }
-            }
-        }
-        let (masses, velocities) = (vec![1.0; centres.len()], vec![DVec3::ZERO; centres.len()]);
-        Self { contacts, masses, velocities }
-    }
-
-    /// A random heap: each sphere falls onto what is there already, roughly.
-    fn heap(count: usize, numbers: &mut Numbers, e: impl Fn(usize) -> f64) -> Self {
-        let width = (count as f64 / 4.0).cbrt() * 1.5;
-        let mut centres: Vec<DVec3> = Vec::new();
-        while centres.len() < count {
-            let (x, z) = (numbers.between(0.0, width), numbers.between(0.0, width));
-            let height = |below: &DVec3| {
-                let (dx, dz) = (x - below.x, z - below.z);
-                let room = 1.0 - dx * dx - dz * dz;
-                if room > 0.0 { below.y + room.sqrt() } else { 0.5 }
-            };
-            let y = centres.iter().map(height).fold(0.5, f64::max);
-            centres.push(vec(x, y, z));
-        }
-        let mut group = Self::touching(&centres, true, 0.05, e);
-        for velocity in &mut group.velocities {
-            *velocity = numbers.vector() - 0.5 * DVec3::Y;
-        }
-        group
-    }
-
-    fn energy(&self) -> f64 {
-        self.masses.iter().zip(&self.velocities).map(|(m, v)| 0.5 * m * v.dot(*v)).sum()
-    }
-
-    fn momentum(&self) -> DVec3 {
-        self.masses.iter().zip(&self.velocities).map(|(m, v)| *m * *v).sum()
-    }
-
-    fn opening(&self, contact: &TouchingContact) -> f64 {
-        let first = contact.first.map_or(contact.surface_velocity, |i| self.velocities[i]);
-        (self.velocities[contact.second] - first).dot(contact.normal)
-    }
-
-    fn worst_closing(&self) -> f64 {
-        self.contacts.iter().map(|contact| -self.opening(contact)).fold(0.0, f64::max)
-    }
-
-    fn resolve(&mut self, law: ImpactLaw) -> GroupResponse {
-        resolve(law, &self.contacts, &self.masses, &mut self.velocities)
-    }
-
-    fn speeds(&self) -> Vec<f64> {
-        self.velocities.iter().map(|v| v.x).collect()
-    }
-}
 
 /// What every law promises of every group.
 #[track_caller]
@@ -198,23 +106,24 @@ fn one_ball_into_two_follows_the_closed_form_and_its_mirror_image() {
 }
 
 #[test]
-fn single_contact_is_answered_as_by_line_of_centres() {
+fn single_contact_is_answered_to_the_bit_as_by_the_law_for_one() {
     let mut numbers = Numbers(1);
     for law in LAWS {
         for _ in 0..300 {
             let (normal, e) = (numbers.unit_vector(), numbers.next());
             let masses = [numbers.between(0.1, 10.0), numbers.between(0.1, 10.0)];
-            let velocities = [numbers.vector(), numbers.vector()];
-            let mut after = velocities;
+            let before = [numbers.vector(), numbers.vector()];
+            let mut after = before;
             let response = resolve(law, &[pair(0, 1, normal, e)], &masses, &mut after);
-            match line_of_centres(velocities, masses, normal, e) {
-                Some((expected, impulse)) => {
-                    assert_close_vec(after[0], expected[0], ROUNDING);
-                    assert_close_vec(after[1], expected[1], ROUNDING);
-                    assert_close(response.impulses[0], impulse, ROUNDING * impulse);
-                }
-                None => assert_eq!(after, velocities),
-            }
+            let (expected, impulse) =
+                line_of_centres(before, masses, normal, e).unwrap_or((before, 0.0));
+            assert_eq!(after, expected);
+            assert_eq!(response.impulses, [impulse]);
+
+            let mut after = [before[0]];
+            resolve(law, &[surface(0, normal, e)], &masses[..1], &mut after);
+            let change = reflection(before[0], normal, e).unwrap_or(0.0);
+            assert_eq!(after[0], before[0] + change * normal);
         }
     }
 }
@@ -238,33 +147,62 @@ fn contacts_far_apart_each_follow_their_own_restitution() {
     }
 }
 
+/// Restitution of each contact of a group.
+type Restitution = fn(usize) -> f64;
+
+const RESTITUTIONS: [(&str, Restitution); 5] = [
+    ("plastic", |_| 0.0),
+    ("half", |_| 0.5),
+    ("elastic", |_| 1.0),
+    ("mixed", |contact| [0.0, 0.5, 1.0][contact % 3]),
+    ("all different", |contact| (contact % 101) as f64 / 100.0),
+];
+
 #[test]
 fn heaps_obey_every_law() {
     let mut numbers = Numbers(2);
-    let restitutions: [(&str, fn(usize) -> f64); 5] = [
-        ("plastic", |_| 0.0),
-        ("half", |_| 0.5),
-        ("elastic", |_| 1.0),
-        ("mixed", |i| [0.0, 0.5, 1.0][i % 3]),
-        ("all different", |i| (i % 101) as f64 / 100.0),
-    ];
-    for (name, e) in restitutions {
+    for (name, e) in RESTITUTIONS {
         let before = Group::heap(200, &mut numbers, e);
         for law in LAWS {
             let mut after = before.clone();
-            let clock = std::time::Instant::now();
             let response = after.resolve(law);
-            let what = format!("{name}, {law:?}, {} contacts", before.contacts.len());
-            println!(
-                "{what}: {:?} dE {:e}/{:e} off {:e} closing {:e} cut {}",
-                clock.elapsed(),
-                after.energy() - before.energy(),
-                before.energy(),
-                after.energy() - before.energy() - response.restitution_energy,
-                after.worst_closing(),
-                response.cut_short
-            );
-            assert_lawful(&before, &after, &response, &what);
+            assert_lawful(&before, &after, &response, &format!("{name}, {law:?}"));
+            assert!(!response.cut_short);
+        }
+    }
+}
+
+#[test]
+fn packings_full_of_redundant_contacts_obey_every_law() {
+    let mut numbers = Numbers(2);
+    for (name, e) in RESTITUTIONS {
+        let before = Group::packing(6, &mut numbers, e);
+        assert!(before.contacts.len() > 3 * before.masses.len(), "not redundant");
+        for law in LAWS {
+            let mut after = before.clone();
+            let response = after.resolve(law);
+            assert_lawful(&before, &after, &response, &format!("{name}, {law:?}"));
+            assert!(!response.cut_short);
+        }
+    }
+}
+
+#[test]
+fn heaps_of_unlike_masses_obey_every_law() {
+    let mut numbers = Numbers(77);
+    for decades in [2.0, 4.0, 6.0, 9.0, 12.0] {
+        for (name, e) in RESTITUTIONS {
+            let mut before = Group::heap(40, &mut numbers, e);
+            for mass in &mut before.masses {
+                *mass = 10f64.powf(numbers.between(0.0, decades));
+            }
+            for law in LAWS {
+                let mut after = before.clone();
+                let response = after.resolve(law);
+                let what = format!("{name}, {law:?}, {decades} decades");
+                // Hundreds of impacts of the heaviest.
+                assert_lawful_within(1e-12, &before, &after, &response, &what);
+            }
         }
     }
 }
@@ -308,9 +246,9 @@ fn renumbering_and_mirroring_change_no_bit() {
         }
         let mut other = group.clone();
         let mirrored = |v: DVec3| vec(v.x, v.y, -v.z);
-        for old in 0..n {
-            other.velocities[new_of_old[old]] = mirrored(group.velocities[old]);
-            other.masses[new_of_old[old]] = group.masses[old];
+        for (old, &new) in new_of_old.iter().enumerate() {
+            other.velocities[new] = mirrored(group.velocities[old]);
+            other.masses[new] = group.masses[old];
         }
         for contact in &mut other.contacts {
             contact.normal = mirrored(contact.normal);
@@ -328,8 +266,8 @@ fn renumbering_and_mirroring_change_no_bit() {
             let (mut a, mut b) = (group.clone(), other.clone());
             a.resolve(law);
             b.resolve(law);
-            for old in 0..n {
-                assert_eq!(mirrored(a.velocities[old]), b.velocities[new_of_old[old]], "{law:?}");
+            for (old, &new) in new_of_old.iter().enumerate() {
+                assert_eq!(mirrored(a.velocities[old]), b.velocities[new], "{law:?}");
             }
         }
     }
@@ -425,7 +363,7 @@ fn rows_of_unequal_masses_conserve_energy_and_momentum() {
 fn mass_ratios_of_a_trillion_are_survived() {
     let mut numbers = Numbers(6);
     for e in [0.0, 0.5, 1.0] {
-        for round in 0..STRESS {
+        for round in 0..200 {
             let masses: Vec<f64> = (0..5).map(|_| 10f64.powf(numbers.between(-6.0, 6.0))).collect();
             let speeds: Vec<f64> = (0..5).map(|_| numbers.between(-1.0, 1.0)).collect();
             let mut before = Group::row(&masses, &speeds, e);
@@ -443,13 +381,18 @@ fn mass_ratios_of_a_trillion_are_survived() {
 
 #[test]
 fn galperins_billiard_bounces_as_often_as_pi_says() {
-    // A heavy ball pushes a light one at a wall, all touching: each meeting is one reflection.
-    for (k, count) in [(0, 3), (1, 31), (2, 314)] {
-        let mut group = Group::row(&[1.0, 100f64.powi(k)], &[0.0, -1.0], 1.0);
+    // A heavy ball pushes a light one at a wall, all touching, and each meeting is a reflection.
+    // A meeting of the balls and one with the wall together turn (√M V, √m v) by 2 atan √(m/M).
+    for (ratio, meetings) in [(1.0, 3), (100.0, 31), (10_000.0, 314)] {
+        let mut group = Group::row(&[1.0, ratio], &[0.0, -1.0], 1.0);
         group.contacts.push(surface(0, DVec3::X, 1.0));
         let before = group.energy();
         let response = group.resolve(ImpactLaw::Reflection);
-        assert!(!response.cut_short, "{count} reflections");
+        assert!(!response.cut_short);
+        let of_balls = (meetings + 1) / 2;
+        let angle = 2.0 * f64::from(of_balls) * (1.0 / ratio).sqrt().atan();
+        // A rounding or two for each meeting.
+        assert_close(group.velocities[1].x, -angle.cos(), 1e-13);
         assert_close(group.energy(), before, 1e-13 * before);
     }
 }
@@ -481,6 +424,21 @@ fn sphere_wedged_between_walls_stops() {
             assert_lawful(&before, &group, &response, &format!("{law:?}, e = {e}"));
             assert_eq!(group.velocities[0].y, 0.2);
         }
+    }
+}
+
+#[test]
+fn sphere_crushed_between_surfaces_is_not_thrown_about() {
+    // Nothing can keep the walls from closing; what matters is that nothing worse comes of it.
+    for law in LAWS {
+        let mut contacts = [surface(0, DVec3::X, 1.0), surface(0, -DVec3::X, 1.0)];
+        contacts[0].surface_velocity = DVec3::X;
+        contacts[1].surface_velocity = -2.0 * DVec3::X;
+        let mut velocities = [vec(0.3, 0.2, 0.0)];
+        let response = resolve(law, &contacts, &[1.0], &mut velocities);
+        assert!(response.cut_short);
+        assert!(velocities[0].x.abs() <= 2.0, "{law:?}: {}", velocities[0]);
+        assert_eq!(velocities[0].y, 0.2);
     }
 }
 
@@ -571,75 +529,5 @@ fn extreme_numbers_do_no_harm() {
             }
         }
         resolve(law, &[], &[], &mut []);
-    }
-}
-
-#[test]
-fn stack_of_ten_weighs_on_the_floor_tenfold() {
-    let (mass, g) = (0.3, 9.81);
-    let mut contacts = vec![surface(0, DVec3::Y, 0.5)];
-    contacts.extend((1..10).map(|i| pair(i - 1, i, DVec3::Y, 0.5)));
-    let mut accelerations = vec![vec(0.0, -g, 0.0); 10];
-    let forces = contact_forces(&contacts, &[mass; 10], &mut accelerations, &[0.0; 10]);
-    for (i, force) in forces.iter().enumerate() {
-        let weight = (10 - i) as f64 * mass * g;
-        assert_close(*force, weight, ROUNDING * weight);
-    }
-    for acceleration in accelerations {
-        assert_close_vec(acceleration, DVec3::ZERO, ROUNDING * g);
-    }
-}
-
-#[test]
-fn force_on_a_pyramid_follows_statics() {
-    // One ball on two, on a floor, held apart by walls: the upper contacts at 30 degrees from
-    // the vertical carry m g / (2 cos 30), the walls half of it, the floor 3/2 m g.
-    let (s, c) = (0.5, 0.75f64.sqrt());
-    let contacts = [
-        surface(0, DVec3::X, 1.0),
-        surface(0, DVec3::Y, 1.0),
-        surface(1, -DVec3::X, 1.0),
-        surface(1, DVec3::Y, 1.0),
-        pair(0, 1, DVec3::X, 1.0),
-        pair(0, 2, vec(s, c, 0.0), 1.0),
-        pair(1, 2, vec(-s, c, 0.0), 1.0),
-    ];
-    let mut accelerations = [vec(0.0, -10.0, 0.0); 3];
-    let forces = contact_forces(&contacts, &[2.0; 3], &mut accelerations, &[0.0; 7]);
-    let along = 20.0 / (2.0 * c);
-    let expected = [along * s, 30.0, along * s, 30.0, 0.0, along, along];
-    for (force, expected) in forces.into_iter().zip(expected) {
-        assert_close(force, expected, 20.0 * ROUNDING);
-    }
-    accelerations.into_iter().for_each(|a| assert_close_vec(a, DVec3::ZERO, 10.0 * ROUNDING));
-}
-
-#[test]
-fn sphere_that_leaves_a_contact_gets_no_force() {
-    // Sliding over a fixed sphere so fast that gravity does not hold it: v²/R > g.
-    let contacts = [surface(0, DVec3::Y, 1.0)];
-    let gravity = vec(0.0, -10.0, 0.0);
-    let mut accelerations = [gravity];
-    assert_eq!(contact_forces(&contacts, &[2.0], &mut accelerations, &[11.0]), [0.0]);
-    assert_eq!(accelerations, [gravity]);
-    // Slower, it is held by what is left of its weight.
-    let forces = contact_forces(&contacts, &[2.0], &mut accelerations, &[4.0]);
-    assert_close(forces[0], 12.0, 12.0 * ROUNDING);
-    assert_close(accelerations[0].y, -4.0, 4.0 * ROUNDING);
-}
-
-#[test]
-fn forces_in_a_heap_hold_it_and_do_not_pull() {
-    let mut numbers = Numbers(9);
-    let mut group = Group::heap(200, &mut numbers, |_| 0.0);
-    group.velocities.fill(vec(0.0, -9.81, 0.0));
-    let bias: Vec<f64> = group.contacts.iter().map(|_| numbers.next()).collect();
-    let forces = contact_forces(&group.contacts, &group.masses, &mut group.velocities, &bias);
-    for ((contact, bias), force) in group.contacts.iter().zip(&bias).zip(&forces) {
-        let w = group.opening(contact) + bias;
-        // Speeds here are accelerations of up to 10 m/s².
-        assert!(w >= -1e-13 * 10.0, "closes at {w}");
-        assert!(*force >= 0.0);
-        assert!(*force == 0.0 || w <= 1e-13 * 10.0, "pushes a contact that opens at {w}");
     }
 }

@@ -13,47 +13,8 @@
 use glam::DVec3;
 
 use super::face::Face;
-use super::order_free::{self, Grid};
-
-/// One contact of a problem: what its impulse moves, and the rate it asks for.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Link {
-    /// Body 1, pushed against the normal; none for a surface.
-    pub first: Option<u32>,
-    /// Body 2, pushed along the normal.
-    pub second: u32,
-    /// Unit vector from 1 to 2.
-    pub normal: DVec3,
-    /// Velocity of the surface, where there is no body 1.
-    pub surface_velocity: DVec3,
-    /// The rate of opening that counts as zero.
-    pub target: f64,
-}
-
-impl Link {
-    /// Rate of opening above the target.
-    pub fn rate(&self, velocities: &[DVec3]) -> f64 {
-        let first = self.first.map_or(self.surface_velocity, |body| velocities[body as usize]);
-        (velocities[self.second as usize] - first).dot(self.normal) - self.target
-    }
-}
-
-/// Contacts and the bodies they move.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Problem {
-    pub links: Vec<Link>,
-    /// One per body, relative to some common mass.
-    pub inverse_masses: Vec<f64>,
-}
-
-/// Rates of opening that are told apart from zero.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Tolerance {
-    /// Below this nothing is gained by going on.
-    pub fine: f64,
-    /// Below this it may be rounding, and is left where going on gains nothing.
-    pub coarse: f64,
-}
+use super::order_free;
+use super::problem::{Link, Problem, Tolerance, push};
 
 /// How a solution ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,20 +33,22 @@ pub(super) enum Outcome {
 /// is the square of 16 of them.
 const STANDSTILL: f64 = 256.0 * f64::EPSILON * f64::EPSILON;
 
-/// Iterations, per contact and besides, of the quick method. Conjugate gradients on exact numbers
-/// need one for each contact of the final face.
-const QUICK: usize = 50;
+/// Iterations, per contact and besides, before the quick method gives way to the careful one.
+/// Conjugate gradients on exact numbers need one for each contact of the final face.
+const QUICK: usize = 200;
 const QUICK_PER_LINK: usize = 4;
 
+/// Contacts up to which there is a careful method: its memory and time grow with the square and
+/// the cube of their number.
+const CAREFUL_LINKS: usize = 300;
+
 /// Iterations, per contact and besides, of the careful method, which ends by itself but may go
-/// through many faces; and a bound of iterations times contacts, some seconds' work.
+/// through many faces.
 const CAREFUL: usize = 100;
 const CAREFUL_PER_LINK: usize = 50;
-const CAREFUL_WORK: usize = 10_000_000;
 
-/// Contacts up to which the careful method solves directly, in memory and time that grow with
-/// the square and cube of their number; beyond, by conjugate gradients.
-const DIRECT: usize = 200;
+/// Iterations times contacts of the quick method where there is no other: some seconds' work.
+const QUICK_WORK: usize = 20_000_000;
 
 /// Part of the norm of A's bound that a step of fixed length takes; must be below 2, and is best
 /// close to it (Dostál, "Optimal Quadratic Programming Algorithms", 2009, section 5.9).
@@ -105,19 +68,21 @@ enum Leaving {
 
 /// Working memory of [`Solver::solve`].
 ///
-/// First, modified proportioning with reduced gradient projections (Dostál and Schöberl, "Minimizing
-/// quadratic functions over non-negative cone with the rate of convergence and finite
-/// termination", Comput. Optim. Appl. 30, 2005): conjugate gradients among the contacts with
-/// impulses, projected steps where an impulse would fall below zero, and gradient steps that
-/// take up contacts that close. Where that is slow, because masses differ much, the older method
-/// of faces (Polyak, "The conjugate gradient method in extremal problems", USSR Comput. Math.
-/// Math. Phys. 9, 1969), which ends after finitely many faces whatever the masses. The graph of
-/// contacts is all that is needed of A.
+/// The quick method is modified proportioning with reduced gradient projections (Dostál and
+/// Schöberl, "Minimizing quadratic functions over non-negative cone with the rate of convergence
+/// and finite termination", Comput. Optim. Appl. 30, 2005): conjugate gradients among the
+/// contacts with impulses, projected steps where an impulse would fall below zero, and gradient
+/// steps that take up contacts that close. It needs no more of A than the graph of contacts.
 ///
-/// Everything is done to all contacts alike or is a sum that does not depend on the order
-/// ([`Grid`]), so mirrored or renumbered problems give mirrored or renumbered solutions to the
-/// last bit. The gradient is measured anew on the velocities in every iteration, which keeps
-/// them right even where large impulses on a light body nearly cancel.
+/// Where that is slow, because masses differ by many powers of ten, and contacts are not too
+/// many, the careful method takes over from where it got to: that of faces (Polyak, "The conjugate gradient method in extremal
+/// problems", USSR Comput. Math. Math. Phys. 9, 1969), which finds the minimum among the contacts
+/// with impulses before it takes up others, and ends after finitely many faces.
+///
+/// The quick method does everything to all contacts alike, or is a sum that does not depend on
+/// the order ([`order_free`]). So mirrored or renumbered problems give mirrored or renumbered
+/// solutions, to the last bit. The gradient is measured anew on the velocities in every
+/// iteration, which keeps them right even where large impulses on a light body nearly cancel.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Solver {
     /// Power of two near `1/√A_ii`, which evens out masses without rounding anything.
@@ -129,7 +94,11 @@ pub(super) struct Solver {
     /// A times the direction, as rates of contacts and as velocities of bodies.
     image: Vec<f64>,
     moved: Vec<DVec3>,
+    /// Direction times image.
+    curvature: f64,
     steps: Vec<[i128; 3]>,
+    /// Number of contacts of each body, and the largest of their scales.
+    crowds: Vec<(f64, f64)>,
     /// Length of a step along the gradient that never overshoots.
     step_length: f64,
     face: Face,
@@ -143,60 +112,39 @@ impl Solver {
     pub fn solve(
         &mut self,
         problem: &Problem,
-        tolerance: Tolerance,
         velocities: &mut [DVec3],
         impulses: &mut Vec<f64>,
     ) -> Outcome {
         impulses.clear();
-        let outcome = if let [link] = problem.links[..] {
+        if let [link] = problem.links[..] {
             impulses.push(solve_one(&link, &problem.inverse_masses, velocities));
-            Outcome::Solved
+            return Outcome::Solved;
+        }
+        let links = problem.links.len();
+        let (quick, careful) = if links <= CAREFUL_LINKS {
+            (QUICK + QUICK_PER_LINK * links, CAREFUL + CAREFUL_PER_LINK * links)
         } else {
-            self.prepare(problem);
-            let outcome = self.iterate(problem, tolerance, velocities);
-            impulses.extend(self.x.iter().zip(&self.scales).map(|(x, scale)| x * scale));
-            outcome
+            (QUICK_WORK / links, 0)
         };
+        self.prepare(problem);
+        self.measure(problem, velocities);
+        let mut outcome = self.descend(problem, velocities, Leaving::Projected, quick);
+        if outcome == Outcome::Unfinished {
+            outcome = self.descend(problem, velocities, Leaving::Stopped, careful);
+        }
+        impulses.extend(self.x.iter().zip(&self.scales).map(|(x, scale)| x * scale));
         outcome
     }
 
-    fn iterate(
-        &mut self,
-        problem: &Problem,
-        tolerance: Tolerance,
-        velocities: &mut [DVec3],
-    ) -> Outcome {
-        let links = problem.links.len();
-        let careful = (CAREFUL + CAREFUL_PER_LINK * links).min(CAREFUL_WORK / links.max(1));
-        self.measure(problem, tolerance, velocities);
-        let quick = QUICK + QUICK_PER_LINK * links;
-        let outcome = self.descend(problem, tolerance, velocities, Leaving::Projected, quick);
-        if outcome != Outcome::Unfinished {
-            return outcome;
-        }
-        let o = self.descend(problem, tolerance, velocities, Leaving::Stopped, careful);
-        if std::env::var("DBG").is_ok() {
-            eprintln!(
-                "T {o:?} viol={:e} tol={:e} x={:?} g={:?} s={:?}",
-                self.violation(),
-                tolerance.coarse,
-                self.x,
-                self.gradient,
-                self.scales
-            );
-        }
-        o
-    }
-
+    /// Goes down to the minimum by one method, from where x and the velocities are.
     fn descend(
         &mut self,
         problem: &Problem,
-        tolerance: Tolerance,
         velocities: &mut [DVec3],
         leaving: Leaving,
         bound: usize,
     ) -> Outcome {
-        let direct = leaving == Leaving::Stopped && problem.links.len() <= DIRECT;
+        let Tolerance { fine, coarse } = problem.tolerance;
         let mut best = f64::INFINITY;
         let mut without_progress = 0;
         // Whether the direction is already the one to go on with.
@@ -208,35 +156,41 @@ impl Solver {
             } else {
                 without_progress += 1;
             }
-            let stalled = violation <= tolerance.coarse && without_progress > PATIENCE;
-            if violation <= tolerance.fine || stalled {
+            let good_enough = violation <= coarse && without_progress > PATIENCE;
+            if violation <= fine || good_enough {
                 return Outcome::Solved;
             }
-            let on_face = self.stays_on_face(leaving);
+            let on_face = match leaving {
+                Leaving::Projected => self.is_proportional(),
+                // A whole step that leaves no more than rounding has found the minimum.
+                Leaving::Stopped => {
+                    self.violation_on_face() > if conjugate { coarse } else { fine }
+                }
+            };
             if !on_face {
                 self.direction_of_closing();
-            } else if direct {
+            } else if leaving == Leaving::Stopped {
                 self.direction_to_minimum(problem);
             } else if !conjugate {
                 self.direction_of_free();
             }
             self.apply(problem);
             let Some(length) = self.best_length() else {
-                let solved = violation <= tolerance.coarse;
+                let solved = violation <= coarse;
                 return if solved { Outcome::Solved } else { Outcome::Jammed };
             };
             let reach = self.reach();
             self.advance(length.min(reach), velocities);
-            self.measure(problem, tolerance, velocities);
+            self.measure(problem, velocities);
             conjugate = on_face && length <= reach;
-            if conjugate && !direct {
+            if leaving == Leaving::Projected && conjugate {
                 self.make_conjugate();
-            } else if on_face && length > reach && leaving == Leaving::Projected {
+            } else if leaving == Leaving::Projected && on_face {
                 self.project(problem, velocities);
-                self.measure(problem, tolerance, velocities);
+                self.measure(problem, velocities);
             }
         }
-        if self.violation() <= tolerance.coarse { Outcome::Solved } else { Outcome::Unfinished }
+        if self.violation() <= coarse { Outcome::Solved } else { Outcome::Unfinished }
     }
 
     /// Sizes the arrays and finds the scales.
@@ -261,18 +215,20 @@ impl Solver {
     }
 
     /// A bound of the norm of the scaled A, by the sums of its rows (Gershgorin).
-    fn norm_bound(&self, problem: &Problem) -> f64 {
-        let mut most = vec![(0.0, 0.0_f64); problem.inverse_masses.len()];
+    fn norm_bound(&mut self, problem: &Problem) -> f64 {
+        let crowds = &mut self.crowds;
+        crowds.clear();
+        crowds.resize(problem.inverse_masses.len(), (0.0, 0.0));
         for (link, &scale) in problem.links.iter().zip(&self.scales) {
             for body in link.first.into_iter().chain([link.second]) {
-                let (count, largest) = &mut most[body as usize];
+                let (count, largest) = &mut crowds[body as usize];
                 *count += 1.0;
                 *largest = scale.max(*largest);
             }
         }
         let row = |(link, scale): (&Link, &f64)| {
             let part = |body: u32| {
-                let (count, largest) = most[body as usize];
+                let (count, largest) = crowds[body as usize];
                 problem.inverse_masses[body as usize] * count * largest
             };
             scale * (part(link.second) + link.first.map_or(0.0, part))
@@ -282,10 +238,10 @@ impl Solver {
 
     /// The gradient: scaled rates of opening. Those below the fine tolerance count as zero: to
     /// follow their rounding would disturb contacts at lighter bodies.
-    fn measure(&mut self, problem: &Problem, tolerance: Tolerance, velocities: &[DVec3]) {
+    fn measure(&mut self, problem: &Problem, velocities: &[DVec3]) {
         for (i, link) in problem.links.iter().enumerate() {
             let rate = link.rate(velocities);
-            let told_apart = rate.abs() > tolerance.fine;
+            let told_apart = rate.abs() > problem.tolerance.fine;
             self.gradient[i] = if told_apart { self.scales[i] * rate } else { 0.0 };
         }
     }
@@ -309,22 +265,21 @@ impl Solver {
         if self.x[i] > 0.0 { 0.0 } else { self.gradient[i].min(0.0) }
     }
 
-    /// Whether to go on among contacts with impulses rather than to take up others: as long as
-    /// more is to be gained there, or anything.
-    fn stays_on_face(&self, leaving: Leaving) -> bool {
+    /// By how much rates of contacts with impulses differ from zero, at worst.
+    fn violation_on_face(&self) -> f64 {
+        let missed = |i: usize| self.free(i).abs() / self.scales[i];
+        (0..self.x.len()).map(missed).fold(0.0, f64::max)
+    }
+
+    /// Whether more is to be gained among contacts with impulses than by taking up others.
+    fn is_proportional(&self) -> bool {
         let count = self.x.len();
         let free = order_free::sum((0..count).map(|i| {
-            let reduced = match leaving {
-                Leaving::Projected => self.free(i).min(self.x[i] / self.step_length),
-                Leaving::Stopped => self.free(i),
-            };
+            let reduced = self.free(i).min(self.x[i] / self.step_length);
             reduced * self.free(i)
         }));
         let closing = order_free::sum((0..count).map(|i| self.closing(i) * self.closing(i)));
-        match leaving {
-            Leaving::Projected => closing <= free,
-            Leaving::Stopped => free > 0.0,
-        }
+        closing <= free
     }
 
     fn direction_of_closing(&mut self) {
@@ -362,11 +317,11 @@ impl Solver {
     }
 
     /// Length of the step along the direction to the minimum; none if it moves nothing.
-    fn best_length(&self) -> Option<f64> {
+    fn best_length(&mut self) -> Option<f64> {
         let dot = |a: &[f64], b: &[f64]| order_free::sum(a.iter().zip(b).map(|(a, b)| a * b));
-        let curvature = dot(&self.direction, &self.image);
+        self.curvature = dot(&self.direction, &self.image);
         let standstill = STANDSTILL * dot(&self.direction, &self.direction);
-        (curvature > standstill).then(|| dot(&self.gradient, &self.direction) / curvature)
+        (self.curvature > standstill).then(|| dot(&self.gradient, &self.direction) / self.curvature)
     }
 
     /// The longest step along the direction that leaves no impulse below zero.
@@ -405,42 +360,10 @@ impl Solver {
     fn make_conjugate(&mut self) {
         let count = self.x.len();
         let overlap = order_free::sum((0..count).map(|i| self.free(i) * self.image[i]));
-        let curvature = order_free::sum((0..count).map(|i| self.direction[i] * self.image[i]));
-        let part = overlap / curvature;
+        let part = overlap / self.curvature;
         for i in 0..count {
             self.direction[i] = self.free(i) - part * self.direction[i];
         }
-    }
-}
-
-/// Velocities `M⁻¹ N x` that impulses give to bodies at rest.
-///
-/// The impulses are added on a grid: to no order, and as much to one body as from the other.
-pub(super) fn push(
-    links: &[Link],
-    inverse_mass: impl Fn(usize) -> f64,
-    impulse: impl Fn(usize) -> f64,
-    steps: &mut [[i128; 3]],
-    moved: &mut [DVec3],
-) {
-    let count = links.len();
-    let largest = (0..count).map(|i| impulse(i).abs()).fold(0.0, f64::max);
-    let grid = Grid::new(largest, count);
-    steps.fill([0; 3]);
-    for (i, link) in links.iter().enumerate() {
-        let given = (impulse(i) * link.normal).to_array().map(|part| grid.steps(part));
-        for (axis, given) in given.into_iter().enumerate() {
-            let second = &mut steps[link.second as usize][axis];
-            *second = second.wrapping_add(given);
-            if let Some(first) = link.first {
-                let first = &mut steps[first as usize][axis];
-                *first = first.wrapping_sub(given);
-            }
-        }
-    }
-    for (body, moved) in moved.iter_mut().enumerate() {
-        let momentum = DVec3::from_array(steps[body].map(|steps| grid.value(steps)));
-        *moved = inverse_mass(body) * momentum;
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::complementarity::Problem;
+use super::problem::Problem;
 
 /// A column whose part independent of the columns before it is smaller than this, of its own
 /// length, is that of a redundant contact: what is left are a few roundings per column.

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::group::{Group, Motion};
+use super::complementarity::Outcome;
+use super::group::{Answer, Group};
 use super::project::Projector;
 use super::simultaneous;
 
@@ -14,49 +15,44 @@ const MAX_REFLECTIONS_PER_CONTACT: usize = 4;
 /// Layers that restitution is divided into at most; each costs about one elastic answer.
 const MAX_LAYERS: usize = 8;
 
-/// A motion with each e, and the change of energy it asks for.
+/// The answer to one layer of restitution.
 struct Layer {
+    /// Its thickness. Those of all layers add up to 1.
     weight: f64,
-    motion: Motion,
-    energy: f64,
+    answer: Answer,
 }
 
-/// The answer, the change of energy it asks for, and whether it is what the law says.
+/// For one e in the group: the elastic answer times e plus the plastic one times 1 − e.
 ///
 /// Source: Smith, Kaufman, Vouga, Tamstorf, Grinspun, "Reflections on Simultaneous Impact", ACM
-/// TOG 31(4), 2012. For one e in the group, as there: the elastic answer times e plus the plastic
-/// one times 1 - e. For several, restitution is divided into layers between neighbouring values
-/// of e: in each, a contact of larger e is elastic, one of smaller e plastic. The answer is the
-/// mean of the layers' answers by thickness. All of them conserve momentum, gain no energy and
-/// leave no contact closing, and so does their mean, since the motions without closing contacts
-/// form a convex cone and the energy is convex.
-pub(super) fn resolve(
-    group: &Group,
-    start: &[DVec3],
-    projector: &mut Projector,
-) -> (Motion, f64, bool) {
-    let levels = levels(&group.restitutions);
-    let mut layers = Vec::with_capacity(levels.len() + 1);
-    let mut complete = true;
+/// TOG 31(4), 2012.
+///
+/// For several e, restitution is divided into layers between neighbouring values: in each, a
+/// contact of larger e is elastic, one of smaller e plastic. The answer is the mean of the
+/// layers' answers by thickness. All of them conserve momentum, gain no energy and leave no
+/// contact closing, and so does their mean, since the motions without closing contacts form a
+/// convex cone and the energy is convex. A contact that feels no other gets Newton's law with
+/// its own e: the layers below e are elastic for it.
+pub(super) fn resolve(group: &Group, start: &[DVec3], projector: &mut Projector) -> Answer {
+    let mut layers = Vec::with_capacity(MAX_LAYERS + 1);
     let mut below = 0.0;
-    for level in levels {
+    for level in levels(&group.restitutions) {
         let part_of = |e: &f64| ((e - below) / (level - below)).clamp(0.0, 1.0);
         let parts: Vec<f64> = group.restitutions.iter().map(part_of).collect();
-        let (motion, energy, as_told) = reflect(group, &parts, start, projector);
-        layers.push(Layer { weight: level - below, motion, energy });
-        complete &= as_told;
+        let answer = reflect(group, &parts, start, projector);
+        layers.push(Layer { weight: level - below, answer });
         below = level;
     }
     if below < 1.0 {
-        let motion = group.plastic(start, projector);
-        let energy = group.work(&motion.impulses, start, &motion.velocities);
-        layers.push(Layer { weight: 1.0 - below, motion, energy });
+        let answer = group.plastic(start, projector);
+        layers.push(Layer { weight: 1.0 - below, answer });
     }
-    let (motion, energy) = mean(group, layers);
-    (motion, energy, complete)
+    mean(group, layers)
 }
 
 /// Values of e above zero, ascending, thinned out to the bound of layers; the largest is kept.
+///
+/// Where values are left out, contacts between two levels give back a part in that layer.
 fn levels(restitutions: &[f64]) -> Vec<f64> {
     let mut levels: Vec<f64> = restitutions.iter().copied().filter(|e| *e > 0.0).collect();
     levels.sort_by(f64::total_cmp);
@@ -66,21 +62,21 @@ fn levels(restitutions: &[f64]) -> Vec<f64> {
     levels.into_iter().skip(skipped).step_by(stride).collect()
 }
 
-/// Mean of the layers; its energy is the mean of theirs less that of their spread.
-fn mean(group: &Group, mut layers: Vec<Layer>) -> (Motion, f64) {
-    let Some(Layer { mut motion, mut energy, .. }) = layers.pop() else {
-        return (Motion::default(), 0.0);
+/// Mean of the layers, from the last to the first; its energy is the mean of theirs, less that
+/// of their spread.
+fn mean(group: &Group, mut layers: Vec<Layer>) -> Answer {
+    let Some(Layer { mut weight, answer: mut mean }) = layers.pop() else {
+        return Answer::default();
     };
-    // Weight by weight: of what has been gone through, the new layer's part.
-    let mut weight = 1.0 - layers.iter().map(|layer| layer.weight).sum::<f64>();
-    for layer in layers.into_iter().rev() {
-        weight += layer.weight;
-        let part = layer.weight / weight;
-        let spread = group.energy_between(&motion.velocities, &layer.motion.velocities);
-        energy += part * (layer.energy - energy) - part * (1.0 - part) * spread;
-        motion = motion.towards(&layer.motion, part);
+    for Layer { weight: added, answer } in layers.into_iter().rev() {
+        weight += added;
+        let part = added / weight;
+        let spread = group.energy_between(&mean.motion.velocities, &answer.motion.velocities);
+        mean.energy += part * (answer.energy - mean.energy) - part * (1.0 - part) * spread;
+        mean.motion = mean.motion.towards(&answer.motion, part);
+        mean.complete &= answer.complete;
     }
-    (motion, energy)
+    mean
 }
 
 /// The answer in one layer, where each contact gives back this `part` of what its compression
@@ -89,52 +85,59 @@ fn mean(group: &Group, mut layers: Vec<Layer>) -> (Motion, f64) {
 /// Again and again, as long as a contact closes: compress, that is, project the motion to the
 /// nearest one in which neither the closing contacts nor those that are not elastic close; give
 /// back the parts of the impulses (Poisson's hypothesis); and let the contacts that are not
-/// elastic keep what would press them from closing. If all are elastic that is the reflection
-/// of Smith et al., with all closing contacts at once. No pass gains energy: the last projection
-/// is no farther from rest than the way back of all compression.
+/// elastic take what would make them close. If all are elastic, that is the reflection of Smith
+/// et al., at all closing contacts at once.
 ///
-/// If there is no end of it, `simultaneous` gives the answer.
-fn reflect(
-    group: &Group,
-    parts: &[f64],
-    start: &[DVec3],
-    projector: &mut Projector,
-) -> (Motion, f64, bool) {
+/// No pass gains energy. With w the compressed motion, λ its impulses and E the parts, the pass
+/// ends at the projection of `w + M⁻¹N E λ` to the cone of contacts with E < 1; its norm is the
+/// least of `|w + M⁻¹N (E λ + μ)|` over the impulses μ >= 0 of those contacts, and with
+/// `μ = (1 − E) λ` that is the norm before, since `λ·u(w) = 0`.
+///
+/// If there is no end of it, `simultaneous` gives the answer; if a projection cannot be found, the
+/// answer is plastic, as far as that can be.
+fn reflect(group: &Group, parts: &[f64], start: &[DVec3], projector: &mut Projector) -> Answer {
     let all_elastic = parts.iter().all(|part| *part == 1.0);
-    let mut motion = Motion::start(group, start);
+    let mut answer = Answer::unchanged(group, start);
     let mut closing = vec![false; parts.len()];
-    let bound = MAX_REFLECTIONS + MAX_REFLECTIONS_PER_CONTACT * parts.len();
-    for _ in 0..bound {
+    for _ in 0..MAX_REFLECTIONS + MAX_REFLECTIONS_PER_CONTACT * parts.len() {
         for (contact, closing) in closing.iter_mut().enumerate() {
-            *closing = group.is_closing(contact, &motion.velocities);
+            *closing = group.is_closing(contact, &answer.motion.velocities);
         }
         if !closing.contains(&true) {
-            let energy = if all_elastic {
-                0.0
-            } else {
-                group.work(&motion.impulses, start, &motion.velocities).min(0.0)
-            };
-            return (motion, energy, true);
+            if !all_elastic {
+                let impulses = &answer.motion.impulses;
+                let work = group.work(impulses, start, &answer.motion.velocities);
+                answer.energy = work.min(0.0);
+            }
+            return answer;
         }
-        if all_elastic {
-            reflect_once(group, &closing, &mut motion, projector);
+        let outcome = if all_elastic {
+            reflect_once(group, &closing, &mut answer, projector)
         } else {
-            restitute_once(group, &closing, parts, &mut motion, projector);
+            restitute_once(group, &closing, parts, &mut answer, projector)
+        };
+        if outcome != Outcome::Solved {
+            return Answer { complete: false, ..group.plastic(start, projector) };
         }
     }
-    let (motion, _) = simultaneous::resolve(group, parts, start, projector);
-    let energy = group.work(&motion.impulses, start, &motion.velocities).min(0.0);
-    (motion, energy, false)
+    Answer { complete: false, ..simultaneous::resolve(group, parts, start, projector) }
 }
 
 /// Reflection of the motion at the cone of motions in which the `closing` contacts do not close.
-fn reflect_once(group: &Group, closing: &[bool], motion: &mut Motion, projector: &mut Projector) {
-    let before = motion.velocities.clone();
-    projector.project(group, |contact| closing[contact], |_| 0.0, &mut motion.velocities);
-    for (velocity, before) in motion.velocities.iter_mut().zip(before) {
+fn reflect_once(
+    group: &Group,
+    closing: &[bool],
+    answer: &mut Answer,
+    projector: &mut Projector,
+) -> Outcome {
+    let velocities = &mut answer.motion.velocities;
+    let before = velocities.clone();
+    let outcome = projector.project(group, |contact| closing[contact], |_| 0.0, velocities);
+    for (velocity, before) in velocities.iter_mut().zip(before) {
         *velocity += *velocity - before;
     }
-    motion.add(projector.impulses(), 2.0);
+    answer.motion.add(projector.impulses(), 2.0);
+    outcome
 }
 
 /// The same where not all contacts are elastic.
@@ -142,16 +145,22 @@ fn restitute_once(
     group: &Group,
     closing: &[bool],
     parts: &[f64],
-    motion: &mut Motion,
+    answer: &mut Answer,
     projector: &mut Projector,
-) {
+) -> Outcome {
+    let motion = &mut answer.motion;
     let active = |contact: usize| closing[contact] || parts[contact] < 1.0;
-    projector.project(group, active, |_| 0.0, &mut motion.velocities);
-    let compression = projector.impulses().to_vec();
-    motion.add(&compression, 1.0);
-    let given_back: Vec<f64> = compression.iter().zip(parts).map(|(p, part)| p * part).collect();
+    let compressed = projector.project(group, active, |_| 0.0, &mut motion.velocities);
+    motion.add(projector.impulses(), 1.0);
+    if compressed != Outcome::Solved {
+        return compressed;
+    }
+    let given_back: Vec<f64> =
+        projector.impulses().iter().zip(parts).map(|(impulse, part)| impulse * part).collect();
     group.push(&given_back, &mut motion.velocities);
     motion.add(&given_back, 1.0);
-    projector.project(group, |contact| parts[contact] < 1.0, |_| 0.0, &mut motion.velocities);
+    let plastic = |contact: usize| parts[contact] < 1.0;
+    let outcome = projector.project(group, plastic, |_| 0.0, &mut motion.velocities);
     motion.add(projector.impulses(), 1.0);
+    outcome
 }

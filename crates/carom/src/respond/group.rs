@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
-use super::complementarity::{self, Link, Outcome, Tolerance};
+use super::complementarity::Outcome;
 use super::order_free;
+use super::problem::{self, Link, Tolerance};
 use super::project::Projector;
 use super::touching::TouchingContact;
 
@@ -24,13 +25,23 @@ pub(super) struct Group<'a> {
     pub masses: &'a [f64],
 }
 
-/// What a law gives a group, and takes from it.
+/// Velocities, and the impulses that led to them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Motion {
     /// One per body.
     pub velocities: Vec<DVec3>,
     /// One per contact: what has been given so far.
     pub impulses: Vec<f64>,
+}
+
+/// What a law answers.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Answer {
+    pub motion: Motion,
+    /// Change of kinetic energy that the law asks for, reckoned against the surfaces.
+    pub energy: f64,
+    /// Whether it is the answer of the law proper, not what it falls back on.
+    pub complete: bool,
 }
 
 impl<'a> Group<'a> {
@@ -69,7 +80,8 @@ impl<'a> Group<'a> {
     }
 
     /// What impulses do to the kinetic energy, reckoned against the surfaces, from the rates of
-    /// opening before and after: `Σ p (u⁻ + u⁺) / 2` (Thomson and Tait's theorem).
+    /// opening before and after: `Σ p (u⁻ + u⁺) / 2` (Thomson and Tait, "Treatise on Natural
+    /// Philosophy", 1867, § 308).
     pub fn work(&self, impulses: &[f64], before: &[DVec3], after: &[DVec3]) -> f64 {
         order_free::sum(impulses.iter().enumerate().map(|(contact, impulse)| {
             0.5 * impulse * (self.rate(contact, before) + self.rate(contact, after))
@@ -79,8 +91,8 @@ impl<'a> Group<'a> {
     /// `Σ m |a − b|² / 2`: kinetic energy of the difference of two motions.
     pub fn energy_between(&self, a: &[DVec3], b: &[DVec3]) -> f64 {
         order_free::sum(self.masses.iter().enumerate().map(|(body, mass)| {
-            let d = a[body] - b[body];
-            0.5 * mass * d.dot(d)
+            let difference = a[body] - b[body];
+            0.5 * mass * difference.dot(difference)
         }))
     }
 
@@ -88,35 +100,33 @@ impl<'a> Group<'a> {
     pub fn push(&self, impulses: &[f64], velocities: &mut [DVec3]) {
         let (mut steps, mut moved) = (vec![[0; 3]; self.masses.len()], velocities.to_vec());
         let inverse_mass = |body: usize| 1.0 / self.masses[body];
-        complementarity::push(&self.links, inverse_mass, |i| impulses[i], &mut steps, &mut moved);
+        problem::push(&self.links, inverse_mass, |i| impulses[i], &mut steps, &mut moved);
         for (velocity, moved) in velocities.iter_mut().zip(moved) {
             *velocity += moved;
         }
     }
 
     /// The plastic answer: the motion nearest (in kinetic energy) to the given one in which no
-    /// contact closes. It always exists.
-    pub fn plastic(&self, start: &[DVec3], projector: &mut Projector) -> Motion {
-        let mut motion = Motion { velocities: start.to_vec(), impulses: Vec::new() };
-        projector.project(self, |_| true, |_| 0.0, &mut motion.velocities);
-        motion.impulses.extend_from_slice(projector.impulses());
-        motion
+    /// contact closes. Unless surfaces crush spheres between them, there is one.
+    pub fn plastic(&self, start: &[DVec3], projector: &mut Projector) -> Answer {
+        let mut answer = Answer::unchanged(self, start);
+        let outcome = self.finish(&mut answer, projector);
+        answer.complete = outcome == Outcome::Solved;
+        answer
     }
 
-    /// Finishes a motion plastically: what still closes, no longer does.
-    pub fn finish(&self, motion: &mut Motion, projector: &mut Projector) -> Outcome {
-        let outcome = projector.project(self, |_| true, |_| 0.0, &mut motion.velocities);
-        motion.add(projector.impulses(), 1.0);
+    /// Finishes an answer plastically: what still closes, no longer does.
+    pub fn finish(&self, answer: &mut Answer, projector: &mut Projector) -> Outcome {
+        let velocities = &mut answer.motion.velocities;
+        let before = velocities.clone();
+        let outcome = projector.project(self, |_| true, |_| 0.0, velocities);
+        answer.energy += self.work(projector.impulses(), &before, velocities).min(0.0);
+        answer.motion.add(projector.impulses(), 1.0);
         outcome
     }
 }
 
 impl Motion {
-    /// The motion at the start.
-    pub fn start(group: &Group, velocities: &[DVec3]) -> Self {
-        Self { velocities: velocities.to_vec(), impulses: vec![0.0; group.links.len()] }
-    }
-
     /// Adds so many times these impulses.
     pub fn add(&mut self, impulses: &[f64], factor: f64) {
         for (total, impulse) in self.impulses.iter_mut().zip(impulses) {
@@ -131,6 +141,15 @@ impl Motion {
         let pairs = self.impulses.iter().zip(&other.impulses);
         let impulses = pairs.map(|(a, b)| (a + part * (b - a)).max(0.0)).collect();
         Self { velocities, impulses }
+    }
+}
+
+impl Answer {
+    /// That nothing happens.
+    pub fn unchanged(group: &Group, velocities: &[DVec3]) -> Self {
+        let impulses = vec![0.0; group.links.len()];
+        let motion = Motion { velocities: velocities.to_vec(), impulses };
+        Self { motion, energy: 0.0, complete: true }
     }
 }
 

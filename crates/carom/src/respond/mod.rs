@@ -8,6 +8,7 @@ mod generalized_reflection;
 mod group;
 mod line_of_centres;
 mod order_free;
+mod problem;
 mod project;
 mod reflection;
 mod resolve;
@@ -15,7 +16,7 @@ mod sequential;
 mod simultaneous;
 mod touching;
 
-pub use contact_force::contact_forces;
+pub use contact_force::{ContactForces, contact_forces};
 pub use line_of_centres::line_of_centres;
 pub use reflection::reflection;
 pub use resolve::resolve;

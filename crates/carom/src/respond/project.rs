@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
-use super::complementarity::{Outcome, Problem, Solver};
+use super::complementarity::{Outcome, Solver};
 use super::group::{Group, speed_scale, tolerance};
+use super::problem::Problem;
 
 /// Marks a body that is in no component.
 const NONE: u32 = u32::MAX;
@@ -118,10 +119,11 @@ impl Projector {
             .inverse_masses
             .extend(masses.map(|mass| (largest_mass / mass).min(MASS_RATIO)));
 
-        let tolerance = tolerance(speed_scale(self.velocities.iter().copied()));
-        self.resolution = self.resolution.max(tolerance.coarse);
-        let (problem, impulses) = (&self.problem, &mut self.component_impulses);
-        let outcome = self.solver.solve(problem, tolerance, &mut self.velocities, impulses);
+        self.problem.tolerance = tolerance(speed_scale(self.velocities.iter().copied()));
+        self.resolution = self.resolution.max(self.problem.tolerance.coarse);
+
+        let impulses = &mut self.component_impulses;
+        let outcome = self.solver.solve(&self.problem, &mut self.velocities, impulses);
         for (local, &body) in self.bodies.iter().enumerate() {
             self.local[body as usize] = NONE;
             velocities[body as usize] = self.velocities[local];

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::group::{Group, Motion, speed_scale, tolerance};
+use super::group::{Answer, Group, speed_scale, tolerance};
 use super::project::Projector;
 use super::touching::{GroupResponse, ImpactLaw, TouchingContact};
 use super::{generalized_reflection, order_free, sequential, simultaneous};
@@ -12,14 +12,16 @@ use super::{generalized_reflection, order_free, sequential, simultaneous};
 ///
 /// No contact closes afterwards beyond [`GroupResponse::resolution`], momentum is kept to
 /// round-off, and energy falls by what the law asks for. The laws and their formulas are in
-/// `docs/physics.md`, "Impacts at one instant".
+/// `docs/physics.md`, "Impacts at one instant". A single contact gets the bits that
+/// [`line_of_centres`](super::line_of_centres()) or [`reflection`](super::reflection()) give it.
 ///
-/// With `Simultaneous` and `Reflection`, permuting contacts or spheres, or mirroring everything
-/// in a coordinate plane, does the same to the result, to the last bit.
+/// With `Simultaneous` and `Reflection`, renumbering contacts or spheres, or mirroring everything
+/// in a coordinate plane, does the same to the velocities: to the last bit as long as masses in
+/// the group differ by less than about 10⁶, else to rounding.
 ///
 /// - `contacts`: between spheres of the group, which are numbered from 0
-/// - `masses` \[kg\], > 0, `velocities` \[m/s\]: one per sphere. Velocities that are not finite are
-///   left as they are, all of them
+/// - `masses` \[kg\], > 0, `velocities` \[m/s\]: one per sphere. If any velocity is not finite,
+///   all are left as they are
 ///
 /// # Panics
 /// If a contact names a sphere that has no mass or velocity.
@@ -37,50 +39,44 @@ pub fn resolve(
     let group = Group::new(contacts, masses, unit);
     let start: Vec<DVec3> = velocities.iter().map(|velocity| *velocity / unit).collect();
     let mut projector = Projector::default();
-    let (motion, energy, complete) = answer(law, &group, &start, &mut projector);
+    let Answer { motion, energy, complete } = answer(law, &group, &start, &mut projector);
+
     for (velocity, scaled) in velocities.iter_mut().zip(&motion.velocities) {
         *velocity = unit * *scaled;
     }
+    let impulses: Vec<f64> = motion.impulses.iter().map(|impulse| unit * impulse).collect();
     let work = |(contact, impulse): (&TouchingContact, &f64)| match contact.first {
         Some(_) => 0.0,
-        None => unit * impulse * contact.normal.dot(contact.surface_velocity),
+        None => impulse * contact.normal.dot(contact.surface_velocity),
     };
     let speed = speed_scale(motion.velocities.iter().chain(&start).copied());
     GroupResponse {
         restitution_energy: energy * unit * unit,
-        surface_work: order_free::sum(contacts.iter().zip(&motion.impulses).map(work)),
+        surface_work: order_free::sum(contacts.iter().zip(&impulses).map(work)),
         resolution: unit * tolerance(speed).coarse.max(projector.resolution()),
         cut_short: !complete,
-        impulses: motion.impulses.into_iter().map(|impulse| unit * impulse).collect(),
+        impulses,
     }
 }
 
-/// The motion after the impacts, the change of energy asked for, and whether the law came to an
-/// end of its own.
-fn answer(
-    law: ImpactLaw,
-    group: &Group,
-    start: &[DVec3],
-    projector: &mut Projector,
-) -> (Motion, f64, bool) {
+fn answer(law: ImpactLaw, group: &Group, start: &[DVec3], projector: &mut Projector) -> Answer {
     if !group.closes(start) {
-        return (Motion::start(group, start), 0.0, true);
+        return Answer::unchanged(group, start);
     }
-    let (motion, complete) = match law {
-        ImpactLaw::Reflection => {
-            return generalized_reflection::resolve(group, start, projector);
-        }
+    let answer = match law {
+        // For one contact, all laws are one.
+        _ if group.links.len() == 1 => sequential::resolve(group, start, projector),
+        ImpactLaw::Sequential => sequential::resolve(group, start, projector),
         ImpactLaw::Simultaneous => {
             simultaneous::resolve(group, &group.restitutions, start, projector)
         }
-        ImpactLaw::Sequential => {
-            let mut motion = Motion::start(group, start);
-            let complete = sequential::resolve(group, &mut motion, projector);
-            (motion, complete)
-        }
+        ImpactLaw::Reflection => generalized_reflection::resolve(group, start, projector),
     };
-    let energy = group.work(&motion.impulses, start, &motion.velocities).min(0.0);
-    (motion, energy, complete)
+    if !answer.complete && group.closes(&answer.motion.velocities) {
+        // Too many contacts at too unlike masses to solve for at once.
+        return Answer { complete: false, ..sequential::resolve(group, start, projector) };
+    }
+    answer
 }
 
 /// The power of two near the largest component; none if all are zero or one is not finite.

@@ -1,6 +1,9 @@
 //! Impact law `sequential`: pair after pair.
 
-use super::group::{Group, Motion};
+use glam::DVec3;
+
+use super::complementarity::Outcome;
+use super::group::{Answer, Group};
 use super::project::Projector;
 use super::{line_of_centres, reflection};
 
@@ -10,42 +13,52 @@ use super::{line_of_centres, reflection};
 const MAX_SWEEPS: usize = 1000;
 
 /// Answers contacts in their order, each by Newton's law if it closes when its turn comes; again
-/// and again until none closes. Tells whether that came to an end.
+/// and again until none closes.
 ///
-/// Source: Brach, "Mechanical Impact Dynamics" (1991), chapter 6; Chatterjee and Ruina, J. Appl.
-/// Mech. 65, 939 (1998), on sequences of impacts and their limits.
-pub(super) fn resolve(group: &Group, motion: &mut Motion, projector: &mut Projector) -> bool {
+/// Source: Chatterjee and Ruina, "A new algebraic rigid-body collision law based on impulse space
+/// considerations", J. Appl. Mech. 65, 939 (1998), discuss such sequences.
+pub(super) fn resolve(group: &Group, start: &[DVec3], projector: &mut Projector) -> Answer {
+    let mut answer = Answer::unchanged(group, start);
     for _ in 0..MAX_SWEEPS {
-        let mut answered = false;
+        let mut calm = true;
         for contact in 0..group.links.len() {
-            if group.is_closing(contact, &motion.velocities) {
-                answer(group, contact, motion);
-                answered = true;
+            if group.is_closing(contact, &answer.motion.velocities) {
+                answer_one(group, contact, &mut answer);
+                calm = false;
             }
         }
-        if !answered {
-            return true;
+        if calm {
+            return answer;
         }
     }
-    group.finish(motion, projector);
-    false
+    answer.complete = false;
+    match group.finish(&mut answer, projector) {
+        // Crushed between surfaces: the sweeps have been filling it with their energy.
+        Outcome::Jammed => group.plastic(start, projector),
+        Outcome::Solved | Outcome::Unfinished => answer,
+    }
 }
 
-/// Newton's law for one contact.
-fn answer(group: &Group, contact: usize, motion: &mut Motion) {
+/// Newton's law for one contact, and the energy it takes: `(1 − e) p u⁻/2`.
+fn answer_one(group: &Group, contact: usize, answer: &mut Answer) {
     let (link, e) = (&group.links[contact], group.restitutions[contact]);
-    let (velocities, second) = (&mut motion.velocities, link.second as usize);
-    if let Some(first) = link.first.map(|body| body as usize) {
+    let rate = group.rate(contact, &answer.motion.velocities);
+    let (velocities, second) = (&mut answer.motion.velocities, link.second as usize);
+    let impulse = if let Some(first) = link.first.map(|body| body as usize) {
         let masses = [group.masses[first], group.masses[second]];
         let before = [velocities[first], velocities[second]];
-        if let Some((after, impulse)) = line_of_centres(before, masses, link.normal, e) {
+        line_of_centres(before, masses, link.normal, e).map(|(after, impulse)| {
             [velocities[first], velocities[second]] = after;
-            motion.impulses[contact] += impulse;
-        }
-    } else if let Some(change) =
-        reflection(velocities[second] - link.surface_velocity, link.normal, e)
-    {
-        velocities[second] += change * link.normal;
-        motion.impulses[contact] += group.masses[second] * change;
-    }
+            impulse
+        })
+    } else {
+        let relative = velocities[second] - link.surface_velocity;
+        reflection(relative, link.normal, e).map(|change| {
+            velocities[second] += change * link.normal;
+            group.masses[second] * change
+        })
+    };
+    let impulse = impulse.unwrap_or(0.0);
+    answer.motion.impulses[contact] += impulse;
+    answer.energy += 0.5 * (1.0 - e) * impulse * rate;
 }

@@ -58,8 +58,9 @@ impl Default for Exact {
             // A bounce of this length under gravity is 1e-20 m high, far below the rounding of a
             // position, and yet it is far above the rounding of a clock that shows hours.
             contact_duration: 1e-10,
-            // Ten times what a fast sphere in a narrow gap needs in any scene worth a picture.
-            max_impacts: 100_000_000,
+            // More than a sphere at a third of the speed of light needs between walls 1 m apart in a
+            // sixtieth of a second; some seconds of work.
+            max_impacts: 5_000_000,
         }
     }
 }

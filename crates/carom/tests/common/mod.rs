@@ -1,6 +1,8 @@
 //! What several test files need.
 #![allow(dead_code)]
 
+pub mod group;
+
 use carom::{Bisect, DVec3, Integrator, Rule, Settings, WindBack, World};
 
 pub const G: f64 = 9.81;

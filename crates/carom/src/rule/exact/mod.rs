@@ -57,8 +57,6 @@ pub(crate) fn advance(
 ) -> Result<(), TooManyImpacts> {
     let Rule::Exact(parameters) = system.settings.rule else { return Ok(()) };
     let period = system.settings.boundary.period();
-    let most = u64::from(parameters.max_impacts) * system.spheres.id.len() as u64;
-    let mut answered = 0;
     let mut stage = Stage { system, parameters, report, start, period };
     while let Some((slot, next)) = timeline.next(end) {
         let event = match next {
@@ -81,8 +79,7 @@ pub(crate) fn advance(
             }
             Target::Cluster => group::answer(timeline, &mut stage, &[slot], None, event.time),
         }
-        answered += 1;
-        if answered > most {
+        if timeline.flights_in_frame(slot) > parameters.max_impacts {
             let limit = parameters.max_impacts;
             return Err(TooManyImpacts { sphere: stage.id_of(timeline, slot), limit });
         }

@@ -122,7 +122,7 @@ fn forces(members: &[Member], touches: &[Touch]) -> Vec<f64> {
     let masses: Vec<f64> = members.iter().map(|member| member.kind.mass).collect();
     let mut accelerations: Vec<DVec3> = members.iter().map(free_acceleration).collect();
     let bias: Vec<f64> = touches.iter().map(|touch| bias(touch, members)).collect();
-    contact_forces(&contacts, &masses, &mut accelerations, &bias)
+    contact_forces(&contacts, &masses, &mut accelerations, &bias).forces
 }
 
 /// Accelerations of the members of a group.

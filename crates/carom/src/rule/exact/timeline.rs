@@ -33,6 +33,8 @@ pub(crate) struct Timeline {
     pub(super) kinds: Vec<Kind>,
     /// Kinds that nobody is of.
     spare_kinds: Vec<u32>,
+    /// Number of each sphere's flight at the start of the frame, by index.
+    flights_before: Vec<u32>,
     /// Place of each slot in the arrays of the world, and back.
     pub(super) index_of: Vec<u32>,
     pub(super) slot_of: Vec<u32>,
@@ -162,6 +164,20 @@ impl Timeline {
             .collect();
         self.index_of = (0..count as u32).collect();
         self.slot_of = self.index_of.clone();
+        self.count_flights();
+    }
+
+    /// Counts the flights of each sphere from here on.
+    fn count_flights(&mut self) {
+        let Self { flights_before, bodies, slot_of, .. } = self;
+        flights_before.clear();
+        flights_before.extend(slot_of.iter().map(|&slot| bodies[slot as usize].flights));
+    }
+
+    /// How many flights of a sphere began in this frame.
+    pub fn flights_in_frame(&self, slot: u32) -> u32 {
+        let before = self.flights_before[self.index_of[slot as usize] as usize];
+        self.bodies[slot as usize].flights.wrapping_sub(before)
     }
 
     /// Gathers the spheres into kinds; gives the kind of each.
@@ -268,6 +284,7 @@ impl Timeline {
             self.predict_all(system, frame[0]);
         }
         self.arrange_if_due(system, frame[0]);
+        self.count_flights();
     }
 
     /// Notes what a sphere meets next.
