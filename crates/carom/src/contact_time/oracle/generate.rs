@@ -4,8 +4,8 @@
 use glam::DVec3;
 
 use super::situation::{Bodies, Situation};
-use crate::surface::SurfaceMotion;
 use crate::flight::{Flight, Propagator};
+use crate::surface::SurfaceMotion;
 use crate::surface::{Form, Rectangle};
 
 /// Numbers in [0, 1), the same in every run: SplitMix64 (Steele, Lea, Flood 2014).

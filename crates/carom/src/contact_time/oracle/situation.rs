@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::number::{Big, Number, Vector};
 use crate::contact_time::{sphere_sphere, sphere_surface};
-use crate::surface::SurfaceMotion;
 use crate::flight::{Flight, Propagator};
+use crate::surface::SurfaceMotion;
 use crate::surface::{Form, Rectangle};
 
 #[derive(Debug, Clone, Copy)]

@@ -58,6 +58,8 @@ pub(super) fn find(stage: &Stage, group: &mut Group) -> Vec<Support> {
         };
         let accelerations = rest(group, accelerations, hold);
         let hold = hold.min(sliding_time(stage, group, &lasting, &accelerations));
+        // What holds for less than a contact's duration is in doubt only by rounding.
+        let hold = hold.max(stage.parameters.contact_duration);
         return connected(group, &lasting, &accelerations, group.time + hold);
     }
     Vec::new()
