@@ -139,7 +139,8 @@ pub struct Impact {
     pub point: DVec3,
     /// Unit normal from body 1 to body 2.
     pub normal: DVec3,
-    /// Speed of approach along the normal before the impact \[m/s\], > 0.
+    /// Speed of approach along the normal before the impact \[m/s\], > 0; in a group of several,
+    /// before all of them: there a contact may be hit that was not closing by itself.
     pub approach_speed: f64,
     /// Speed of separation along the normal after the impact \[m/s\], and after all others at the
     /// same instant in its group; > 0 where the bodies part.

@@ -68,7 +68,7 @@ impl State {
                 Ok(place) => emission.due[place],
                 Err(_) => time,
             };
-            self.timeline = Some(Timeline::adopt(&timeline, &ids, &system, motion, due));
+            self.timeline = Some(Timeline::adopt(&timeline, &ids, (&system, &*motion), time, due));
         }
         emission
     }

@@ -102,7 +102,7 @@ impl World {
         let mut before_emission = None;
         self.start.copy_all(&self.state.spheres.motion);
         let moved = match self.state.settings.rule {
-            Rule::Exact(_) => self.advance_exactly(clock.seconds(), &mut before_emission),
+            Rule::Exact(_) => self.advance_exactly(dt, clock.seconds(), &mut before_emission),
             Rule::Discrete | Rule::Bisect(_) => {
                 self.advance_by_frame(dt, &mut before_emission);
                 Ok(())
@@ -130,10 +130,11 @@ impl World {
         rule::step(&system, motion, frame, &mut self.scratch, &mut self.report);
     }
 
-    /// Takes a frame until `end` \[s\] by the rule `exact`. What emitters have due within the frame
+    /// Takes a frame of `length` until `end` \[s\] by the rule `exact`. What emitters have due within the frame
     /// comes at its own time.
     fn advance_exactly(
         &mut self,
+        length: f64,
         end: f64,
         before: &mut Option<BeforeEmission>,
     ) -> Result<(), Error> {
@@ -142,7 +143,7 @@ impl World {
         self.emit(start, before);
         loop {
             let due = emitter::next_due(&self.state.emitters);
-            let span = Span { start, end: due.min(end) };
+            let span = Span { start, length, end: due.min(end) };
             self.state.advance_exactly(span, &mut self.report)?;
             if due >= end {
                 break;

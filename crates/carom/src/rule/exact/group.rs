@@ -118,7 +118,7 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
         }
         struck.push(touch.bodies);
         impacts.push(Impact {
-            time: group.time - stage.start,
+            time: stage.since_start(group.time),
             between: Participants::of(touch.bodies, stage.system),
             point: cells::folded(touch.point, stage.period),
             normal: touch.normal,

@@ -98,7 +98,7 @@ fn answer(
         let between = Participants::Spheres(first, second);
         let point = cells::folded(x1 + kinds[0].radius * normal, stage.period);
         let impact = Impact {
-            time: time - stage.start,
+            time: stage.since_start(time),
             between,
             point,
             normal,

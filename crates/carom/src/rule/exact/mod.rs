@@ -34,6 +34,8 @@ use crate::system::System;
 pub(crate) struct Span {
     /// Beginning of the step.
     pub start: f64,
+    /// Length of the step \[s\].
+    pub length: f64,
     /// End of the part.
     pub end: f64,
 }
@@ -52,12 +54,12 @@ pub(crate) struct TooManyImpacts {
 pub(crate) fn advance(
     system: &System,
     timeline: &mut Timeline,
-    Span { start, end }: Span,
+    Span { start, length, end }: Span,
     report: &mut StepReport,
 ) -> Result<(), TooManyImpacts> {
     let Rule::Exact(parameters) = system.settings.rule else { return Ok(()) };
     let period = system.settings.boundary.period();
-    let mut stage = Stage { system, parameters, report, start, period };
+    let mut stage = Stage { system, parameters, report, start, length, period };
     while let Some((slot, next)) = timeline.next(end) {
         let event = match next {
             Next::Event(event) => event,

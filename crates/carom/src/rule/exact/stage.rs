@@ -20,6 +20,8 @@ pub(super) struct Stage<'a> {
     /// Start of the step, on the world's clock \[s\]: impacts count their time from there, and there
     /// surfaces are where the system says.
     pub start: f64,
+    /// Length of the step \[s\].
+    pub length: f64,
     /// Edges of the periodic box \[m\]; infinite along an open axis.
     pub period: DVec3,
 }
@@ -27,6 +29,12 @@ pub(super) struct Stage<'a> {
 impl Stage<'_> {
     pub fn restitution_rule(&self) -> RestitutionRule {
         self.system.settings.restitution_rule
+    }
+
+    /// A time on the world's clock \[s\] as impacts count it, from the start of the step. What was
+    /// in doubt at the very start, or rounds beyond the end, counts as there.
+    pub fn since_start(&self, time: f64) -> f64 {
+        (time - self.start).clamp(0.0, self.length)
     }
 
     pub fn id_of(&self, timeline: &Timeline, slot: u32) -> SphereId {

@@ -118,30 +118,25 @@ impl Timeline {
         timeline
     }
 
-    /// Takes in the spheres that came since `before`, when these were the `ids`, and leaves out those
-    /// that went; the others fly on. Spheres that came begin their flights at `time_of` them \[s\].
+    /// Takes in, at `time` \[s\], the spheres that came since `before`, when these were the `ids`, and
+    /// leaves out those that went; the others fly on. Spheres that came begin their flights at
+    /// `time_of` them \[s\]. Lasting contacts are found anew.
     pub fn adopt(
         before: &Self,
         ids: &[SphereId],
-        system: &System,
-        motion: &Motion,
+        (system, motion): (&System, &Motion),
+        time: f64,
         time_of: impl Fn(SphereId) -> f64,
     ) -> Self {
         let mut timeline = Self { frame: before.frame, ..Self::default() };
-        let mut now = timeline.frame[0];
-        let flight_of =
-            |id: SphereId| ids.binary_search(&id).ok().map(|index| before.flight_of(index));
-        timeline.take_in(system, motion, |id| match flight_of(id) {
-            Some(body) => Ok(body),
-            None => Err(time_of(id)),
+        timeline.take_in(system, motion, |id| match ids.binary_search(&id) {
+            Ok(index) => Ok(before.free_flight_of(index, time)),
+            Err(_) => Err(time_of(id)),
         });
-        for body in &timeline.bodies {
-            now = now.max(body.time);
-        }
         if timeline.holds_forces {
-            hold::renew(&mut timeline, system, [now, before.frame[1]]);
+            hold::renew(&mut timeline, system, [time, before.frame[1]]);
         }
-        timeline.arrange(system, now);
+        timeline.arrange(system, time);
         timeline
     }
 
@@ -381,10 +376,16 @@ impl Timeline {
         self.bodies[slot as usize].begin_flight(position, velocity, time);
     }
 
-    /// The flight of the sphere at an index of the world's arrays. Lasting contacts are left out:
-    /// what they bear is free, as it was borne.
-    fn flight_of(&self, index: usize) -> Body {
-        self.bodies[self.slot_of[index] as usize]
+    /// The flight of the sphere at an index of the world's arrays. One that lasting contacts bear
+    /// begins another flight at `time` \[s\], free of them.
+    fn free_flight_of(&self, index: usize, time: f64) -> Body {
+        let slot = self.slot_of[index];
+        let mut body = self.bodies[slot as usize];
+        if self.kind_of(slot).cluster.is_some() {
+            let (position, velocity) = self.state_of(slot, time);
+            body.begin_flight(position, velocity, time);
+        }
+        body
     }
 
     /// Writes the states of all spheres at `time` \[s\].
