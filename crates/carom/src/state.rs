@@ -74,12 +74,17 @@ impl State {
     }
 
     /// Prepares for a frame from and to these times \[s\] under the rule `exact`.
-    pub fn begin_frame(&mut self, frame: [f64; 2]) {
+    ///
+    /// # Errors
+    /// [`Error::NonFiniteState`] if a force is not finite.
+    pub fn begin_frame(&mut self, frame: [f64; 2]) -> Result<(), Error> {
         let timeline = self.timeline.take();
         let (system, motion) = self.split();
         let mut timeline = timeline.unwrap_or_else(|| Timeline::new(&system, motion, frame[0]));
-        timeline.begin_frame(&system, frame);
+        let begun = timeline.begin_frame(&system, frame);
         self.timeline = Some(timeline);
+        let time = frame[0];
+        begun.map_err(|sphere| Error::NonFiniteState { sphere, quantity: "velocity", time })
     }
 
     /// Takes a part of a frame by the rule `exact`.

@@ -139,7 +139,7 @@ impl World {
         before: &mut Option<BeforeEmission>,
     ) -> Result<(), Error> {
         let start = self.time();
-        self.state.begin_frame([start, end]);
+        self.state.begin_frame([start, end])?;
         self.emit(start, before);
         loop {
             let due = emitter::next_due(&self.state.emitters);

@@ -270,16 +270,24 @@ impl Timeline {
     }
 
     /// Prepares for a frame from and to these times \[s\].
-    pub fn begin_frame(&mut self, system: &System, frame: [f64; 2]) {
+    ///
+    /// # Errors
+    /// A sphere on which a force is not finite.
+    pub fn begin_frame(&mut self, system: &System, frame: [f64; 2]) -> Result<(), SphereId> {
         self.frame = frame;
         if self.holds_forces {
             hold::renew(self, system, frame);
+            let is_lost = |body: &Body| !self.kinds[body.kind as usize].acceleration.is_finite();
+            if let Some(slot) = self.bodies.iter().position(is_lost) {
+                return Err(system.spheres.id[self.index_of[slot] as usize]);
+            }
         }
         if self.holds_forces || !self.moving_surfaces.is_empty() {
             self.predict_all(system, frame[0]);
         }
         self.arrange_if_due(system, frame[0]);
         self.count_flights();
+        Ok(())
     }
 
     /// Notes what a sphere meets next.
