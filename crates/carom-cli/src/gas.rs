@@ -124,12 +124,13 @@ fn velocities(count: usize, speeds: Speeds, seed: u64) -> Vec<DVec3> {
     velocities
 }
 
-/// Steps until there were this many collisions per sphere, two for each impact.
-pub fn run_collisions(world: &mut World, h: f64, collisions_per_sphere: f64) -> Result<(), Error> {
-    let wanted = 0.5 * collisions_per_sphere * world.spheres().len() as f64;
+/// Steps until there were at least this many collisions per sphere, two for each impact; gives how
+/// many there were.
+pub fn run_collisions(world: &mut World, h: f64, collisions: f64) -> Result<f64, Error> {
+    let wanted = 0.5 * collisions * world.spheres().len() as f64;
     let mut impacts = 0;
     while (impacts as f64) < wanted {
         impacts += world.step(h)?.impacts.len();
     }
-    Ok(())
+    Ok(2.0 * impacts as f64 / world.spheres().len() as f64)
 }
