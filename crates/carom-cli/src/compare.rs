@@ -81,9 +81,10 @@ impl Run {
 
     fn step(&mut self, h: f64) -> Result<(), Failure> {
         let began = Instant::now();
-        let report = self.world.step(h).map_err(|error| {
-            Failure::Fault(format!("rule {}: {error}", self.rule))
-        })?;
+        let report = self
+            .world
+            .step(h)
+            .map_err(|error| Failure::Fault(format!("rule {}: {error}", self.rule)))?;
         self.stepping += began.elapsed();
         self.impacts += report.impacts.len() as u64;
         Ok(())

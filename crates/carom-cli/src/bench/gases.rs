@@ -39,7 +39,8 @@ const fn published(count: usize, packing_fraction: f64, rate: f64) -> Published 
 }
 
 /// Where the published figures come from.
-pub const NOTE: &str = "published: Smallenburg, Eur. Phys. J. E 45, 22 (2022), one core of another machine";
+pub const NOTE: &str =
+    "published: Smallenburg, Eur. Phys. J. E 45, 22 (2022), one core of another machine";
 
 /// Impacts in a run: enough for a second, and for every sphere to take part.
 const FEWEST_IMPACTS: u64 = 200_000;

@@ -10,7 +10,14 @@ use crate::failure::Failure;
 use crate::table::{Side, Table};
 
 const SET: [&str; 8] = [
-    "tutorial3", "tutorial4", "simtest1", "simtest2", "simtest3", "simtest4", "simtest5", "simtest6",
+    "tutorial3",
+    "tutorial4",
+    "simtest1",
+    "simtest2",
+    "simtest3",
+    "simtest4",
+    "simtest5",
+    "simtest6",
 ];
 
 /// How long a measurement takes at least: short scenes are run again and again.

@@ -47,8 +47,7 @@ fn frame_length(name: &str, rule: Rule) -> Outcome {
     };
     let mut worlds = Vec::new();
     for h in FRAMES {
-        let overrides =
-            [format!("simulation.rule={rule}"), format!("simulation.frame_time={h:?}")];
+        let overrides = [format!("simulation.rule={rule}"), format!("simulation.frame_time={h:?}")];
         worlds.push(scene(name, &overrides)?.world()?);
     }
     let mut worst = 0.0_f64;

@@ -45,9 +45,7 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
     report.print(args.json)?;
     match report.missed {
         0 => Ok(()),
-        missed => {
-            Err(Failure::Fault(format!("{missed} of {} claims are missed", findings.len())))
-        }
+        missed => Err(Failure::Fault(format!("{missed} of {} claims are missed", findings.len()))),
     }
 }
 

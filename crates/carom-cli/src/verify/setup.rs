@@ -1,6 +1,8 @@
 //! Worlds that several claims begin with.
 
-use carom::{Collider, DQuat, DVec3, Error, Gravity, Integrator, Pose, Rule, Settings, Shape, World};
+use carom::{
+    Collider, DQuat, DVec3, Error, Gravity, Integrator, Pose, Rule, Settings, Shape, World,
+};
 
 /// Length of a frame where the length does not matter \[s\].
 pub const FRAME: f64 = 1.0 / 60.0;

@@ -199,7 +199,11 @@ fn symmetric_groups(rule: Rule) -> Outcome {
             // On the mirror itself there is one sphere, which moves along it.
             let is_single = place.x == 0.0;
             places.push(place);
-            velocities.push(if is_single { velocity * DVec3::new(0.0, 1.0, 1.0) } else { velocity });
+            velocities.push(if is_single {
+                velocity * DVec3::new(0.0, 1.0, 1.0)
+            } else {
+                velocity
+            });
             masses.push(mass);
             if !is_single {
                 places.push(mirror(place));

@@ -230,10 +230,8 @@ fn right_angle(pair: &Pair) -> f64 {
 fn along_the_line(pair: &Pair) -> f64 {
     let ([m1, m2], total) = (pair.masses, pair.masses[0] + pair.masses[1]);
     let [u1, u2] = pair.before.map(|v| v.dot(pair.normal));
-    let expected = [
-        ((m1 - m2) * u1 + 2.0 * m2 * u2) / total,
-        ((m2 - m1) * u2 + 2.0 * m1 * u1) / total,
-    ];
+    let expected =
+        [((m1 - m2) * u1 + 2.0 * m2 * u2) / total, ((m2 - m1) * u2 + 2.0 * m1 * u1) / total];
     let after = pair.after.map(|v| v.dot(pair.normal));
     (0..2).map(|i| (after[i] - expected[i]).abs() / speed(pair)).fold(0.0, f64::max)
 }

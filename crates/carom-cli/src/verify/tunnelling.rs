@@ -79,9 +79,7 @@ impl Target {
             Self::Face | Self::Edge | Self::Corner => {
                 Some(Shape::Rectangle { size_x: 2.0, size_z: 3.0 })
             }
-            Self::BoxEdge | Self::BoxCorner => {
-                Some(Shape::Box { size: DVec3::new(2.0, 2.0, 3.0) })
-            }
+            Self::BoxEdge | Self::BoxCorner => Some(Shape::Box { size: DVec3::new(2.0, 2.0, 3.0) }),
         }
     }
 
@@ -230,10 +228,9 @@ fn side_of(sides: Sides, side: f64) -> Collider {
     let half_space = half_space(place, -side * DVec3::X);
     match sides {
         Sides::HalfSpaces => half_space,
-        Sides::Rectangles => Collider {
-            shape: Shape::Rectangle { size_x: 1.0, size_z: 1.0 },
-            ..half_space
-        },
+        Sides::Rectangles => {
+            Collider { shape: Shape::Rectangle { size_x: 1.0, size_z: 1.0 }, ..half_space }
+        }
         Sides::FixedSpheres => {
             let pose = Pose::at(place + side * DVec3::X);
             Collider::new(Shape::Sphere { radius: 1.0 }, pose)
