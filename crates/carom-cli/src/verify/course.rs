@@ -18,7 +18,7 @@ pub fn claims() -> Vec<Claim> {
             Claim::new(
                 format!("{name}: the same in frames of 1/30, 1/60 and 1/240 s [m]"),
                 Expected::no_error("nature knows no frames"),
-                Tolerance::absolute(1e-9, "the target, far below anything one could see"),
+                Tolerance::absolute(1e-9, "as demanded; far below anything one could see"),
                 move |rule| frame_length(name, rule),
             )
         })

@@ -13,7 +13,7 @@ const COLLISIONS: f64 = 20.0;
 /// So dilute that the velocities of spheres that meet are independent, as in Haff's argument.
 const FILLING: Filling = Filling { count: 16_384, packing_fraction: 0.05 };
 const REASON: &str =
-    "0.2 % for speeds that are not quite Maxwell's (van Noije and Ernst 1998), statistics 0.2 %";
+    "0.24 % as speeds are not quite Maxwell's (van Noije, Ernst 1998), statistics 0.25 %";
 
 pub fn claims() -> Vec<Claim> {
     let dissipation = (1.0 - E) * (1.0 + E);

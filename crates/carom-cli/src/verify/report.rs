@@ -57,7 +57,7 @@ impl Finding {
             verdict: if holds { Verdict::Pass } else { Verdict::Miss },
             fault: match (outcome, measured) {
                 (Err(fault), _) => Some(fault.to_string()),
-                (Ok(_), None) => Some("the measured value is not a number".to_owned()),
+                (Ok(_), None) => Some("the measured value is not finite".to_owned()),
                 _ => None,
             },
             state_hash,

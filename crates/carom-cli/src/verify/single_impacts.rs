@@ -15,14 +15,14 @@ const CUT_OFF: &str = "bounces below the contact's duration: 1e-10 s / (1 - e)";
 
 pub fn claims() -> Vec<Claim> {
     let mut claims = Vec::new();
-    for (e, rest) in [(0.5, 1.354571), (0.7, 2.558634), (0.9, 8.578949)] {
-        claims.extend(drop_claims(e, rest));
+    for e in [0.5, 0.7, 0.9] {
+        claims.extend(drop_claims(e));
     }
     claims.extend([
         Claim::new(
             "elastic drop: the apex is h for ever, 10,000 bounces [part of h]",
             Expected::no_error("conservation of energy"),
-            Tolerance::absolute(1e-9, "the target; rounding is below"),
+            Tolerance::absolute(1e-9, "as demanded; rounding of 10,000 bounces is 1e-12"),
             elastic_drop,
         ),
         Claim::new(
@@ -53,8 +53,8 @@ pub fn claims() -> Vec<Claim> {
     claims
 }
 
-/// The claims about a drop with restitution `e`; `rest` \[s\] is the published time of rest.
-fn drop_claims(e: f64, rest: f64) -> [Claim; 4] {
+/// The claims about a drop with restitution `e`.
+fn drop_claims(e: f64) -> [Claim; 3] {
     let time = (2.0 * H / G).sqrt() * (1.0 + e) / (1.0 - e);
     let path = H * (1.0 + e * e) / (1.0 - e * e);
     [
@@ -68,12 +68,6 @@ fn drop_claims(e: f64, rest: f64) -> [Claim; 4] {
             format!("drop, e = {e}: rest after sqrt(2h/g)(1+e)/(1-e) [s]"),
             Expected::value(time, "closed form"),
             Tolerance::absolute(1e-10 / (1.0 - e), CUT_OFF),
-            move |rule| drop(rule, e, time, |fall| fall.last()),
-        ),
-        Claim::new(
-            format!("drop, e = {e}: rest after {rest} s [s]"),
-            Expected::value(rest, "physics-targets, six digits after the point"),
-            Tolerance::absolute(5.1e-7, "half a unit of the last digit printed"),
             move |rule| drop(rule, e, time, |fall| fall.last()),
         ),
         Claim::new(
@@ -109,8 +103,10 @@ fn apexes(rule: Rule, e: f64) -> Outcome {
         (0..impacts).for_each(|_| expected *= e * e);
         worst = worst.max((apex(&world) / expected - 1.0).abs());
     }
-    let value = if bounces < 6 { f64::INFINITY } else { worst };
-    Ok(Measured::in_world(&world, value))
+    match bounces {
+        6.. => Ok(Measured::in_world(&world, worst)),
+        _ => Err(format!("only {bounces} bounces").into()),
+    }
 }
 
 /// Times of the impacts of a fall \[s\].
@@ -148,8 +144,10 @@ fn elastic_drop(rule: Rule) -> Outcome {
         bounces += world.step(frame)?.impacts.len();
         worst = worst.max((apex(&world) - H).abs() / H);
     }
-    let value = if bounces < 10_000 { f64::INFINITY } else { worst };
-    Ok(Measured::in_world(&world, value))
+    match bounces {
+        10_000.. => Ok(Measured::in_world(&world, worst)),
+        _ => Err(format!("only {bounces} bounces").into()),
+    }
 }
 
 fn head_on(rule: Rule) -> Outcome {
