@@ -54,6 +54,13 @@ pub enum Command {
     Show(Show),
     /// Run a scene and print what became of it.
     Run(Box<Run>),
+    /// Check this build against exact results and published values of physics. Ends with code 1 if
+    /// it misses one, whichever rule it was asked to use.
+    Verify(Verify),
+    /// Run a scene under several rules and print how far they come apart.
+    Compare(Box<Compare>),
+    /// Measure how fast gases of spheres and the built-in scenes run on one core.
+    Bench(Bench),
 }
 
 /// Which scene, and what is different in it.
@@ -97,6 +104,41 @@ pub struct Show {
     pub expand: bool,
 }
 
+/// How long to run, in which frames.
+#[derive(Debug, clap::Args)]
+pub struct Length {
+    /// Length of a frame, instead of the scene's own.
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
+    frame_time: Option<f64>,
+    /// How long to run, instead of the scene's own duration; taken up to whole frames.
+    #[arg(long, conflicts_with = "frames", value_parser = positive, allow_negative_numbers = true)]
+    seconds: Option<f64>,
+    /// How many frames to run.
+    #[arg(long)]
+    frames: Option<u64>,
+}
+
+impl Length {
+    /// What it changes in a scene.
+    pub fn overrides(&self) -> Option<String> {
+        self.frame_time.map(|h| format!("simulation.frame_time={h:?}"))
+    }
+
+    /// How many frames of a scene that is `duration` long, in frames of `h` \[s\].
+    pub fn frames(&self, duration: f64, h: f64) -> Result<u64, Failure> {
+        if let Some(frames) = self.frames {
+            return Ok(frames);
+        }
+        // Up to whole frames; a billionth of a frame is rounding.
+        let frames = (self.seconds.unwrap_or(duration) / h - 1e-9).ceil();
+        if frames < 2f64.powi(53) {
+            Ok(frames as u64)
+        } else {
+            Err(Failure::Usage(format!("{frames} frames of {h} s are more than can be counted")))
+        }
+    }
+}
+
 /// Run a scene.
 #[derive(Debug, clap::Args)]
 pub struct Run {
@@ -107,15 +149,9 @@ pub struct Run {
     /// unless the scene says simulation.bisect.wind_back = "all", the tutorial's way.
     #[arg(long, value_parser = ["exact", "bisect", "discrete"])]
     pub rule: Option<String>,
-    /// Length of a frame, instead of the scene's own.
-    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
-    pub frame_time: Option<f64>,
-    /// How long to run, instead of the scene's own duration; taken up to whole frames.
-    #[arg(long, conflicts_with = "frames", value_parser = positive, allow_negative_numbers = true)]
-    pub seconds: Option<f64>,
-    /// How many frames to run.
-    #[arg(long)]
-    pub frames: Option<u64>,
+    /// How long, in which frames.
+    #[command(flatten)]
+    pub length: Length,
     /// Write the trajectory; the ending tells the format: .csv, .npz (NumPy), or .pvd (a series
     /// of .vtp files for ParaView).
     #[arg(long, value_name = "PATH")]
@@ -136,4 +172,73 @@ fn positive(text: &str) -> Result<f64, String> {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err("a positive number is needed".to_owned()),
     }
+}
+
+/// Names of the step rules.
+const RULES: [&str; 3] = ["exact", "bisect", "discrete"];
+
+/// Check this build against physics.
+#[derive(Debug, clap::Args)]
+pub struct Verify {
+    /// Only claims whose names hold this text.
+    #[arg(long, value_name = "TEXT")]
+    pub filter: Option<String>,
+    /// The rule to hold to the claims; those about a rule or scheme of their own keep it.
+    #[arg(long, value_parser = RULES, default_value = "exact")]
+    pub rule: String,
+    /// Check the claims that take minutes, too.
+    #[arg(long)]
+    pub full: bool,
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Run a scene under several rules.
+#[derive(Debug, clap::Args)]
+pub struct Compare {
+    /// Which scene.
+    #[command(flatten)]
+    pub choice: Choice,
+    /// The rules; the others are compared with the first.
+    #[arg(long, value_delimiter = ',', value_parser = RULES, default_values = RULES)]
+    pub rules: Vec<String>,
+    /// How long, in which frames.
+    #[command(flatten)]
+    pub length: Length,
+    /// Write a row for each frame to a .csv file.
+    #[arg(long, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Measure speed.
+#[derive(Debug, clap::Args)]
+pub struct Bench {
+    /// Measure only a gas of this many spheres.
+    #[arg(long, value_name = "N", requires = "packing_fraction")]
+    #[arg(value_parser = clap::value_parser!(u32).range(2..=10_000_000))]
+    pub n: Option<u32>,
+    /// Part of the volume that the spheres of that gas fill.
+    #[arg(long, value_name = "P", requires = "n", value_parser = positive)]
+    pub packing_fraction: Option<f64>,
+    /// Impacts in each run of a gas; two for each sphere, but 200,000 at least, unless given.
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u64).range(1..))]
+    pub impacts: Option<u64>,
+    /// Runs of each measurement, whose median is taken.
+    #[arg(long, value_name = "R", default_value_t = 3)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub runs: u32,
+    /// What to measure.
+    #[arg(long, value_parser = ["gas", "scenes", "all"], default_value = "all")]
+    #[arg(conflicts_with = "n")]
+    pub set: String,
+    /// Measure the gas of a million spheres, too.
+    #[arg(long, conflicts_with = "n")]
+    pub full: bool,
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    pub json: bool,
 }

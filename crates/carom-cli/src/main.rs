@@ -3,10 +3,17 @@
 #![warn(clippy::unwrap_used)]
 
 mod args;
+mod bench;
+mod compare;
 mod failure;
+mod gas;
+mod machine;
+mod numbers;
 mod run;
 mod scenes;
 mod summary;
+mod table;
+mod verify;
 
 use std::process::ExitCode;
 
@@ -21,6 +28,9 @@ fn main() -> ExitCode {
         Command::Check { files } => scenes::check(files),
         Command::Show(show) => args.library().and_then(|it| scenes::show(&it, show)),
         Command::Run(run) => args.library().and_then(|it| run::run(&it, run)),
+        Command::Verify(verify) => verify::verify(verify),
+        Command::Compare(compare) => args.library().and_then(|it| compare::compare(&it, compare)),
+        Command::Bench(bench) => bench::bench(bench),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

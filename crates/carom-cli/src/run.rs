@@ -20,10 +20,9 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// Runs a scene and prints what became of it.
 pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
     let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
-    let frame_time = args.frame_time.map(|h| format!("simulation.frame_time={h:?}"));
-    let scene = args.choice.find(library, rule.chain(frame_time))?;
+    let scene = args.choice.find(library, rule.chain(args.length.overrides()))?;
     let h = scene.simulation.frame_time;
-    let frames = frame_count(args, scene.simulation.duration, h)?;
+    let frames = args.length.frames(scene.simulation.duration, h)?;
 
     let mut outputs = Outputs::create(args)?;
     let mut world = scene.world()?;
@@ -49,19 +48,6 @@ pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
     finished?;
     Summary::new(&scene, &world, observer).print(args.json)?;
     if interrupted.load(Ordering::Relaxed) { Err(Failure::Interrupted) } else { Ok(()) }
-}
-
-fn frame_count(args: &Run, duration: f64, h: f64) -> Result<u64, Failure> {
-    if let Some(frames) = args.frames {
-        return Ok(frames);
-    }
-    // Up to whole frames; a billionth of a frame is rounding.
-    let frames = (args.seconds.unwrap_or(duration) / h - 1e-9).ceil();
-    if frames < 2f64.powi(53) {
-        Ok(frames as u64)
-    } else {
-        Err(Failure::Usage(format!("{frames} frames of {h} s are more than can be counted")))
-    }
 }
 
 /// Becomes true when the user asks to stop: after the frame at work. Asked again, the program

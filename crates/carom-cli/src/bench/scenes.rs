@@ -1,0 +1,110 @@
+//! Sphere-frames per second of built-in scenes under the rule `exact`.
+
+use std::time::{Duration, Instant};
+
+use carom_scene::{Library, Override, Scene};
+use serde::Serialize;
+
+use super::median;
+use crate::failure::Failure;
+use crate::table::{Side, Table};
+
+const SET: [&str; 8] = [
+    "tutorial3",
+    "tutorial4",
+    "simtest1",
+    "simtest2",
+    "simtest3",
+    "simtest4",
+    "simtest5",
+    "simtest6",
+];
+
+/// How long a measurement takes at least: short scenes are run again and again.
+const SHORTEST: Duration = Duration::from_millis(200);
+
+/// How fast a scene is.
+#[derive(Debug, Clone, Serialize)]
+pub struct SceneRow {
+    scene: String,
+    title: String,
+    frames: u64,
+    impacts: u64,
+    /// The rate of each run \[1/s\].
+    runs: Vec<f64>,
+    /// Their median \[1/s\].
+    sphere_frames_per_second: f64,
+}
+
+/// Measures the scenes of the set.
+pub fn measure_set(runs: u32) -> Result<Vec<SceneRow>, Failure> {
+    SET.iter().map(|name| measure(name, runs)).collect()
+}
+
+fn measure(name: &str, runs: u32) -> Result<SceneRow, Failure> {
+    let exact: Override = "simulation.rule=exact".parse()?;
+    let scene = Library::new().find(name, &[exact])?.0;
+    let passages: Result<Vec<Passage>, Failure> = (0..runs).map(|_| passage(&scene)).collect();
+    let passages = passages?;
+    let (frames, impacts) = passages.first().map_or((0, 0), |it| (it.frames, it.impacts));
+    let runs: Vec<f64> = passages.iter().map(|it| it.rate).collect();
+    let sphere_frames_per_second = median(runs.clone());
+    Ok(SceneRow {
+        scene: scene.name,
+        title: scene.title,
+        frames,
+        impacts,
+        runs,
+        sphere_frames_per_second,
+    })
+}
+
+/// A scene, run once or more often.
+struct Passage {
+    /// Of the scene once.
+    frames: u64,
+    impacts: u64,
+    /// Sphere-frames per second of all.
+    rate: f64,
+}
+
+fn passage(scene: &Scene) -> Result<Passage, Failure> {
+    let h = scene.simulation.frame_time;
+    let (mut sphere_frames, mut stepping) = (0, Duration::ZERO);
+    loop {
+        let mut world = scene.world()?;
+        let (mut frames, mut impacts) = (0, 0);
+        let began = Instant::now();
+        while world.time() < scene.simulation.duration {
+            impacts += world.step(h)?.impacts.len() as u64;
+            sphere_frames += world.spheres().len();
+            frames += 1;
+        }
+        stepping += began.elapsed();
+        if stepping >= SHORTEST {
+            let rate = sphere_frames as f64 / stepping.as_secs_f64();
+            return Ok(Passage { frames, impacts, rate });
+        }
+    }
+}
+
+pub fn table(rows: &[SceneRow]) -> Table {
+    let (left, right) = (Side::Left, Side::Right);
+    let mut table = Table::new(&[
+        ("scene", left),
+        ("title", left),
+        ("frames", right),
+        ("impacts", right),
+        ("sphere-frames/s", right),
+    ]);
+    for row in rows {
+        table.push(vec![
+            row.scene.clone(),
+            row.title.clone(),
+            row.frames.to_string(),
+            row.impacts.to_string(),
+            format!("{:.2} M", 1e-6 * row.sphere_frames_per_second),
+        ]);
+    }
+    table
+}

@@ -1,0 +1,251 @@
+//! The command `compare`: the same scene under several rules, side by side.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use carom::World;
+use carom_scene::Library;
+use serde::Serialize;
+
+use crate::args::Compare;
+use crate::failure::Failure;
+use crate::machine::Machine;
+use crate::table::{Side, Table};
+
+/// Runs a scene under several rules and prints how far they come apart.
+pub fn compare(library: &Library, args: &Compare) -> Result<(), Failure> {
+    if args.rules.len() < 2 {
+        return Err(Failure::Usage("two rules are needed to compare".to_owned()));
+    }
+    let mut runs = Vec::new();
+    let (mut name, mut h, mut frames) = (String::new(), 0.0, 0);
+    for rule in &args.rules {
+        let overrides = [format!("simulation.rule={rule}")];
+        let overrides = overrides.into_iter().chain(args.length.overrides());
+        let scene = args.choice.find(library, overrides)?;
+        h = scene.simulation.frame_time;
+        frames = args.length.frames(scene.simulation.duration, h)?;
+        runs.push(Run::new(rule, scene.world()?));
+        name = scene.name;
+    }
+    let mut rows = args.out.as_deref().map(|path| Rows::create(path, &args.rules)).transpose()?;
+    for _ in 0..frames {
+        for run in &mut runs {
+            run.step(h)?;
+        }
+        if let Some((reference, others)) = runs.split_first_mut() {
+            others.iter_mut().for_each(|run| run.measure(&reference.world));
+        }
+        if let Some(rows) = &mut rows {
+            rows.write(&runs)?;
+        }
+    }
+    rows.map_or(Ok(()), Rows::finish)?;
+    Comparison::new(name, h, frames, &runs).print(args.json)?;
+    Ok(())
+}
+
+/// A scene under one rule.
+struct Run {
+    rule: String,
+    world: World,
+    impacts: u64,
+    stepping: Duration,
+    /// To the reference, now.
+    now: Distance,
+    /// Likewise, the largest of all frames.
+    largest: Distance,
+}
+
+/// How far the spheres of two worlds are from each other, matched by id \[m\].
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+struct Distance {
+    /// Root of the mean square.
+    rms: f64,
+    max: f64,
+}
+
+impl Run {
+    fn new(rule: &str, world: World) -> Self {
+        Self {
+            rule: rule.to_owned(),
+            world,
+            impacts: 0,
+            stepping: Duration::ZERO,
+            now: Distance::default(),
+            largest: Distance::default(),
+        }
+    }
+
+    fn step(&mut self, h: f64) -> Result<(), Failure> {
+        let began = Instant::now();
+        let report = self
+            .world
+            .step(h)
+            .map_err(|error| Failure::Fault(format!("rule {}: {error}", self.rule)))?;
+        self.stepping += began.elapsed();
+        self.impacts += report.impacts.len() as u64;
+        Ok(())
+    }
+
+    fn measure(&mut self, reference: &World) {
+        self.now = Distance::between(reference, &self.world);
+        self.largest.rms = self.largest.rms.max(self.now.rms);
+        self.largest.max = self.largest.max.max(self.now.max);
+    }
+}
+
+impl Distance {
+    /// Of the spheres that are in both worlds.
+    fn between(first: &World, second: &World) -> Self {
+        let (a, b) = (first.spheres(), second.spheres());
+        let (mut squares, mut max, mut count) = (0.0, 0.0_f64, 0_u32);
+        for (i, id) in a.ids().iter().enumerate() {
+            let Some(j) = b.index_of(*id) else { continue };
+            let square = a.positions()[i].distance_squared(b.positions()[j]);
+            squares += square;
+            max = max.max(square);
+            count += 1;
+        }
+        Self { rms: (squares / f64::from(count.max(1))).sqrt(), max: max.sqrt() }
+    }
+}
+
+/// A file with a row for each frame.
+struct Rows<'a> {
+    path: &'a Path,
+    out: BufWriter<File>,
+}
+
+impl<'a> Rows<'a> {
+    fn create(path: &'a Path, rules: &[String]) -> Result<Self, Failure> {
+        let file = File::create(path).map_err(|error| cannot_write(path, &error))?;
+        let mut rows = Self { path, out: BufWriter::new(file) };
+        let mut header = "t".to_owned();
+        for rule in rules {
+            header += &format!(",{rule}_rms,{rule}_max,{rule}_energy,{rule}_impacts");
+        }
+        rows.write_line(&header)?;
+        Ok(rows)
+    }
+
+    fn write(&mut self, runs: &[Run]) -> Result<(), Failure> {
+        let time = runs.first().map_or(0.0, |run| run.world.time());
+        let mut line = format!("{time:.16e}");
+        for Run { world, now: Distance { rms, max }, impacts, .. } in runs {
+            line += &format!(",{rms:.16e},{max:.16e},{:.16e},{impacts}", world.total_energy());
+        }
+        self.write_line(&line)
+    }
+
+    fn write_line(&mut self, line: &str) -> Result<(), Failure> {
+        writeln!(self.out, "{line}").map_err(|error| cannot_write(self.path, &error))
+    }
+
+    fn finish(mut self) -> Result<(), Failure> {
+        self.out.flush().map_err(|error| cannot_write(self.path, &error))
+    }
+}
+
+fn cannot_write(path: &Path, error: &io::Error) -> Failure {
+    Failure::Fault(format!("cannot write {}: {error}", path.display()))
+}
+
+/// What came out.
+#[derive(Debug, Serialize)]
+struct Comparison {
+    machine: Machine,
+    scene: String,
+    frame_time: f64,
+    frames: u64,
+    /// The rule that the others are compared with.
+    reference: String,
+    rules: Vec<Row>,
+}
+
+/// What came of a rule.
+#[derive(Debug, Serialize)]
+struct Row {
+    rule: String,
+    spheres: usize,
+    impacts: u64,
+    energy: f64,
+    /// From that of the reference \[J\].
+    energy_error: f64,
+    /// From the places of the reference \[m\].
+    final_distance: Distance,
+    largest_distance: Distance,
+    /// Spent in steps \[s\].
+    stepping_time: f64,
+    state_hash: String,
+}
+
+impl Comparison {
+    fn new(scene: String, frame_time: f64, frames: u64, runs: &[Run]) -> Self {
+        let reference = runs.first().map_or(0.0, |run| run.world.total_energy());
+        let row = |run: &Run| Row {
+            rule: run.rule.clone(),
+            spheres: run.world.spheres().len(),
+            impacts: run.impacts,
+            energy: run.world.total_energy(),
+            energy_error: run.world.total_energy() - reference,
+            final_distance: run.now,
+            largest_distance: run.largest,
+            stepping_time: run.stepping.as_secs_f64(),
+            state_hash: run.world.state_hash().to_string(),
+        };
+        Self {
+            machine: Machine::this(),
+            scene,
+            frame_time,
+            frames,
+            reference: runs.first().map(|run| run.rule.clone()).unwrap_or_default(),
+            rules: runs.iter().map(row).collect(),
+        }
+    }
+
+    fn print(&self, json: bool) -> io::Result<()> {
+        let mut out = io::stdout().lock();
+        if json {
+            serde_json::to_writer_pretty(&mut out, self)?;
+            return writeln!(out);
+        }
+        let Self { scene, frame_time, frames, reference, .. } = self;
+        let seconds = frame_time * *frames as f64;
+        writeln!(
+            out,
+            "{scene}, {seconds:.3} s in {frames} frames of {frame_time:.6} s; distances [m] of spheres \
+             alive in both worlds, and energy errors [J], from {reference}"
+        )?;
+        let right = Side::Right;
+        let mut table = Table::new(&[
+            ("rule", Side::Left),
+            ("spheres", right),
+            ("impacts", right),
+            ("energy", right),
+            ("error", right),
+            ("rms at end", right),
+            ("rms largest", right),
+            ("max largest", right),
+            ("physics", right),
+            ("state hash", Side::Left),
+        ]);
+        for row in &self.rules {
+            table.push(vec![
+                row.rule.clone(),
+                row.spheres.to_string(),
+                row.impacts.to_string(),
+                format!("{:.6}", row.energy),
+                format!("{:+.3e}", row.energy_error),
+                format!("{:.3e}", row.final_distance.rms),
+                format!("{:.3e}", row.largest_distance.rms),
+                format!("{:.3e}", row.largest_distance.max),
+                format!("{:.3} s", row.stepping_time),
+                row.state_hash.clone(),
+            ]);
+        }
+        table.write(&mut out)
+    }
+}

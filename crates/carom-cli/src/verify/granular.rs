@@ -1,0 +1,105 @@
+//! Inelastic spheres: cooling of a gas, and collapse.
+
+use carom::{DVec3, Error, Exact, RestitutionRule, Rule, Settings, Sphere, World};
+
+use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
+use super::setup::{FRAME, run_until, world};
+use crate::gas::{COLLISIONS_TO_EQUILIBRIUM, Filling, Speeds, gas, run_collisions};
+
+/// Restitution of the cooling gas.
+const E: f64 = 0.95;
+/// Collisions per sphere while it cools, long before clusters form.
+const COLLISIONS: f64 = 20.0;
+/// So dilute that the velocities of spheres that meet are independent, as in Haff's argument.
+const FILLING: Filling = Filling { count: 16_384, packing_fraction: 0.05 };
+const REASON: &str =
+    "0.24 % as speeds are not quite Maxwell's (van Noije, Ernst 1998), statistics 0.25 %";
+
+pub fn claims() -> Vec<Claim> {
+    let dissipation = (1.0 - E) * (1.0 + E);
+    vec![
+        Claim::new(
+            format!("cooling gas, e = {E}: -ln(T/T0) for each collision of a sphere"),
+            Expected::value(dissipation / 3.0, "Haff 1983, T = T0 exp(-(1-e²) n/3)"),
+            Tolerance::relative(0.01, REASON),
+            loss_per_collision,
+        ),
+        Claim::new(
+            format!("cooling gas, e = {E}: T (1 + t/tau)²/T0 stays 1"),
+            Expected::value(1.0, "Haff 1983, 1/tau = (1-e²) w0/6"),
+            Tolerance::relative(0.01, REASON),
+            temperature_by_time,
+        ),
+        Claim::new(
+            "collapse of three balls in line, e = 0.05: the clock goes on [s]",
+            Expected::value(5.0, "McNamara and Young 1992: e < 7 - 4 sqrt(3) = 0.0718"),
+            Tolerance::absolute(1e-9, "rounding of 300 frames"),
+            |rule| collapse(rule, 3, 0.05),
+        ),
+        Claim::new(
+            "collapse of twelve balls in line, e = 0.5: the clock goes on [s]",
+            Expected::value(5.0, "McNamara and Young 1992"),
+            Tolerance::absolute(1e-9, "rounding of 300 frames"),
+            |rule| collapse(rule, 12, 0.5),
+        ),
+    ]
+}
+
+/// A gas in elastic equilibrium, of spheres that are inelastic from now on.
+fn about_to_cool(rule: Rule) -> Result<World, Error> {
+    let mut world = gas(FILLING, Speeds::Equilibrium, rule, 1)?;
+    run_collisions(&mut world, FILLING.frame_time(), COLLISIONS_TO_EQUILIBRIUM)?;
+    let restitution_rule = RestitutionRule::Minimum;
+    let mut cooling = World::new(Settings { restitution_rule, ..*world.settings() })?;
+    for i in 0..world.spheres().len() {
+        cooling.add_sphere(world.spheres().get(i).with_restitution(E))?;
+    }
+    Ok(cooling)
+}
+
+fn loss_per_collision(rule: Rule) -> Outcome {
+    let mut cooling = about_to_cool(rule)?;
+    let before = cooling.kinetic_energy();
+    let collisions = run_collisions(&mut cooling, FILLING.frame_time(), COLLISIONS)?;
+    let loss = libm::log(before / cooling.kinetic_energy()) / collisions;
+    Ok(Measured::in_world(&cooling, loss))
+}
+
+/// The value farthest from 1, over as long as it takes to cool to a half.
+fn temperature_by_time(rule: Rule) -> Outcome {
+    let mut cooling = about_to_cool(rule)?;
+    let before = cooling.kinetic_energy();
+    let inverse_tau = (1.0 - E) * (1.0 + E) * FILLING.collision_rate() / 6.0;
+    let mut farthest = 1.0_f64;
+    while cooling.time() * inverse_tau < 2.0_f64.sqrt() - 1.0 {
+        cooling.step(FILLING.frame_time())?;
+        let factor = 1.0 + cooling.time() * inverse_tau;
+        let value = cooling.kinetic_energy() / before * factor * factor;
+        if (value - 1.0).abs() > (farthest - 1.0).abs() {
+            farthest = value;
+        }
+    }
+    Ok(Measured::in_world(&cooling, farthest))
+}
+
+/// Balls in a line at rest, the outermost two coming in; gives the time that is reached.
+fn collapse(rule: Rule, count: usize, e: f64) -> Outcome {
+    let rule = match rule {
+        // A ball takes part in a few impacts, and then in some dozens that become ever shorter.
+        Rule::Exact(parameters) => Rule::Exact(Exact { max_impacts: 10_000, ..parameters }),
+        other => other,
+    };
+    let mut world = world(rule)?;
+    world.set_settings(Settings {
+        restitution_rule: RestitutionRule::Minimum,
+        ..*world.settings()
+    })?;
+    for i in 0..count {
+        // Towards the middle, the faster the farther.
+        let place = i as f64 - 0.5 * (count - 1) as f64;
+        let sphere = Sphere::new(DVec3::new(1.5 * place, 0.0, 0.0), 0.5).with_restitution(e);
+        world.add_sphere(sphere.with_velocity(DVec3::new(-place, 0.0, 0.0)))?;
+    }
+    run_until(&mut world, 5.0, FRAME)?;
+    Ok(Measured::in_world(&world, world.time()))
+}

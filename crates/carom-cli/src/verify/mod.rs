@@ -1,0 +1,103 @@
+//! The command `verify`: checks this build against exact results and published values of physics.
+//!
+//! A [`Claim`] has a name that can be false, a value with its source, a tolerance with its reason,
+//! and a function that measures. There is a file of claims for each topic.
+
+mod billiard;
+mod claim;
+mod conservation;
+mod course;
+mod fluid;
+mod granular;
+mod motion;
+mod report;
+mod resting;
+mod setup;
+mod simultaneous;
+mod single_impacts;
+mod tunnelling;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use carom::{Bisect, Exact, Rule};
+
+use crate::args::Verify;
+use crate::failure::Failure;
+use crate::machine;
+use claim::{Claim, Effort};
+use report::{Finding, Report};
+
+/// Checks claims and prints what came out.
+pub fn verify(args: &Verify) -> Result<(), Failure> {
+    let is_wanted = |claim: &Claim| {
+        (args.full || claim.effort == Effort::Quick)
+            && args.filter.as_ref().is_none_or(|text| claim.name.contains(text))
+    };
+    let claims: Vec<Claim> = claims().into_iter().filter(is_wanted).collect();
+    if claims.is_empty() {
+        let text = args.filter.as_deref().unwrap_or_default();
+        return Err(Failure::Usage(format!("no claim has \"{text}\" in its name")));
+    }
+    let findings = check_all(&claims, rule_named(&args.rule));
+    let report = Report::new(args, &findings);
+    report.print(args.json)?;
+    match report.missed {
+        0 => Ok(()),
+        missed => Err(Failure::Fault(format!("{missed} of {} claims are missed", findings.len()))),
+    }
+}
+
+/// All claims, in the order in which they are printed.
+fn claims() -> Vec<Claim> {
+    let topics = [
+        motion::claims,
+        single_impacts::claims,
+        tunnelling::claims,
+        simultaneous::claims,
+        billiard::claims,
+        fluid::claims,
+        granular::claims,
+        conservation::claims,
+        resting::claims,
+        course::claims,
+    ];
+    topics.iter().flat_map(|claims| claims()).collect()
+}
+
+/// A rule with the parameters it has unless told.
+fn rule_named(name: &str) -> Rule {
+    match name {
+        "discrete" => Rule::Discrete,
+        "bisect" => Rule::Bisect(Bisect::default()),
+        _ => Rule::Exact(Exact::default()),
+    }
+}
+
+/// Checks claims on all cores; gives the findings in the order of the claims.
+fn check_all(claims: &[Claim], rule: Rule) -> Vec<Finding> {
+    let next = AtomicUsize::new(0);
+    let findings = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..machine::cores().min(claims.len()) {
+            scope.spawn(|| {
+                while let Some((i, claim)) = take(claims, &next) {
+                    let began = Instant::now();
+                    let outcome = (claim.measure)(claim.rule.unwrap_or(rule));
+                    let finding = Finding::new(claim, outcome, began.elapsed());
+                    findings.lock().unwrap_or_else(PoisonError::into_inner).push((i, finding));
+                }
+            });
+        }
+    });
+    let mut findings = findings.into_inner().unwrap_or_else(PoisonError::into_inner);
+    findings.sort_by_key(|(i, _)| *i);
+    findings.into_iter().map(|(_, finding)| finding).collect()
+}
+
+/// The next claim that nobody has taken yet, and its number.
+fn take<'a>(claims: &'a [Claim], next: &AtomicUsize) -> Option<(usize, &'a Claim)> {
+    let i = next.fetch_add(1, Ordering::Relaxed);
+    claims.get(i).map(|claim| (i, claim))
+}

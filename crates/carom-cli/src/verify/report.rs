@@ -1,0 +1,152 @@
+//! What came of checking claims, as a table or as JSON.
+
+use std::io::{self, Write};
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::claim::{Claim, Outcome};
+use crate::args::Verify;
+use crate::machine::Machine;
+use crate::table::{Side, Table};
+
+/// What came of a claim.
+#[derive(Debug, Clone, Serialize)]
+pub struct Finding {
+    claim: String,
+    expected: f64,
+    source: &'static str,
+    /// Missing where the measurement failed.
+    measured: Option<f64>,
+    error: Option<f64>,
+    tolerance: f64,
+    /// Whether error and tolerance are parts of the expected value.
+    relative: bool,
+    reason: &'static str,
+    verdict: Verdict,
+    /// Why there is no measurement.
+    fault: Option<String>,
+    state_hash: Option<String>,
+    wall_time: f64,
+}
+
+/// Whether a claim holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Verdict {
+    Pass,
+    Miss,
+}
+
+impl Finding {
+    pub fn new(claim: &Claim, outcome: Outcome, elapsed: Duration) -> Self {
+        let (expected, tolerance) = (claim.expected, claim.tolerance);
+        let measured = outcome.as_ref().ok().map(|it| it.value).filter(|value| value.is_finite());
+        let error = measured.map(|value| tolerance.error(value, expected.value));
+        let holds = error.is_some_and(|error| error <= tolerance.bound);
+        let state_hash = outcome.as_ref().ok().map(|measured| measured.state.to_string());
+        Self {
+            claim: claim.name.clone(),
+            expected: expected.value,
+            source: expected.source,
+            measured,
+            error,
+            tolerance: tolerance.bound,
+            relative: tolerance.is_relative,
+            reason: tolerance.reason,
+            verdict: if holds { Verdict::Pass } else { Verdict::Miss },
+            fault: match (outcome, measured) {
+                (Err(fault), _) => Some(fault.to_string()),
+                (Ok(_), None) => Some("the measured value is not finite".to_owned()),
+                _ => None,
+            },
+            state_hash,
+            wall_time: elapsed.as_secs_f64(),
+        }
+    }
+
+    fn row(&self) -> Vec<String> {
+        let part = |value: f64| {
+            let sign = if self.relative && value != 0.0 { " rel" } else { "" };
+            format!("{value:.1e}{sign}")
+        };
+        vec![
+            match self.verdict {
+                Verdict::Pass => "pass".to_owned(),
+                Verdict::Miss => "MISS".to_owned(),
+            },
+            self.claim.clone(),
+            number(self.expected),
+            self.measured.map_or("-".to_owned(), number),
+            self.error.map_or("-".to_owned(), part),
+            part(self.tolerance),
+            self.state_hash.clone().unwrap_or_else(|| "-".to_owned()),
+            self.source.to_owned(),
+        ]
+    }
+}
+
+/// A number with as many digits as figures have in print.
+fn number(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        size if value.fract() == 0.0 && size < 1e15 => format!("{value}"),
+        size if (1e-3..1e7).contains(&size) => format!("{value:.9}"),
+        _ => format!("{value:.3e}"),
+    }
+}
+
+/// All findings, and where they were made.
+#[derive(Debug, Serialize)]
+pub struct Report<'a> {
+    machine: Machine,
+    rule: &'a str,
+    full: bool,
+    claims: &'a [Finding],
+    passed: usize,
+    pub missed: usize,
+}
+
+impl<'a> Report<'a> {
+    pub fn new(args: &'a Verify, findings: &'a [Finding]) -> Self {
+        let missed = findings.iter().filter(|finding| finding.verdict == Verdict::Miss).count();
+        Self {
+            machine: Machine::this(),
+            rule: &args.rule,
+            full: args.full,
+            claims: findings,
+            passed: findings.len() - missed,
+            missed,
+        }
+    }
+
+    pub fn print(&self, json: bool) -> io::Result<()> {
+        let mut out = io::stdout().lock();
+        if json {
+            serde_json::to_writer_pretty(&mut out, self)?;
+            return writeln!(out);
+        }
+        let (left, right) = (Side::Left, Side::Right);
+        let mut table = Table::new(&[
+            ("", left),
+            ("claim", left),
+            ("expected", right),
+            ("measured", right),
+            ("error", right),
+            ("tolerance", right),
+            ("end state", left),
+            ("source", left),
+        ]);
+        self.claims.iter().for_each(|finding| table.push(finding.row()));
+        table.write(&mut out)?;
+        writeln!(out)?;
+        for finding in self.claims.iter().filter(|finding| finding.verdict == Verdict::Miss) {
+            match &finding.fault {
+                Some(fault) => writeln!(out, "MISS {}: {fault}", finding.claim)?,
+                None => writeln!(out, "MISS {}: {}", finding.claim, finding.reason)?,
+            }
+        }
+        writeln!(out, "{} of {} claims hold, rule {}", self.passed, self.claims.len(), self.rule)?;
+        writeln!(out, "{}", self.machine)
+    }
+}

@@ -1,0 +1,137 @@
+//! The commands that print figures: `verify`, `compare`, `bench`. What the figures say about physics
+//! is for `carom verify` itself; here is what a user or a script can rely on.
+
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn run(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_carom"));
+    command.env_remove("CAROM_SCENES").args(arguments).output().unwrap()
+}
+
+/// The JSON on the standard output of a command that ends with this code.
+#[track_caller]
+fn json(arguments: &[&str], code: i32) -> Value {
+    let output = run(&[arguments, &["--json"]].concat());
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {errors}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// The standard error stream of a command that ends with this code.
+#[track_caller]
+fn complaint(arguments: &[&str], code: i32) -> String {
+    let output = run(arguments);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {errors}");
+    assert!(!errors.contains("panicked"), "{errors}");
+    errors
+}
+
+#[test]
+fn verify_tells_of_each_claim_what_was_expected_measured_and_allowed() {
+    let report = json(&["verify", "--filter", "head-on"], 0);
+    let [claim] = report["claims"].as_array().unwrap().as_slice() else { panic!("{report}") };
+    for number in ["expected", "measured", "error", "tolerance", "wall_time"] {
+        assert!(claim[number].is_number(), "{number}: {claim}");
+    }
+    for text in ["claim", "source", "reason", "state_hash"] {
+        assert!(!claim[text].as_str().unwrap().is_empty(), "{text}: {claim}");
+    }
+    assert_eq!(claim["verdict"], "pass");
+    assert_eq!(report["machine"]["carom"], env!("CARGO_PKG_VERSION"));
+    assert!(report["machine"]["cores"].as_u64().unwrap() >= 1);
+}
+
+#[test]
+fn the_filter_of_verify_keeps_claims_whose_name_holds_it_in_order() {
+    let report = json(&["verify", "--filter", "cradle of 5"], 0);
+    let names: Vec<&str> = report["claims"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|it| it["claim"].as_str().unwrap())
+        .collect();
+    assert_eq!(names.len(), 4);
+    assert!(names.iter().zip(1..).all(|(name, k)| name.contains(&format!("{k} in: {k} out"))));
+    assert!(complaint(&["verify", "--filter", "perpetuum"], 2).contains("no claim has"));
+}
+
+#[test]
+fn verify_shows_what_the_rule_discrete_misses_and_ends_with_code_1() {
+    let filter = ["verify", "--filter", "free flight under gravity", "--rule", "discrete"];
+    let report = json(&filter, 1);
+    let claim = &report["claims"][0];
+    assert_eq!((&claim["verdict"], &report["missed"]), (&"miss".into(), &1.into()));
+    // The fall of the semi-implicit scheme is g h t/2 too long.
+    let expected = 0.5 * 9.81 / 60.0 * 10.0;
+    assert!((claim["measured"].as_f64().unwrap() - expected).abs() < 1e-9, "{claim}");
+    let output = run(&filter);
+    assert!(String::from_utf8(output.stdout).unwrap().contains("MISS"));
+    assert!(complaint(&filter, 1).contains("1 of 1 claims are missed"));
+}
+
+#[test]
+fn claims_about_a_scheme_hold_whatever_rule_is_asked_for() {
+    assert_eq!(json(&["verify", "--filter", "Euler", "--rule", "bisect"], 0)["missed"], 0);
+}
+
+#[test]
+fn a_claim_has_the_same_end_state_in_every_run() {
+    let state = || json(&["verify", "--filter", "100^2"], 0)["claims"][0]["state_hash"].clone();
+    assert_eq!(state(), state());
+}
+
+#[test]
+fn compare_measures_distances_from_the_first_rule() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("rows.csv");
+    let file = file.to_str().unwrap();
+    let arguments = ["compare", "simtest2", "--rules", "exact,discrete,bisect", "--seconds", "3"];
+    let figures = json(&[&arguments[..], &["--out", file]].concat(), 0);
+    let rules = figures["rules"].as_array().unwrap();
+    assert_eq!((rules.len(), &figures["reference"]), (3, &"exact".into()));
+    assert_eq!(rules[0]["largest_distance"]["max"], 0.0);
+    assert_eq!(rules[0]["energy_error"], 0.0);
+    for rule in &rules[1..] {
+        let (final_distance, largest) = (&rule["final_distance"], &rule["largest_distance"]);
+        assert!(largest["rms"].as_f64().unwrap() > 0.01, "{rule}");
+        assert!(largest["rms"].as_f64() >= final_distance["rms"].as_f64());
+        assert!(largest["max"].as_f64() >= largest["rms"].as_f64());
+    }
+    let mut reader = csv::Reader::from_path(file).unwrap();
+    assert_eq!(reader.headers().unwrap().len(), 1 + 3 * 4);
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 150);
+    let impacts: u64 = rows[149][8].parse().unwrap();
+    assert_eq!(Some(impacts), rules[1]["impacts"].as_u64());
+}
+
+#[test]
+fn compare_refuses_what_it_cannot_do() {
+    assert!(complaint(&["compare", "simtest1", "--rules", "exact"], 2).contains("two rules"));
+    complaint(&["compare", "simtest1", "--rules", "exact,magic"], 2);
+    let nowhere = ["compare", "simtest1", "--out", "/nowhere/at/all.csv"];
+    assert!(complaint(&nowhere, 1).contains("cannot write /nowhere/at/all.csv"));
+}
+
+#[test]
+fn bench_measures_a_gas_of_any_number_and_packing_fraction() {
+    let gas =
+        ["bench", "--n", "50", "--packing-fraction", "0.3", "--impacts", "500", "--runs", "3"];
+    let figures = json(&gas, 0);
+    let row = &figures["gases"][0];
+    assert_eq!(row["spheres"], 50);
+    assert_eq!(row["runs"].as_array().unwrap().len(), 3);
+    assert!(row["impacts_per_second"].as_f64().unwrap() > 0.0);
+    assert!(figures["scenes"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn bench_refuses_a_gas_that_has_no_place() {
+    let crowd = ["bench", "--n", "50", "--packing-fraction", "0.7"];
+    assert!(complaint(&crowd, 2).contains("no place on a lattice"));
+    complaint(&["bench", "--n", "50"], 2);
+    complaint(&["bench", "--set", "nothing"], 2);
+}
