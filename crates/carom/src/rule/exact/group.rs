@@ -105,7 +105,7 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
     }
     let mut account = account_of([&before, &after], &masses);
     account.energy_demanded = response.restitution_energy;
-    let (mut impacts, mut struck) = (Vec::new(), Vec::new());
+    let (mut impacts, mut struck): (Vec<Impact>, _) = (Vec::new(), Vec::new());
     for ((touch, &impulse), approach_speed) in
         group.touches.iter().zip(&response.impulses).zip(approach)
     {
@@ -117,10 +117,18 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
             account.energy_after -= impulse * touch.normal.dot(touch.surface_velocity);
         }
         struck.push(touch.bodies);
+        let between = Participants::of(touch.bodies, stage.system);
+        let point = cells::folded(touch.point, stage.period);
+        // Faces of a box share edges and corners, where a sphere meets several at one place.
+        let same = impacts.iter_mut().find(|it| it.between == between && it.point == point);
+        if let Some(impact) = same {
+            impact.impulse += impulse;
+            continue;
+        }
         impacts.push(Impact {
             time: stage.since_start(group.time),
-            between: Participants::of(touch.bodies, stage.system),
-            point: cells::folded(touch.point, stage.period),
+            between,
+            point,
             normal: touch.normal,
             approach_speed,
             separation_speed: touch.normal_velocity(&group.members),
