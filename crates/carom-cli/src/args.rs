@@ -162,6 +162,10 @@ pub struct Run {
     /// Write every impact to a .csv file.
     #[arg(long, value_name = "PATH")]
     pub impacts: Option<PathBuf>,
+    /// Write the ledger to a .csv file: every impact with the momentum and energy of its group
+    /// before and after. Kept by the rule `exact` only.
+    #[arg(long, value_name = "PATH")]
+    pub ledger: Option<PathBuf>,
     /// Print the summary as JSON.
     #[arg(long)]
     pub json: bool,

@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use carom::World;
 use carom_scene::Library;
-use carom_scene::recording::{ImpactTable, Trajectory};
+use carom_scene::recording::{ImpactTable, LedgerTable, Trajectory};
+use carom_scene::scene::Rule;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::Run;
@@ -24,7 +25,7 @@ pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
     let h = scene.simulation.frame_time;
     let frames = args.length.frames(scene.simulation.duration, h)?;
 
-    let mut outputs = Outputs::create(args)?;
+    let mut outputs = Outputs::create(args, scene.simulation.rule)?;
     let mut world = scene.world()?;
     let interrupted = interruption()?;
     let mut observer = Observer::new(&world);
@@ -69,17 +70,28 @@ fn interruption() -> Result<Arc<AtomicBool>, Failure> {
 struct Outputs {
     trajectory: Option<Trajectory>,
     impacts: Option<ImpactTable>,
+    ledger: Option<LedgerTable>,
     every: u64,
 }
 
 impl Outputs {
-    fn create(args: &Run) -> Result<Self, Failure> {
-        if args.out.is_some() && args.out == args.impacts {
-            return Err(Failure::Usage("--out and --impacts are the same file".to_owned()));
+    fn create(args: &Run, rule: Rule) -> Result<Self, Failure> {
+        let files =
+            [("--out", &args.out), ("--impacts", &args.impacts), ("--ledger", &args.ledger)];
+        for (i, (name, file)) in files.iter().enumerate() {
+            let same = files[..i].iter().find(|(_, other)| file.is_some() && other == file);
+            if let Some((other, _)) = same {
+                return Err(Failure::Usage(format!("{other} and {name} are the same file")));
+            }
+        }
+        if args.ledger.is_some() && rule != Rule::Exact {
+            let message = "--ledger needs the rule exact: the other rules keep no ledger";
+            return Err(Failure::Usage(message.to_owned()));
         }
         Ok(Self {
             trajectory: args.out.as_deref().map(Trajectory::create).transpose()?,
             impacts: args.impacts.as_deref().map(ImpactTable::create).transpose()?,
+            ledger: args.ledger.as_deref().map(LedgerTable::create).transpose()?,
             every: args.every,
         })
     }
@@ -88,6 +100,9 @@ impl Outputs {
     fn write(&mut self, frame: u64, start: f64, world: &World) -> Result<(), Failure> {
         if let Some(impacts) = &mut self.impacts {
             impacts.write(start, &world.report().impacts)?;
+        }
+        if let Some(ledger) = &mut self.ledger {
+            ledger.write(start, world.report())?;
         }
         if let Some(trajectory) = &mut self.trajectory
             && frame.is_multiple_of(self.every)
@@ -100,6 +115,7 @@ impl Outputs {
     fn finish(self) -> Result<(), Failure> {
         let trajectory = self.trajectory.map_or(Ok(()), Trajectory::finish);
         self.impacts.map_or(Ok(()), ImpactTable::finish)?;
+        self.ledger.map_or(Ok(()), LedgerTable::finish)?;
         Ok(trajectory?)
     }
 }

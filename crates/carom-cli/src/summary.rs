@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use carom::{DVec3, World};
 use carom_scene::Scene;
-use carom_scene::scene::{Integrator, Rule, WindBack};
+use carom_scene::scene::{ImpactLaw, Integrator, Rule, WindBack};
 use serde::Serialize;
 
 /// Watches a run.
@@ -21,6 +21,9 @@ pub struct Observer {
     retired: u64,
     unfinished_islands: u64,
     largest_overlap: f64,
+    /// In any group of impacts, under rules that keep a ledger.
+    largest_momentum_error: f64,
+    largest_energy_error: f64,
 }
 
 impl Observer {
@@ -37,6 +40,8 @@ impl Observer {
             retired: 0,
             unfinished_islands: 0,
             largest_overlap: 0.0,
+            largest_momentum_error: 0.0,
+            largest_energy_error: 0.0,
         }
     }
 
@@ -51,6 +56,10 @@ impl Observer {
         self.emitted += report.emitted.len() as u64;
         self.retired += report.retired.len() as u64;
         self.unfinished_islands += u64::from(report.unfinished_islands);
+        for group in &report.groups {
+            self.largest_momentum_error = self.largest_momentum_error.max(group.momentum_error());
+            self.largest_energy_error = self.largest_energy_error.max(group.energy_error());
+        }
         let depths = world.overlaps(0.0).into_iter().map(|overlap| overlap.depth);
         self.largest_overlap = depths.fold(self.largest_overlap, f64::max);
         Ok(())
@@ -64,7 +73,10 @@ pub struct Summary {
     rule: Rule,
     /// Under the rule `bisect`.
     wind_back: Option<WindBack>,
-    integrator: Integrator,
+    /// Under the rules that use one.
+    integrator: Option<Integrator>,
+    /// Under the rule `exact`.
+    impact_law: Option<ImpactLaw>,
     frame_time: f64,
     frames: u64,
     simulated_time: f64,
@@ -81,6 +93,11 @@ pub struct Summary {
     momentum_at_end: [f64; 3],
     /// At the ends of frames.
     largest_overlap: f64,
+    /// Of any group of impacts, relative to the momenta at work; under the rule `exact`.
+    largest_momentum_error: Option<f64>,
+    /// Change of energy of any group of impacts against what restitution demands, relative to the
+    /// energy at work; under the rule `exact`.
+    largest_energy_error: Option<f64>,
     wall_time: f64,
     stepping_time: f64,
     state_hash: String,
@@ -90,11 +107,13 @@ impl Summary {
     pub fn new(scene: &Scene, world: &World, observer: Observer) -> Self {
         let simulation = &scene.simulation;
         let is_bisect = simulation.rule == Rule::Bisect;
+        let is_exact = simulation.rule == Rule::Exact;
         Self {
             scene: scene.name.clone(),
             rule: simulation.rule,
             wind_back: is_bisect.then_some(simulation.bisect.wind_back),
-            integrator: simulation.integrator,
+            integrator: (!is_exact).then_some(simulation.integrator),
+            impact_law: is_exact.then_some(simulation.impact_law),
             frame_time: simulation.frame_time,
             frames: observer.frames,
             simulated_time: world.time(),
@@ -109,6 +128,8 @@ impl Summary {
             momentum_at_start: observer.momentum_at_start.to_array(),
             momentum_at_end: world.momentum().to_array(),
             largest_overlap: observer.largest_overlap,
+            largest_momentum_error: is_exact.then_some(observer.largest_momentum_error),
+            largest_energy_error: is_exact.then_some(observer.largest_energy_error),
             wall_time: observer.began.elapsed().as_secs_f64(),
             stepping_time: observer.stepping.as_secs_f64(),
             state_hash: world.state_hash().to_string(),
@@ -139,16 +160,17 @@ impl Summary {
             Some(wind_back) => format!("{}, winding back {}", name(self.rule), name(wind_back)),
             None => name(self.rule),
         };
+        let method = match self.impact_law {
+            Some(law) => format!("impact law {}", name(law)),
+            None => name(self.integrator),
+        };
         let mut energy = energy_change(self.energy_at_start, self.energy_at_end);
         if self.emitted > 0 {
             energy.push_str(", what was emitted included");
         }
         let mut rows = vec![
             ("scene", self.scene.clone()),
-            (
-                "rule",
-                format!("{rule}, {}, frames of {:.6} s", name(self.integrator), self.frame_time),
-            ),
+            ("rule", format!("{rule}, {method}, frames of {:.6} s", self.frame_time)),
             ("simulated time", format!("{:.3} s in {} frames", self.simulated_time, self.frames)),
             ("spheres", format!("{}{came_and_went}", self.spheres)),
             ("impacts", self.impacts.to_string()),
@@ -161,6 +183,14 @@ impl Summary {
             ),
             ("state hash", self.state_hash.clone()),
         ];
+        if let (Some(momentum), Some(energy)) =
+            (self.largest_momentum_error, self.largest_energy_error)
+        {
+            let text = format!(
+                "largest error of an impact: momentum {momentum:.1e}, energy {energy:.1e} (relative)"
+            );
+            rows.insert(5, ("ledger", text));
+        }
         if self.trigger_contacts > 0 {
             let text = format!("{} times a sphere in a frame", self.trigger_contacts);
             rows.insert(5, ("in triggers", text));

@@ -53,7 +53,9 @@ pub use flight::Flight;
 pub use forces::{ConstantForce, Force, ForceId, Gravity, LinearForce, SphereState, ViscousDrag};
 pub use hash::StateHash;
 pub use integrate::Integrator;
-pub use report::{Impact, Overlap, Participants, StepReport, TriggerContact};
+pub use report::{
+    Impact, ImpactGroup, LedgerEntry, Overlap, Participants, StepReport, TriggerContact,
+};
 pub use respond::ImpactLaw;
 pub use rule::{Bisect, Exact, Rule, WindBack};
 pub use settings::{Boundary, RestitutionRule, Settings};

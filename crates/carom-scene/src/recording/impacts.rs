@@ -45,24 +45,9 @@ impl ImpactTable {
     }
 
     fn write_row(&mut self, start: f64, impact: &Impact) -> io::Result<()> {
-        let (kind, body1, ball2) = match impact.between {
-            Participants::Spheres(first, second) => ("sphere", first.number(), second.number()),
-            Participants::Collider { collider, sphere } => {
-                ("collider", collider.number() as u64, sphere.number())
-            }
-        };
-        self.writer.write_field(digits(start + impact.time))?;
-        self.writer.write_field(kind)?;
-        self.writer.write_field(body1.to_string())?;
-        self.writer.write_field(ball2.to_string())?;
-        for value in [impact.point, impact.normal] {
-            for part in value.to_array() {
-                self.writer.write_field(digits(part))?;
-            }
-        }
-        self.writer.write_field(digits(impact.approach_speed))?;
-        self.writer.write_field(digits(impact.impulse))?;
-        self.writer.write_record(None::<&[u8]>)?;
+        let fields = impact_fields(start, impact);
+        let speeds = [impact.approach_speed, impact.impulse].map(digits);
+        self.writer.write_record(fields.into_iter().chain(speeds))?;
         Ok(())
     }
 
@@ -73,4 +58,19 @@ impl ImpactTable {
     pub fn finish(mut self) -> Result<(), RecordingError> {
         self.writer.flush().map_err(|source| unwritable(&self.path, source))
     }
+}
+
+/// Who met, when and where: the first columns of a row, as in [`HEADER`].
+pub(super) fn impact_fields(start: f64, impact: &Impact) -> Vec<String> {
+    let (kind, body1, ball2) = match impact.between {
+        Participants::Spheres(first, second) => ("sphere", first.number(), second.number()),
+        Participants::Collider { collider, sphere } => {
+            ("collider", collider.number() as u64, sphere.number())
+        }
+    };
+    let mut fields =
+        vec![digits(start + impact.time), kind.to_owned(), body1.to_string(), ball2.to_string()];
+    let places = [impact.point, impact.normal];
+    fields.extend(places.iter().flat_map(|place| place.to_array()).map(digits));
+    fields
 }

@@ -2,6 +2,7 @@
 
 mod csv_table;
 mod impacts;
+mod ledger;
 mod npz;
 mod vtk;
 
@@ -12,6 +13,7 @@ use carom::World;
 use thiserror::Error;
 
 pub use impacts::ImpactTable;
+pub use ledger::LedgerTable;
 
 /// Why a recording failed.
 #[derive(Debug, Error)]

@@ -1,5 +1,7 @@
 //! What is given: contacts of a group of bodies that touch at one instant.
 
+use std::fmt::{self, Display};
+
 use glam::DVec3;
 
 /// One contact of a group of bodies that touch at one instant.
@@ -37,6 +39,17 @@ pub enum ImpactLaw {
     /// and passes impacts on.
     #[default]
     Reflection,
+}
+
+impl Display for ImpactLaw {
+    /// As scene files write it.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Sequential => "sequential",
+            Self::Simultaneous => "simultaneous",
+            Self::Reflection => "reflection",
+        })
+    }
 }
 
 /// What the answer to the impacts of one instant was.

@@ -1,0 +1,102 @@
+//! The ledger as CSV: one row per impact, with the account of the group it was answered in.
+
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use carom::{LedgerEntry, StepReport};
+
+use super::impacts::impact_fields;
+use super::{RecordingError, digits, unwritable};
+
+/// Columns: those of the impacts up to the normal; speeds of approach and separation \[m/s\] and
+/// impulse \[N s\]; the law, the number of the group in the run and how many impacts it has; momentum
+/// of the group before and after, less what colliders gave \[kg m/s\]; its kinetic energy before, after
+/// (less the work of moving colliders), and the change that restitution demands \[J\].
+const HEADER: [&str; 25] = [
+    "t",
+    "kind1",
+    "body1",
+    "ball2",
+    "x",
+    "y",
+    "z",
+    "nx",
+    "ny",
+    "nz",
+    "approach_speed",
+    "separation_speed",
+    "impulse",
+    "law",
+    "group",
+    "group_size",
+    "px_before",
+    "py_before",
+    "pz_before",
+    "px_after",
+    "py_after",
+    "pz_after",
+    "energy_before",
+    "energy_after",
+    "energy_demanded",
+];
+
+/// Writes the ledger of a run to a CSV file.
+#[derive(Debug)]
+pub struct LedgerTable {
+    path: PathBuf,
+    writer: csv::Writer<File>,
+    /// Groups of the steps written so far.
+    groups: usize,
+}
+
+impl LedgerTable {
+    /// Creates the file.
+    ///
+    /// # Errors
+    /// For a place that cannot be written to.
+    pub fn create(path: &Path) -> Result<Self, RecordingError> {
+        let create = || -> io::Result<csv::Writer<File>> {
+            let mut writer = csv::Writer::from_writer(File::create(path)?);
+            writer.write_record(HEADER)?;
+            Ok(writer)
+        };
+        let writer = create().map_err(|source| unwritable(path, source))?;
+        Ok(Self { path: path.to_owned(), writer, groups: 0 })
+    }
+
+    /// Writes the impacts of a step that started at `start` \[s\].
+    ///
+    /// # Errors
+    /// If the disk is full or gone.
+    pub fn write(&mut self, start: f64, report: &StepReport) -> Result<(), RecordingError> {
+        for entry in report.ledger() {
+            let group =
+                self.groups + report.groups.partition_point(|it| it.first < entry.group.first);
+            let fields = fields(start, entry, group);
+            let written = self.writer.write_record(fields).map_err(io::Error::from);
+            written.map_err(|source| unwritable(&self.path, source))?;
+        }
+        self.groups += report.groups.len();
+        Ok(())
+    }
+
+    /// Completes the file.
+    ///
+    /// # Errors
+    /// If the disk is full or gone.
+    pub fn finish(mut self) -> Result<(), RecordingError> {
+        self.writer.flush().map_err(|source| unwritable(&self.path, source))
+    }
+}
+
+fn fields(start: f64, LedgerEntry { impact, group }: LedgerEntry, number: usize) -> Vec<String> {
+    let mut fields = impact_fields(start, impact);
+    fields.extend([impact.approach_speed, impact.separation_speed, impact.impulse].map(digits));
+    fields.extend([group.law.to_string(), number.to_string(), group.count.to_string()]);
+    let momenta = [group.momentum_before, group.momentum_after];
+    fields.extend(momenta.iter().flat_map(|momentum| momentum.to_array()).map(digits));
+    let energies = [group.energy_before, group.energy_after, group.energy_demanded];
+    fields.extend(energies.map(digits));
+    fields
+}
