@@ -1,5 +1,5 @@
 //! **Carom moves spheres exactly.** Spheres under forces that collide with each other and with
-//! fixed surfaces.
+//! surfaces, which are fixed or moved from outside.
 //!
 //! A [`World`] holds [`Spheres`], forces ([`Force`]), [`Collider`]s and [`Emitter`]s.
 //! [`World::step`] advances it by a frame and reports every [`Impact`]. The stages of a step are
@@ -9,10 +9,15 @@
 //! 2. **integrate** motion under the forces, without contacts (`forces`, `integrate`)
 //! 3. **detect** who touches whom: broad phase, distance, classification ([`detect`])
 //! 4. find the **time of contact** ([`contact_time`])
-//! 5. **respond** with impulses ([`respond`])
+//! 5. **respond** with impulses, or with forces where contacts last ([`respond`])
+//!
+//! [`Rule::Discrete`] and [`Rule::Bisect`] take a frame so. The default, [`Rule::Exact`], knows the
+//! motion between impacts in closed form ([`Flight`]) and takes it from event to event: **predict**
+//! what each sphere comes upon next, take the first from a **queue**, **respond**, and predict
+//! anew what changed. Spheres are emitted on the way, each at its own time.
 //!
 //! Right-handed frame, y up, SI units, double precision. The same input gives the same bits on
-//! every platform: only `+ - * /` and `sqrt` are used, in a fixed order
+//! every platform: only `+ - * /`, `sqrt` and the `libm` crate are used, in a fixed order
 //! ([`World::state_hash`]). The formulas and their sources are in `docs/physics.md`.
 
 #![warn(clippy::unwrap_used)]
