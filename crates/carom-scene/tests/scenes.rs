@@ -78,7 +78,7 @@ fn state_hashes_of_all_scenes_are_the_same_everywhere() {
         .flat_map(|(file, text)| {
             let own = Scene::from_toml(text, file).unwrap();
             let mut exact = own.clone();
-            exact.simulation.rule = Rule::Exact;
+            exact.simulation.rule = carom_scene::scene::Rule::Exact;
             let hash = |scene| run(scene, 10.0, |_| {}).state_hash();
             [format!("{file} {}", hash(&own)), format!("{file} exact {}", hash(&exact))]
         })
