@@ -16,6 +16,8 @@ pub fn test() -> Outcome {
     cargo(&["test", "--workspace", "--quiet"])?;
     // The same bits in every build: the tests that pin hashes, optimised.
     let optimised = ["test", "--release", "--quiet", "--package"];
-    cargo(&[&optimised[..], &["carom", "--test", "world"]].concat())?;
-    cargo(&[&optimised[..], &["carom-scene", "--test", "scenes"]].concat())
+    cargo(&[&optimised[..], &["carom", "--test", "world", "--test", "exact"]].concat())?;
+    cargo(&[&optimised[..], &["carom-scene", "--test", "scenes"]].concat())?;
+    // What the physics is held against.
+    cargo(&["run", "--release", "--quiet", "--package", "carom-cli", "--", "verify"])
 }

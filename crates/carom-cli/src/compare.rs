@@ -216,8 +216,8 @@ impl Comparison {
         let seconds = frame_time * *frames as f64;
         writeln!(
             out,
-            "{scene}, {seconds:.3} s in {frames} frames of {frame_time:.6} s; distances [m] of spheres \
-             alive in both worlds, and energy errors [J], from {reference}"
+            "{scene}, {seconds:.3} s in {frames} frames of {frame_time:.6} s; distances [m] of \
+             spheres alive in both worlds, and energy errors [J], from {reference}"
         )?;
         let right = Side::Right;
         let mut table = Table::new(&[

@@ -1,5 +1,5 @@
-//! The gas of hard spheres that figures of the literature are about: equal spheres of diameter 1 and
-//! mass 1, at temperature kT = 1, in a periodic cube.
+//! The gas of hard spheres that figures of the literature are about: equal spheres of diameter 1
+//! and mass 1, at temperature kT = 1, in a periodic cube.
 
 use std::f64::consts::PI;
 

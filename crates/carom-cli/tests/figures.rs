@@ -1,5 +1,5 @@
-//! The commands that print figures: `verify`, `compare`, `bench`. What the figures say about physics
-//! is for `carom verify` itself; here is what a user or a script can rely on.
+//! The commands that print figures: `verify`, `compare`, `bench`. What the figures say about
+//! physics is for `carom verify` itself; here is what a user or a script can rely on.
 
 use std::process::{Command, Output};
 

@@ -14,6 +14,7 @@ use crate::report::StepReport;
 use crate::rule::exact::{self, Span, Timeline, TooManyImpacts};
 use crate::settings::Settings;
 use crate::system::System;
+use crate::validate;
 
 /// Everything a world's future depends on.
 #[derive(Debug, Clone, Default)]
@@ -76,8 +77,10 @@ impl State {
     /// Prepares for a frame from and to these times \[s\] under the rule `exact`.
     ///
     /// # Errors
-    /// [`Error::NonFiniteState`] if a force is not finite.
+    /// [`Error::NonFiniteState`] if a force is not finite, [`Error::Invalid`] if a periodic box is
+    /// too small for the spheres.
     pub fn begin_frame(&mut self, frame: [f64; 2]) -> Result<(), Error> {
+        self.check_box()?;
         let timeline = self.timeline.take();
         let (system, motion) = self.split();
         let mut timeline = timeline.unwrap_or_else(|| Timeline::new(&system, motion, frame[0]));
@@ -85,6 +88,15 @@ impl State {
         self.timeline = Some(timeline);
         let time = frame[0];
         begun.map_err(|sphere| Error::NonFiniteState { sphere, quantity: "velocity", time })
+    }
+
+    /// Refuses a periodic box in which a sphere could touch two images of another one.
+    fn check_box(&self) -> Result<(), Error> {
+        let smallest = self.settings.boundary.period().min_element();
+        let largest = self.spheres.radii().iter().copied().fold(0.0, f64::max);
+        let requirement = "at least four times the radius of every sphere along every axis";
+        validate::require(smallest >= 4.0 * largest, "size", requirement, smallest)
+            .map_err(|invalid| invalid.about(Subject::Settings))
     }
 
     /// Takes a part of a frame by the rule `exact`.

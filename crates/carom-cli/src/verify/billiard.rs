@@ -1,7 +1,7 @@
 //! Galperin's billiard: a wall, a ball at rest, and a heavy ball coming in count the digits of pi.
 //!
-//! Galperin, "Playing pool with π (the number π from a billiard point of view)", Regular and Chaotic
-//! Dynamics 8, 375 (2003).
+//! Galperin, "Playing pool with π (the number π from a billiard point of view)", Regular and
+//! Chaotic Dynamics 8, 375 (2003).
 
 use carom::{Collider, DVec3, Error, Pose, Rule, Shape, Sphere, World};
 

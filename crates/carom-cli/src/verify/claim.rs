@@ -19,7 +19,10 @@ pub struct Claim {
 pub type Measure = dyn Fn(Rule) -> Outcome + Send + Sync;
 
 /// What came out, or why nothing did.
-pub type Outcome = Result<Measured, Box<dyn Error + Send + Sync>>;
+pub type Outcome = Result<Measured, Fault>;
+
+/// Why nothing came out.
+pub type Fault = Box<dyn Error + Send + Sync>;
 
 /// The value a claim is about.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,9 +2,9 @@
 
 use std::sync::{Arc, OnceLock};
 
-use carom::{Boundary, DVec3, Error, Participants, Rule, Settings, World};
+use carom::{Boundary, DVec3, Participants, Rule, Settings, World};
 
-use super::claim::{Claim, Expected, Measured, Tolerance};
+use super::claim::{Claim, Expected, Fault, Measured, Tolerance};
 use super::setup::{add_walls, world};
 use crate::gas::{Filling, Speeds, add_spheres, gas};
 
@@ -21,7 +21,7 @@ pub fn claims() -> Vec<Claim> {
 }
 
 /// The claims about a run, which is made once for all of them.
-fn of_runs(place: &str, run: fn(Rule) -> Result<Kept, Error>) -> [Claim; 5] {
+fn of_runs(place: &str, run: fn(Rule) -> Result<Kept, Fault>) -> [Claim; 5] {
     let shared = Arc::new(OnceLock::new());
     let claim = |name: &str, bound: f64, reason: &'static str, part: fn(&Kept) -> f64| {
         let shared = Arc::clone(&shared);
@@ -30,8 +30,8 @@ fn of_runs(place: &str, run: fn(Rule) -> Result<Kept, Error>) -> [Claim; 5] {
             Expected::no_error("conservation laws"),
             Tolerance::absolute(bound, reason),
             move |rule| {
-                let kept: &Result<Kept, Error> = shared.get_or_init(|| run(rule));
-                let kept = kept.as_ref().map_err(Clone::clone)?;
+                let kept: &Result<Kept, Fault> = shared.get_or_init(|| run(rule));
+                let kept = kept.as_ref().map_err(ToString::to_string)?;
                 Ok(Measured { value: part(kept), ..kept.state })
             },
         )
@@ -55,18 +55,18 @@ struct Kept {
     momentum: f64,
     /// In radii.
     overlap: f64,
-    /// Likewise in any single entry of the ledger.
+    /// Likewise in any single entry of the ledger; no number where a rule keeps none.
     impact_energy: f64,
     impact_momentum: f64,
     /// At the end.
     state: Measured,
 }
 
-fn periodic(rule: Rule) -> Result<Kept, Error> {
+fn periodic(rule: Rule) -> Result<Kept, Fault> {
     run(gas(FILLING, Speeds::Equilibrium, rule, 1)?)
 }
 
-fn walled(rule: Rule) -> Result<Kept, Error> {
+fn walled(rule: Rule) -> Result<Kept, Fault> {
     let mut world = world(rule)?;
     // The cube is for the centres.
     add_walls(&mut world, FILLING.edge() + 1.0)?;
@@ -74,13 +74,13 @@ fn walled(rule: Rule) -> Result<Kept, Error> {
     run(world)
 }
 
-fn run(mut world: World) -> Result<Kept, Error> {
+fn run(mut world: World) -> Result<Kept, Fault> {
     let energy = world.kinetic_energy();
     let sizes: f64 = world.spheres().velocities().iter().map(|v| v.length()).sum();
     // What the spheres had at first and walls gave them since.
     let mut momentum = world.momentum();
     let (mut overlap, mut impact_energy, mut impact_momentum) = (0.0_f64, 0.0_f64, 0.0_f64);
-    let (mut impacts, mut frames) = (0, 0);
+    let (mut impacts, mut entries, mut frames) = (0, 0, 0);
     while impacts < IMPACTS && frames < MOST_FRAMES {
         let report = world.step(FILLING.frame_time())?;
         for impact in &report.impacts {
@@ -89,6 +89,7 @@ fn run(mut world: World) -> Result<Kept, Error> {
             }
         }
         for entry in report.ledger() {
+            entries += 1;
             impact_energy = impact_energy.max(entry.group.energy_error());
             impact_momentum = impact_momentum.max(entry.group.momentum_error());
         }
@@ -98,13 +99,15 @@ fn run(mut world: World) -> Result<Kept, Error> {
             overlap = overlap.max(deepest_overlap(&world));
         }
     }
-    // A run without impacts keeps everything, and shows nothing.
-    let energy_error = match impacts {
-        IMPACTS.. => (world.kinetic_energy() / energy - 1.0).abs(),
-        _ => f64::INFINITY,
-    };
+    // A run without impacts keeps everything, and shows nothing; nor does an empty ledger.
+    if impacts < IMPACTS {
+        return Err(format!("only {impacts} impacts").into());
+    }
+    if entries == 0 {
+        (impact_energy, impact_momentum) = (f64::NAN, f64::NAN);
+    }
     Ok(Kept {
-        energy: energy_error,
+        energy: (world.kinetic_energy() / energy - 1.0).abs(),
         momentum: (world.momentum() - momentum).length() / sizes,
         overlap,
         impact_energy,

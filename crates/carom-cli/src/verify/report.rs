@@ -143,7 +143,7 @@ impl<'a> Report<'a> {
         for finding in self.claims.iter().filter(|finding| finding.verdict == Verdict::Miss) {
             match &finding.fault {
                 Some(fault) => writeln!(out, "MISS {}: {fault}", finding.claim)?,
-                None => writeln!(out, "MISS {}: {}", finding.claim, finding.reason)?,
+                None => writeln!(out, "MISS {} (tolerance: {})", finding.claim, finding.reason)?,
             }
         }
         writeln!(out, "{} of {} claims hold, rule {}", self.passed, self.claims.len(), self.rule)?;

@@ -2,7 +2,7 @@
 
 use carom::{Collider, DVec3, Gravity, Pose, Rule, Shape, Sphere};
 
-use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
+use super::claim::{Claim, Expected, Fault, Measured, Outcome, Tolerance};
 use super::setup::{FRAME, G, run_until, world, world_with_floor};
 
 /// Speed below which a ball is at rest \[m/s\].
@@ -75,7 +75,7 @@ fn gaps_of_stack(rule: Rule, gap: f64, e: f64) -> Outcome {
 /// Lets a ball slide down a fixed sphere, from rest near the top. Gives the cosine of the angle at
 /// which it leaves, in parts of that at the start, and the largest error of its energy, in parts
 /// of the energy of the fall.
-fn leaving(rule: Rule) -> Result<(Measured, Measured), Box<dyn std::error::Error + Send + Sync>> {
+fn leaving(rule: Rule) -> Result<(Measured, Measured), Fault> {
     let (fixed, radius) = (1.0, 0.25);
     let reach = fixed + radius;
     let (sine, cosine) = libm::sincos(0.1);

@@ -196,8 +196,8 @@ enum Sides {
 
 /// A ball to and fro between two sides.
 fn between(sides: Sides, name: &str) -> Claim {
-    // From one impact to the next it flies 10 m. It begins in the middle, so that it ends a sixth of
-    // a flight beyond it, far from an impact.
+    // From one impact to the next it flies 10 m. It begins in the middle, so that it ends a sixth
+    // of a flight beyond it, far from an impact.
     let (flights, speed) = (150_000.0_f64, 1e8_f64);
     let duration = (flights + 1.0 / 6.0) * 10.0 / speed;
     Claim::new(

@@ -17,7 +17,7 @@ pub(super) struct Body {
     pub velocity: DVec3,
     /// Start of the flight, on the world's clock \[s\].
     pub time: f64,
-    /// Its place among the [`Kinds`].
+    /// Its place among the kinds.
     pub kind: u32,
     /// How often its flight began anew: a prediction made with another number is void.
     pub flights: u32,

@@ -101,7 +101,26 @@ impl Near {
         self.images.clear();
     }
 
-    /// Each sphere, with the shift \[m\] from where its position counts to its image that is near.
+    /// Those whose positions count in the same box.
+    #[inline(always)]
+    pub fn in_same_box(&self) -> &[u32] {
+        &self.slots[..self.count]
+    }
+
+    /// Those whose image is near, with the shift to it \[m\].
+    #[inline(always)]
+    pub fn images(&self) -> &[(u32, DVec3)] {
+        &self.images
+    }
+
+    /// The n-th sphere, counting those in the same box first, with the shift \[m\] from where its
+    /// position counts to its image that is near.
+    #[inline(always)]
+    pub fn nth(&self, n: usize) -> (u32, DVec3) {
+        if n < self.count { (self.slots[n], DVec3::ZERO) } else { self.images[n - self.count] }
+    }
+
+    /// Each sphere, in this order.
     #[inline]
     pub fn iter(&self) -> impl Iterator<Item = (u32, DVec3)> {
         let same_box = self.slots[..self.count].iter().map(|&slot| (slot, DVec3::ZERO));

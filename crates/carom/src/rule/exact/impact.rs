@@ -27,7 +27,9 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
         && (0..2).all(|one| {
             let (slot, place) = (slots[one], states[one].0);
             timeline.cells.near(slot, kinds[one].level, &mut around[one].near);
-            measure(timeline, slot, place, &mut around[one], time);
+            let begun = Body { position: place, time, ..timeline.bodies[slot as usize] };
+            let acceleration = kinds[one].acceleration;
+            predict::measure(timeline, &begun, acceleration, &mut around[one], |_| time);
             is_alone(timeline, [slot, slots[1 - one]], &around[one])
                 && stage.touches_no_surface(timeline, slot, place, kinds[one].radius * NEARBY, time)
         });
@@ -48,29 +50,21 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
     timeline.around = around;
 }
 
-/// Measures how far it is from a sphere at `place` \[m\] to those near it at `time` \[s\].
-#[inline]
-fn measure(timeline: &Timeline, slot: u32, place: DVec3, around: &mut Surroundings, time: f64) {
-    let begun = Body { position: place, time, ..timeline.bodies[slot as usize] };
-    let acceleration = timeline.kind_of(slot).acceleration;
-    around.offsets.clear();
-    around.offsets.extend(around.near.iter().map(|(near, shift)| {
-        let body = &timeline.bodies[near as usize];
-        predict::offset_of_alike([&begun, body], acceleration, shift, time)
-    }));
-}
-
 /// Whether a sphere touches nothing but one other. Of spheres that fly differently nothing is known
 /// here: one that is near enough to matter counts as touching.
 #[inline]
 fn is_alone(timeline: &Timeline, [slot, other]: [u32; 2], around: &Surroundings) -> bool {
     let kind = timeline.kind_of(slot);
-    around.near.iter().zip(&around.offsets).all(|((near, _), offset)| {
+    let is_apart = |near: u32, offset: DVec3| {
         let near_kind = timeline.kind_of(near);
         let reach = (kind.radius + near_kind.radius) * (1.0 + NEARBY);
         let is_apart = offset.length_squared() > reach * reach && near_kind.flies_like(kind);
         is_apart || near == other
-    })
+    };
+    let Surroundings { near, offsets, .. } = around;
+    let (same_box, of_images) = offsets.split_at(near.in_same_box().len());
+    near.in_same_box().iter().zip(same_box).all(|(&near, &offset)| is_apart(near, offset))
+        && near.images().iter().zip(of_images).all(|(near, &offset)| is_apart(near.0, offset))
 }
 
 /// Gives the two spheres their impulse, and writes it down.

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::body::{Body, Kind};
 use super::cells::Crossing;
-use super::timeline::{Closing, Event, Surroundings, Target, Timeline};
+use super::timeline::{Event, Surroundings, Target, Timeline};
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 use crate::system::System;
@@ -42,7 +42,7 @@ pub(super) fn predict_from(
     let kind = timeline.kinds[body.kind as usize];
     let mut first = Event::NEVER;
     find_closing(timeline, slot, around, |_| now);
-    meet_closing(timeline, slot, around, &mut first);
+    meet_closing(timeline, slot, around, |_| now, &mut first);
     meet_others(timeline, system, slot, &mut first);
     let crossing = timeline.cells.next_crossing(slot, &body, &kind, now);
     timeline.schedule(slot, first, crossing);
@@ -111,13 +111,29 @@ fn meet_spheres(timeline: &Timeline, slot: u32, around: &mut Surroundings, first
     let body = &bodies[slot as usize];
     let acceleration = timeline.kind_of(slot).acceleration;
     let start_with = |other: &Body| body.time.max(other.time);
-    around.offsets.clear();
-    around.offsets.extend(around.near.iter().map(|(slot, shift)| {
-        let other = &bodies[slot as usize];
-        offset_of_alike([body, other], acceleration, shift, start_with(other))
-    }));
+    measure(timeline, body, acceleration, around, start_with);
     find_closing(timeline, slot, around, start_with);
-    meet_closing(timeline, slot, around, first);
+    meet_closing(timeline, slot, around, start_with, first);
+}
+
+/// Measures how far it is from a sphere to each of those near it \[m\], as if all flew alike, when
+/// the later of their flights started.
+#[inline(always)]
+pub(super) fn measure(
+    timeline: &Timeline,
+    body: &Body,
+    acceleration: DVec3,
+    around: &mut Surroundings,
+    start_with: impl Fn(&Body) -> f64,
+) {
+    let Surroundings { near, offsets, .. } = around;
+    let offset = |slot: u32, shift: DVec3| {
+        let other = &timeline.bodies[slot as usize];
+        offset_of_alike([body, other], acceleration, shift, start_with(other))
+    };
+    offsets.clear();
+    offsets.extend(near.in_same_box().iter().map(|&slot| offset(slot, DVec3::ZERO)));
+    offsets.extend(near.images().iter().map(|&(slot, shift)| offset(slot, shift)));
 }
 
 /// Finds, of the spheres near it, those that a sphere may meet: of those that fly alike, the ones
@@ -133,41 +149,61 @@ fn find_closing(
     let body = &bodies[slot as usize];
     let kind = &kinds[body.kind as usize];
     let Surroundings { near, offsets, closing } = around;
-    closing.resize(offsets.len(), Closing::default());
-    let mut count = 0;
-    for ((other_slot, shift), &offset) in near.iter().zip(offsets.iter()) {
+    let may_meet = |other_slot: u32, offset: DVec3| {
         let other = &bodies[other_slot as usize];
         let other_kind = &kinds[other.kind as usize];
-        let start = start_with(other);
-        let velocity = velocity_of_alike([body, other], kind.acceleration, start);
-        let rate = offset.dot(velocity);
+        let velocity = velocity_of_alike([body, other], kind.acceleration, start_with(other));
         let radius_sum = kind.radius + other_kind.radius;
         let across = offset.cross(velocity).length_squared();
         let meets = across <= velocity.length_squared() * (radius_sum * radius_sum);
-        closing[count] = Closing { slot: other_slot, start, offset, velocity, shift };
-        count += usize::from(((rate < 0.0) & meets) | !kind.flies_like(other_kind));
+        ((offset.dot(velocity) < 0.0) & meets) | !kind.flies_like(other_kind)
+    };
+    if closing.len() < offsets.len() {
+        closing.resize(offsets.len(), 0);
+    }
+    let same_box = near.in_same_box();
+    let mut count = 0;
+    for (n, (&other, &offset)) in (0u32..).zip(same_box.iter().zip(offsets.iter())) {
+        closing[count] = n;
+        count += usize::from(may_meet(other, offset));
+    }
+    let first_image = same_box.len();
+    for (n, (&(other, _), &offset)) in
+        (first_image as u32..).zip(near.images().iter().zip(&offsets[first_image..]))
+    {
+        closing[count] = n;
+        count += usize::from(may_meet(other, offset));
     }
     closing.truncate(count);
 }
 
 /// Puts the first meeting with one of those in the place of `first`, if it comes first.
 #[inline(always)]
-fn meet_closing(timeline: &Timeline, slot: u32, around: &Surroundings, first: &mut Event) {
+fn meet_closing(
+    timeline: &Timeline,
+    slot: u32,
+    around: &Surroundings,
+    start_with: impl Fn(&Body) -> f64,
+    first: &mut Event,
+) {
     let Timeline { bodies, kinds, .. } = timeline;
     let body = &bodies[slot as usize];
     let kind = &kinds[body.kind as usize];
-    for closing in &around.closing {
-        let other = &bodies[closing.slot as usize];
+    for &n in &around.closing {
+        let (other_slot, shift) = around.near.nth(n as usize);
+        let other = &bodies[other_slot as usize];
         let other_kind = &kinds[other.kind as usize];
         let time = if kind.flies_like(other_kind) {
-            meeting_of_alike([body, other], kind.radius + other_kind.radius, closing)
-        } else if last_together(timeline, [slot, closing.slot], [kind, other_kind]) {
+            let offset = around.offsets[n as usize];
+            let kinds = [kind, other_kind];
+            meeting_of_alike([body, other], kinds, offset, start_with(other))
+        } else if last_together(timeline, [slot, other_slot], [kind, other_kind]) {
             f64::INFINITY
         } else {
-            meeting([body, other], [kind, other_kind], closing.shift, first.time)
+            meeting([body, other], [kind, other_kind], shift, first.time)
         };
         if time < first.time {
-            let target = Target::Sphere(closing.slot);
+            let target = Target::Sphere(other_slot);
             *first = Event { time, target, flights: other.flights };
         }
     }
@@ -210,10 +246,12 @@ fn velocity_of_alike([a, b]: [&Body; 2], acceleration: DVec3, start: f64) -> DVe
 }
 
 /// When two spheres meet that fly alike, so that each sees the other move in a straight line at
-/// constant speed, on the world's clock \[s\]; infinite if they never do.
+/// constant speed, on the world's clock \[s\]; infinite if they never do. `offset` \[m\] is where the
+/// second is seen from the first at `start` \[s\].
 #[inline(always)]
-fn meeting_of_alike([a, b]: [&Body; 2], radius_sum: f64, closing: &Closing) -> f64 {
-    let Closing { offset, velocity, start, .. } = *closing;
+fn meeting_of_alike([a, b]: [&Body; 2], kinds: [&Kind; 2], offset: DVec3, start: f64) -> f64 {
+    let velocity = velocity_of_alike([a, b], kinds[0].acceleration, start);
+    let radius_sum = kinds[0].radius + kinds[1].radius;
     let gap = offset.length_squared() - radius_sum * radius_sum;
     if gap.abs() <= TOUCHING * radius_sum * radius_sum {
         // Two that touch close only if they do so by more than the rounding of their speeds.

@@ -59,21 +59,8 @@ pub(super) struct Surroundings {
     pub near: Near,
     /// From the centre of the sphere to that of each \[m\].
     pub offsets: Vec<DVec3>,
-    /// Those that it may meet.
-    pub closing: Vec<Closing>,
-}
-
-/// A sphere that another one may meet, as seen from there.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Closing {
-    pub slot: u32,
-    /// On the world's clock \[s\].
-    pub start: f64,
-    /// Between the centres \[m\] and velocity \[m/s\] at the start, of spheres that fly alike.
-    pub offset: DVec3,
-    pub velocity: DVec3,
-    /// From where its position counts to its image that is near \[m\].
-    pub shift: DVec3,
+    /// The places in that order of those that it may meet.
+    pub closing: Vec<u32>,
 }
 
 /// What a sphere meets next.

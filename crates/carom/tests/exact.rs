@@ -1,0 +1,399 @@
+//! The rule `exact` through what it does to spheres. Proves that frames, cells and insertion order
+//! leave no trace, that contacts last and end as mechanics says, and that walls move, boxes repeat
+//! and forces act as told. It proves nothing about speed.
+
+mod common;
+
+use carom::{
+    Boundary, Collider, DQuat, DVec3, Emitter, Error, Exact, Force, Gravity, Participants, Pose,
+    Rule, Settings, Shape, Sphere, SphereState, World,
+};
+use common::{G, Numbers, assert_close, assert_close_vec, vec, world};
+
+fn exact() -> World {
+    world(Rule::default())
+}
+
+fn under_gravity() -> World {
+    let mut world = exact();
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    world
+}
+
+fn half_space(world: &mut World, point: DVec3, normal: DVec3, restitution: f64) {
+    let pose = Pose::at(point).rotated(DQuat::from_rotation_arc(DVec3::Y, normal));
+    let wall = Collider::new(Shape::HalfSpace, pose).with_restitution(restitution);
+    world.add_collider(wall).unwrap();
+}
+
+/// Forty balls of many sizes fall through pegs onto a floor.
+fn bustle(order: &[usize]) -> World {
+    let mut numbers = Numbers(5);
+    let mut world = under_gravity();
+    half_space(&mut world, DVec3::ZERO, DVec3::Y, 0.8);
+    for x in -2..=2 {
+        let peg = Shape::Sphere { radius: 0.3 };
+        let pose = Pose::at(vec(x.into(), 2.0, 0.1 * f64::from(x)));
+        world.add_collider(Collider::new(peg, pose).with_restitution(0.9)).unwrap();
+    }
+    let balls: Vec<Sphere> = (0..40u32)
+        .map(|i| {
+            let place =
+                vec(f64::from(i % 8) - 3.5, 3.5 + f64::from(i / 8), numbers.between(-0.1, 0.1));
+            let ball = Sphere::new(place, numbers.between(0.1, 0.45)).with_density(1000.0);
+            ball.with_velocity(numbers.vector()).with_restitution(0.95)
+        })
+        .collect();
+    for &i in order {
+        world.add_sphere(balls[i]).unwrap();
+    }
+    world
+}
+
+fn run(world: &mut World, frame: f64, frames: usize) -> usize {
+    (0..frames).map(|_| world.step(frame).unwrap().impacts.len()).sum()
+}
+
+#[test]
+fn frames_leave_no_trace_in_a_single_bit() {
+    let order: Vec<usize> = (0..40).collect();
+    // Powers of two, so that the clock adds up without rounding.
+    let [coarse, fine, single] = [(1.0 / 32.0, 96), (1.0 / 256.0, 768), (3.0, 1)].map(|(h, n)| {
+        let mut world = bustle(&order);
+        let impacts = run(&mut world, h, n);
+        (impacts, world.state_hash())
+    });
+    assert!(coarse.0 > 100, "{}", coarse.0);
+    assert_eq!(coarse, fine);
+    assert_eq!(coarse, single);
+}
+
+#[test]
+fn the_order_in_which_spheres_came_leaves_no_trace() {
+    let order: Vec<usize> = (0..40).collect();
+    // 27 and 40 have no common factor: every ball comes once.
+    let shuffled: Vec<usize> = (0..40).map(|i| i * 27 % 40).collect();
+    let (mut first, mut second) = (bustle(&order), bustle(&shuffled));
+    assert_eq!(run(&mut first, 1.0 / 64.0, 128), run(&mut second, 1.0 / 64.0, 128));
+    for (place, &i) in shuffled.iter().enumerate() {
+        assert_eq!(first.spheres().positions()[i], second.spheres().positions()[place]);
+        assert_eq!(first.spheres().velocities()[i], second.spheres().velocities()[place]);
+    }
+}
+
+#[test]
+fn a_bouncing_ball_comes_to_rest_at_the_sum_of_its_flights() {
+    for e in [0.3, 0.8, 0.95] {
+        let mut world = under_gravity();
+        half_space(&mut world, DVec3::ZERO, DVec3::Y, e);
+        let ball = world.add_sphere(Sphere::new(vec(0.0, 2.5, 0.0), 0.5)).unwrap();
+        let rest = (2.0 * 2.0 / G).sqrt() * (1.0 + e) / (1.0 - e);
+        let mut last = 0.0;
+        while world.time() < rest + 1.0 {
+            let start = world.time();
+            let report = world.step(0.25).unwrap();
+            last = report.impacts.last().map_or(last, |impact| start + impact.time);
+        }
+        // The bounces shorter than the duration of a contact are left out.
+        assert_close(last, rest, 1.1 * Exact::default().contact_duration / (1.0 - e));
+        assert_eq!(world.sphere(ball).unwrap().velocity, DVec3::ZERO);
+        assert_close(world.sphere(ball).unwrap().position.y, 0.5, 1e-14);
+    }
+}
+
+#[test]
+fn a_ball_slides_down_a_ramp_as_if_there_were_no_third_dimension() {
+    let angle: f64 = 0.3;
+    let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
+    let mut world = under_gravity();
+    let normal = vec(sine, cosine, 0.0);
+    half_space(&mut world, DVec3::ZERO, normal, 0.5);
+    let ball = world.add_sphere(Sphere::new(0.25 * normal, 0.25)).unwrap();
+    assert_eq!(run(&mut world, 0.1, 20), 0);
+    // g sin a along the ramp, to the rounding of some hundred operations on tens of metres.
+    let along = 0.5 * G * sine * 4.0;
+    let end = world.sphere(ball).unwrap();
+    assert_close_vec(end.position, 0.25 * normal + along * vec(cosine, -sine, 0.0), 1e-13);
+    assert_close(end.velocity.length(), G * sine * 2.0, 1e-13);
+}
+
+#[test]
+fn a_ball_that_slides_off_a_plate_flies_on_and_lands_where_a_parabola_does() {
+    let mut world = under_gravity();
+    let plate = Shape::Rectangle { size_x: 2.0, size_z: 2.0 };
+    world.add_collider(Collider::new(plate, Pose::at(vec(0.0, 5.0, 0.0)))).unwrap();
+    half_space(&mut world, DVec3::ZERO, DVec3::Y, 0.0);
+    let (radius, speed) = (0.1, 3.0);
+    let ball = Sphere::new(vec(0.0, 5.0 + radius, 0.0), radius).with_velocity(vec(speed, 0.0, 0.0));
+    let ball = world.add_sphere(ball).unwrap();
+    // Faster than sqrt(g r), it leaves the edge at once.
+    let fall = (2.0 * 5.0 / G).sqrt();
+    let landing = 1.0 / speed + fall;
+    run(&mut world, landing / 100.0, 101);
+    let end = world.sphere(ball).unwrap();
+    assert_close(end.position.y, radius, 1e-12);
+    assert_close(end.velocity.x, speed, 1e-12);
+    assert_close(end.position.x, speed * world.time(), 1e-12);
+}
+
+#[test]
+fn a_ball_leaves_a_fixed_sphere_two_thirds_of_the_way_down() {
+    let (radius, ball_radius, start): (f64, f64, f64) = (1.0, 0.2, 0.05);
+    let mut world = under_gravity();
+    let dome = Collider::new(Shape::Sphere { radius }, Pose::at(DVec3::ZERO));
+    world.add_collider(dome.with_restitution(0.0)).unwrap();
+    let distance = radius + ball_radius;
+    let place = distance * vec(libm::sin(start), libm::cos(start), 0.0);
+    let ball = world.add_sphere(Sphere::new(place, ball_radius)).unwrap();
+    // In flight the horizontal velocity is constant: it tells the height at which it left, for
+    // v² = 2 g d (cos a - y) with v_x = v y and y = 2/3 cos a.
+    run(&mut world, 0.01, 400);
+    let y = 2.0 / 3.0 * libm::cos(start);
+    let expected = y * (2.0 * G * distance * (libm::cos(start) - y)).sqrt();
+    // Forces are found anew every 1e-3 rad: errors of the second order in it, over one radian.
+    assert_close(world.sphere(ball).unwrap().velocity.x, expected, 1e-5 * expected);
+}
+
+#[test]
+fn stacks_rest_without_any_speed_whatever_their_restitution() {
+    for e in [0.0, 0.4, 1.0] {
+        let mut world = under_gravity();
+        half_space(&mut world, DVec3::ZERO, DVec3::Y, e);
+        for i in 0..12 {
+            let ball = Sphere::new(vec(0.0, 0.5 + f64::from(i), 0.0), 0.5);
+            world.add_sphere(ball.with_restitution(e).with_mass(1.0 + f64::from(i % 3))).unwrap();
+        }
+        assert_eq!(run(&mut world, 0.02, 500), 0);
+        assert!(world.spheres().velocities().iter().all(|&v| v == DVec3::ZERO));
+        assert_close(world.spheres().positions()[11].y, 11.5, 1e-13);
+    }
+}
+
+#[test]
+fn a_shot_stack_falls_apart_and_keeps_its_momentum_across() {
+    let mut world = under_gravity();
+    half_space(&mut world, DVec3::ZERO, DVec3::Y, 0.0);
+    for i in 0..5 {
+        world.add_sphere(Sphere::new(vec(0.0, 0.5 + f64::from(i), 0.0), 0.5)).unwrap();
+    }
+    let shot = Sphere::new(vec(-5.0, 2.6, 0.0), 0.5).with_velocity(vec(20.0, 3.0, 0.0));
+    world.add_sphere(shot).unwrap();
+    assert!(run(&mut world, 1.0 / 60.0, 300) > 1);
+    // Nothing but the shot moves along x, and no force acts that way.
+    assert_close(world.momentum().x, 20.0, 1e-11);
+    assert_eq!(world.overlaps(1e-9), []);
+}
+
+#[test]
+fn spheres_a_thousand_times_as_large_meet_the_small_ones() {
+    let mut numbers = Numbers(3);
+    let mut world = exact();
+    for normal in [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z] {
+        half_space(&mut world, -3.0 * normal, normal, 1.0);
+    }
+    world.add_sphere(Sphere::new(DVec3::ZERO, 1.0).with_mass(1e6)).unwrap();
+    for i in 0..300u32 {
+        let cell = vec((i % 8).into(), (i / 8 % 8).into(), (i / 64).into());
+        let place = vec(-2.5, -2.5, 1.5) + cell * vec(0.6, 0.6, 0.25);
+        let radius = [0.001, 0.01, 0.1][i as usize % 3];
+        let ball = Sphere::new(place, radius).with_density(1000.0);
+        world.add_sphere(ball.with_velocity(30.0 * numbers.vector())).unwrap();
+    }
+    let energy = world.kinetic_energy();
+    let mut with_large = 0;
+    for _ in 0..120 {
+        let report = world.step(1.0 / 60.0).unwrap();
+        let is_with_large = |between: &Participants| match between {
+            Participants::Spheres(first, _) => first.number() == 0,
+            Participants::Collider { .. } => false,
+        };
+        with_large += report.impacts.iter().filter(|it| is_with_large(&it.between)).count();
+        assert_eq!(world.overlaps(1e-12), []);
+    }
+    assert!(with_large > 200, "{with_large}");
+    assert_close(world.kinetic_energy() / energy, 1.0, 1e-12);
+}
+
+#[test]
+fn in_a_periodic_box_spheres_meet_across_its_faces() {
+    let boundary = Boundary::Periodic { size: vec(10.0, 10.0, f64::INFINITY) };
+    let mut world = World::new(Settings { boundary, ..Settings::default() }).unwrap();
+    let left = Sphere::new(vec(-4.0, 0.0, 50.0), 0.5).with_velocity(vec(-1.0, 0.0, 0.0));
+    let right = Sphere::new(vec(4.0, 0.0, 50.0), 0.5).with_velocity(vec(2.0, 0.0, 0.0));
+    world.add_sphere(left).unwrap();
+    world.add_sphere(right).unwrap();
+    // The gap across the face is 1 m and closes at 3 m/s.
+    let report = world.step(0.5).unwrap();
+    assert_eq!(report.impacts.len(), 1);
+    assert_close(report.impacts[0].time, 1.0 / 3.0, 1e-15);
+    assert_eq!(report.impacts[0].normal, DVec3::NEG_X);
+    assert_eq!(world.spheres().velocities(), [vec(2.0, 0.0, 0.0), vec(-1.0, 0.0, 0.0)]);
+    // They go round for ever and stay in the box; the other way they meet after 8 m at 3 m/s.
+    let mut impacts = 0;
+    for _ in 0..1000 {
+        impacts += world.step(0.3).unwrap().impacts.len();
+        assert!(world.spheres().positions().iter().all(|x| x.x.abs() <= 5.0 && x.z == 50.0));
+    }
+    // Centres 1 m apart on a ring of 10 m: 8 m from one impact to the next.
+    assert_eq!(impacts, ((1000.0 * 0.3 + 0.5 - 1.0 / 3.0) * 3.0 / 8.0) as usize);
+}
+
+#[test]
+fn a_periodic_box_needs_the_rule_and_the_room() {
+    let boundary = Boundary::Periodic { size: DVec3::splat(3.0) };
+    let settings = Settings { boundary, rule: Rule::Discrete, ..Settings::default() };
+    assert!(World::new(settings).unwrap_err().to_string().contains("`exact`"));
+    let size = vec(1.0, -1.0, 1.0);
+    let settings = Settings { boundary: Boundary::Periodic { size }, ..Settings::default() };
+    assert!(World::new(settings).unwrap_err().to_string().contains("size"));
+    let mut world = World::new(Settings { boundary, ..Settings::default() }).unwrap();
+    world.add_sphere(Sphere::new(DVec3::ZERO, 0.8)).unwrap();
+    let error = world.step(0.1).unwrap_err().to_string();
+    assert!(error.contains("size") && error.contains("four times"), "{error}");
+    assert_eq!(world.time(), 0.0);
+}
+
+#[test]
+fn a_moving_wall_throws_a_ball_at_twice_its_speed() {
+    let mut world = exact();
+    let wall = Shape::Rectangle { size_x: 4.0, size_z: 4.0 };
+    let pose = Pose::at(vec(-2.0, 0.0, 0.0)).rotated(DQuat::from_rotation_arc(DVec3::Y, DVec3::X));
+    let wall = Collider::new(wall, pose).moving(vec(3.0, 0.0, 0.0), DVec3::ZERO);
+    let wall = world.add_collider(wall).unwrap();
+    let ball = world.add_sphere(Sphere::new(DVec3::ZERO, 0.5)).unwrap();
+    let mut hits = Vec::new();
+    for _ in 0..60 {
+        let start = world.time();
+        hits.extend(world.step(1.0 / 60.0).unwrap().impacts.iter().map(|it| start + it.time));
+    }
+    assert_eq!(hits.len(), 1);
+    // The wall's position is added up over frames.
+    assert_close(hits[0], 0.5, 1e-14);
+    assert_close_vec(world.sphere(ball).unwrap().velocity, vec(6.0, 0.0, 0.0), 1e-14);
+    assert_close(world.collider(wall).unwrap().pose.position.x, 1.0, 1e-14);
+}
+
+#[test]
+fn a_turning_paddle_hits_with_the_speed_of_its_surface() {
+    let mut world = exact();
+    let paddle = Shape::Rectangle { size_x: 4.0, size_z: 1.0 };
+    let spin = vec(0.0, 0.0, 2.0);
+    let paddle = Collider::new(paddle, Pose::at(DVec3::ZERO)).moving(DVec3::ZERO, spin);
+    world.add_collider(paddle).unwrap();
+    // It sweeps upwards on the side of positive x; the ball waits above.
+    let ball = world.add_sphere(Sphere::new(vec(1.0, 0.8, 0.0), 0.1)).unwrap();
+    let mut impacts = Vec::new();
+    for _ in 0..40 {
+        impacts.extend(world.step(0.01).unwrap().impacts.clone());
+    }
+    assert_eq!(impacts.len(), 1);
+    let arm = (1.0f64 + 0.64 - 0.01).sqrt();
+    // Where the ball touches, the paddle moves along its normal at w times the arm.
+    assert_close(impacts[0].approach_speed, 2.0 * arm, 1e-9);
+    assert_close(world.sphere(ball).unwrap().velocity.length(), 4.0 * arm, 1e-9);
+}
+
+#[test]
+fn a_ball_rides_on_a_platform_that_rises() {
+    let mut world = under_gravity();
+    let platform = Shape::Rectangle { size_x: 2.0, size_z: 2.0 };
+    let platform = Collider::new(platform, Pose::at(DVec3::ZERO)).with_restitution(0.0);
+    world.add_collider(platform.moving(vec(0.0, 1.5, 0.0), DVec3::ZERO)).unwrap();
+    let ball = Sphere::new(vec(0.0, 0.25, 0.0), 0.25).with_velocity(vec(0.0, 1.5, 0.0));
+    let ball = world.add_sphere(ball).unwrap();
+    run(&mut world, 1.0 / 60.0, 120);
+    let end = world.sphere(ball).unwrap();
+    assert_close(end.position.y, 0.25 + 1.5 * world.time(), 1e-12);
+    assert_close(end.velocity.y, 1.5, 1e-12);
+}
+
+#[test]
+fn three_balls_in_line_collapse_and_time_goes_on() {
+    let mut world = exact();
+    for (x, v) in [(-2.0, 1.0), (0.0, 0.0), (1.5, -1.0)] {
+        let ball = Sphere::new(vec(x, 0.0, 0.0), 0.5).with_velocity(vec(v, 0.0, 0.0));
+        world.add_sphere(ball.with_restitution(0.2)).unwrap();
+    }
+    let momentum = world.momentum();
+    let impacts = run(&mut world, 0.1, 100);
+    assert!((3..200).contains(&impacts), "{impacts}");
+    assert_close_vec(world.momentum(), momentum, 1e-15);
+    assert_eq!(world.overlaps(1e-12), []);
+}
+
+#[test]
+fn the_ledger_accounts_for_every_impact() {
+    let mut world = bustle(&(0..40).collect::<Vec<_>>());
+    let mut entries = 0;
+    for _ in 0..180 {
+        let report = world.step(1.0 / 60.0).unwrap();
+        assert_eq!(report.ledger().count(), report.impacts.len());
+        for entry in report.ledger() {
+            // Sums over the few bodies of a group, each term rounded once or twice.
+            assert!(entry.group.momentum_error() <= 1e-14, "{entry:?}");
+            assert!(entry.group.energy_error() <= 1e-13, "{entry:?}");
+            assert!(entry.group.energy_after <= entry.group.energy_before * (1.0 + 1e-14));
+            entries += 1;
+        }
+    }
+    assert!(entries > 100);
+}
+
+#[test]
+fn emitters_emit_within_a_frame_at_their_own_time() {
+    let emitter = Emitter {
+        sphere: Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(2.0, 0.0, 0.0)),
+        position: DVec3::ZERO,
+        rotation: DQuat::IDENTITY,
+        period: 0.3,
+        max_spheres: Some(3),
+    };
+    let mut world = under_gravity();
+    world.add_emitter(emitter).unwrap();
+    let report = world.step(1.0).unwrap();
+    assert_eq!((report.emitted.len(), report.retired.len()), (4, 1));
+    for (place, due) in world.spheres().positions().iter().zip([0.3, 0.6, 0.9]) {
+        let age = 1.0 - due;
+        assert_close_vec(*place, vec(2.0 * age, -0.5 * G * age * age, 0.0), 1e-15);
+    }
+}
+
+#[test]
+fn more_impacts_than_allowed_are_an_error_that_changes_nothing() {
+    let rule = Rule::Exact(Exact { max_impacts: 50, ..Exact::default() });
+    let mut world = world(rule);
+    half_space(&mut world, DVec3::ZERO, DVec3::X, 1.0);
+    half_space(&mut world, vec(1.0, 0.0, 0.0), DVec3::NEG_X, 1.0);
+    let ball = Sphere::new(vec(0.5, 0.0, 0.0), 0.1).with_velocity(vec(1e3, 0.0, 0.0));
+    let ball = world.add_sphere(ball).unwrap();
+    world.step(0.01).unwrap();
+    let before = (world.sphere(ball).unwrap(), world.time());
+    let error = world.step(1.0).unwrap_err();
+    assert!(matches!(error, Error::TooManyImpacts { limit: 50, .. }), "{error}");
+    assert_eq!((world.sphere(ball).unwrap(), world.time()), before);
+    assert!(world.report().impacts.is_empty());
+    world.step(0.01).unwrap();
+}
+
+/// A spring of 1 N/m to the origin.
+#[derive(Debug)]
+struct Spring;
+
+impl Force for Spring {
+    fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
+        -sphere.position
+    }
+}
+
+#[test]
+fn a_force_of_its_own_is_of_second_order_in_the_frame() {
+    let error = |frames: u32| {
+        let mut world = exact();
+        world.add_force(Spring).unwrap();
+        let ball = world.add_sphere(Sphere::new(DVec3::X, 0.1)).unwrap();
+        run(&mut world, 1.0 / f64::from(frames), frames as usize);
+        world.sphere(ball).unwrap().position.distance(vec(libm::cos(1.0), 0.0, 0.0))
+    };
+    let order = libm::log2(error(100) / error(200));
+    assert_close(order, 2.0, 0.05);
+}
