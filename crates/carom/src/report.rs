@@ -89,10 +89,10 @@ impl ImpactGroup {
         relative((self.momentum_after - self.momentum_before).length(), self.momentum_scale)
     }
 
-    /// Change of energy beyond what restitution demands, relative to the energy before.
+    /// Change of energy beyond what restitution demands, relative to the energy at work.
     pub fn energy_error(&self) -> f64 {
         let error = self.energy_after - self.energy_before - self.energy_demanded;
-        relative(error.abs(), self.energy_before)
+        relative(error.abs(), self.energy_before.max(self.energy_after.abs()))
     }
 }
 

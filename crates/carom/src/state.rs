@@ -133,11 +133,11 @@ impl State {
         Ok(())
     }
 
-    /// Refuses emitters that would have too many spheres due in the next frame.
-    pub fn check_emitters(&self) -> Result<(), Error> {
+    /// Refuses emitters that would have too many spheres due until `time` \[s\].
+    pub fn check_emitters(&self, time: f64) -> Result<(), Error> {
         for (number, emitter) in self.emitters.iter() {
             let subject = Subject::Emitter(EmitterId(number));
-            emitter.validate_at(self.clock.seconds()).map_err(|invalid| invalid.about(subject))?;
+            emitter.validate_at(time).map_err(|invalid| invalid.about(subject))?;
         }
         Ok(())
     }

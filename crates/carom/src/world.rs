@@ -87,17 +87,21 @@ impl World {
     /// Advances the world by `dt` \[s\]: emits what is due, moves every sphere, answers impacts.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if `dt` is not positive and finite or an emitter runs away,
-    /// [`Error::NonFiniteState`] if a number would overflow. The state before the step is kept.
+    /// [`Error::Invalid`] if `dt` is not positive and finite, an emitter runs away or a periodic
+    /// box is too small for the spheres; [`Error::NonFiniteState`] if a number would overflow;
+    /// [`Error::TooManyImpacts`] under the rule `exact`. The state before the step is kept.
     pub fn step(&mut self, dt: f64) -> Result<&StepReport, Error> {
         validate::positive("dt", dt).map_err(|invalid| invalid.about(Subject::Step))?;
-        self.state.check_emitters()?;
         self.report.clear();
 
         let clock = self.state.clock.after(dt);
         let requirement = "so short that the time stays finite";
         validate::require(clock.seconds().is_finite(), "dt", requirement, dt)
             .map_err(|invalid| invalid.about(Subject::Step))?;
+
+        let is_exact = matches!(self.state.settings.rule, Rule::Exact(_));
+        let last_emission = if is_exact { clock.seconds() } else { self.time() };
+        self.state.check_emitters(last_emission)?;
 
         let mut before_emission = None;
         self.start.copy_all(&self.state.spheres.motion);

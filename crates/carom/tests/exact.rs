@@ -6,7 +6,7 @@ mod common;
 
 use carom::{
     Boundary, Collider, DQuat, DVec3, Emitter, Error, Exact, Force, Gravity, Participants, Pose,
-    Rule, Settings, Shape, Sphere, SphereState, World,
+    Rule, Settings, Shape, Sphere, SphereState, ViscousDrag, World,
 };
 use common::{G, Numbers, assert_close, assert_close_vec, vec, world};
 
@@ -396,4 +396,82 @@ fn a_force_of_its_own_is_of_second_order_in_the_frame() {
     };
     let order = libm::log2(error(100) / error(200));
     assert_close(order, 2.0, 0.05);
+}
+
+#[test]
+fn balls_on_a_floor_meet_across_the_faces_of_a_box_and_stay_on_the_floor() {
+    let boundary = Boundary::Periodic { size: vec(10.0, f64::INFINITY, 10.0) };
+    let mut world = World::new(Settings { boundary, ..Settings::default() }).unwrap();
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    half_space(&mut world, DVec3::ZERO, DVec3::Y, 0.5);
+    for (x, v) in [(-4.0, -1.0), (4.0, 2.0), (4.0, 0.25)] {
+        let z = if v == 0.25 { 3.0 } else { 0.0 };
+        let ball = Sphere::new(vec(x, 0.5, z), 0.5).with_velocity(vec(v, 0.0, 0.0));
+        world.add_sphere(ball).unwrap();
+    }
+    let mut impacts = 0;
+    for _ in 0..300 {
+        impacts += world.step(0.3).unwrap().impacts.len();
+        for place in world.spheres().positions() {
+            assert_close(place.y, 0.5, 1e-12);
+            assert!(place.x.abs() <= 5.0);
+        }
+    }
+    // The first after 1 m at 3 m/s, then one every 8 m.
+    assert_eq!(impacts, 1 + ((90.0 - 1.0 / 3.0) * 3.0 / 8.0) as usize);
+    assert_close(world.momentum().x, 1.25, 1e-12);
+}
+
+#[test]
+fn a_sphere_goes_round_a_periodic_box_as_often_as_it_likes() {
+    let boundary = Boundary::Periodic { size: DVec3::ONE };
+    let mut world = World::new(Settings { boundary, ..Settings::default() }).unwrap();
+    let ball = Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(1e7, 0.0, 0.0));
+    let ball = world.add_sphere(ball).unwrap();
+    run(&mut world, 1.0 / 64.0, 2);
+    // 312,500 times round, without rounding.
+    assert_eq!(world.sphere(ball).unwrap().position, DVec3::ZERO);
+}
+
+#[test]
+fn a_moving_trigger_reports_and_lets_pass() {
+    let mut world = exact();
+    let gate = Collider::new(Shape::Sphere { radius: 1.0 }, Pose::at(vec(3.0, 0.0, 0.0)));
+    world.add_collider(gate.as_trigger().moving(vec(-1.0, 0.0, 0.0), DVec3::ZERO)).unwrap();
+    let ball = Sphere::new(DVec3::ZERO, 0.5).with_velocity(DVec3::X);
+    let ball = world.add_sphere(ball).unwrap();
+    let (mut impacts, mut inside) = (0, 0);
+    for _ in 0..40 {
+        let report = world.step(0.1).unwrap();
+        impacts += report.impacts.len();
+        inside += report.triggers.len();
+    }
+    assert_eq!(impacts, 0);
+    assert!((10..=20).contains(&inside), "{inside}");
+    assert_eq!(world.sphere(ball).unwrap().velocity, DVec3::X);
+}
+
+#[test]
+fn a_ball_slides_on_a_plate_that_turns_in_its_own_plane() {
+    let mut world = under_gravity();
+    let plate = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(0.0);
+    world.add_collider(plate.moving(DVec3::ZERO, vec(0.0, 3.0, 0.0))).unwrap();
+    let ball = Sphere::new(vec(1.0, 0.25, 0.0), 0.25).with_velocity(vec(0.0, 0.0, 1.0));
+    let ball = world.add_sphere(ball).unwrap();
+    // Without friction the plate may turn as it likes.
+    assert_eq!(run(&mut world, 0.05, 40), 0);
+    let end = world.sphere(ball).unwrap();
+    assert_close_vec(end.position, vec(1.0, 0.25, 2.0), 1e-12);
+    assert_close_vec(end.velocity, vec(0.0, 0.0, 1.0), 1e-12);
+}
+
+#[test]
+fn with_drag_frames_leave_no_trace_either() {
+    let [coarse, single] = [(1.0 / 32.0, 64), (2.0, 1)].map(|(frame, frames)| {
+        let mut world = bustle(&(0..40).collect::<Vec<_>>());
+        world.add_force(ViscousDrag::new(3.0)).unwrap();
+        (run(&mut world, frame, frames), world.state_hash())
+    });
+    assert!(coarse.0 > 50, "{}", coarse.0);
+    assert_eq!(coarse, single);
 }

@@ -68,7 +68,7 @@ struct Level {
 #[derive(Debug, Clone, Copy)]
 struct NearSurface {
     surface: u32,
-    turns: [i8; 3],
+    turns: [i32; 3],
 }
 
 /// Spheres registered in a cell, as marks: the slot, with a flag for spheres that went round an axis.
@@ -164,7 +164,7 @@ struct Link {
     cell: [u16; 3],
     /// How often the sphere went round each periodic axis since its position was last folded
     /// into the box.
-    turns: [i16; 3],
+    turns: [i32; 3],
 }
 
 /// A sphere leaves its cell.
@@ -285,9 +285,15 @@ impl Cells {
             &level.surfaces[range]
         };
         listed.iter().map(|near| {
-            let turns = |axis| i32::from(near.turns[axis]) + i32::from(link.turns[axis]);
+            let turns = |axis| near.turns[axis] + link.turns[axis];
             (near.surface, turned(std::array::from_fn(turns), self.period))
         })
+    }
+
+    /// From the box about the origin to where the position of the sphere counts \[m\].
+    pub fn way_round(&self, slot: u32, level: u32) -> DVec3 {
+        let turns = self.levels[level as usize].links[slot as usize].turns;
+        turned(turns, self.period)
     }
 
     /// When and where the sphere leaves its cell, of the levels that hold it the first one.
@@ -343,7 +349,7 @@ impl Cells {
             (0..3).for_each(|axis| counted[axis] -= turns[axis]);
             level.insert(slot, is_own);
         }
-        position - turned(turns.map(i32::from), self.period)
+        position - turned(turns, self.period)
     }
 }
 
@@ -398,7 +404,7 @@ impl Level {
 
     fn register(&mut self, slot: u32, place: DVec3, period: DVec3, is_own: bool) {
         let turns = turns_of(place, period);
-        let place = place - turned(turns.map(i32::from), period);
+        let place = place - turned(turns, period);
         let mut link = Link { next: NONE, cell: [0; 3], turns };
         for axis in 0..3 {
             let cell = ((place[axis] - self.origin[axis]) / self.width[axis]).floor();
@@ -579,7 +585,7 @@ impl Level {
         if other == slot {
             return;
         }
-        let of = |slot: u32, axis: usize| i32::from(self.links[slot as usize].turns[axis]);
+        let of = |slot: u32, axis: usize| self.links[slot as usize].turns[axis];
         let turns = [0, 1, 2].map(|axis| i32::from(turns[axis]) + of(slot, axis) - of(other, axis));
         if turns == [0; 3] {
             near.add(other);
@@ -621,7 +627,7 @@ impl Level {
             for y in turns(1) {
                 for x in turns(0) {
                     let turns = [x, y, z];
-                    let shift = turned(turns.map(i32::from), period);
+                    let shift = turned(turns, period);
                     let bounds = Bounds { min: bounds.min - shift, max: bounds.max - shift };
                     tree.near(&bounds, near);
                     let listed = near.iter().filter(|&&surface| {
@@ -640,12 +646,12 @@ impl Level {
 pub(super) fn folded(place: DVec3, period: DVec3) -> DVec3 {
     match turns_of(place, period) {
         [0, 0, 0] => place,
-        turns => place - turned(turns.map(i32::from), period),
+        turns => place - turned(turns, period),
     }
 }
 
 /// How often a place went round each periodic axis: 0 in the box about the origin.
-fn turns_of(place: DVec3, period: DVec3) -> [i16; 3] {
+fn turns_of(place: DVec3, period: DVec3) -> [i32; 3] {
     let half = 0.5 * period;
     if place.abs().cmple(half).all() {
         return [0; 3];
@@ -653,7 +659,7 @@ fn turns_of(place: DVec3, period: DVec3) -> [i16; 3] {
     [0, 1, 2].map(|axis| {
         // An axis that is open has no turns.
         let turns = place[axis] / period[axis] + 0.5;
-        turns.floor() as i16
+        turns.floor() as i32
     })
 }
 

@@ -1,7 +1,5 @@
 //! Clusters: spheres that stay in contact with each other and with surfaces.
 
-use glam::DVec3;
-
 use crate::detect::contact::Bodies;
 
 /// Spheres held together by lasting contacts. Its forces hold until `renewal` or until something
@@ -10,8 +8,8 @@ use crate::detect::contact::Bodies;
 pub(super) struct Cluster {
     /// By slot, in the order of their indices. The first one bears the event of renewal.
     pub members: Vec<u32>,
-    /// By index, ascending, with the shift from where body 2 counts to where body 1 does \[m\].
-    pub contacts: Vec<(Bodies, DVec3)>,
+    /// By index, ascending.
+    pub contacts: Vec<Bodies>,
     /// When its forces have to be found anew, on the world's clock \[s\].
     pub renewal: f64,
 }
@@ -58,7 +56,7 @@ impl Clusters {
     }
 
     pub fn contains(&self, number: u32, bodies: Bodies) -> bool {
-        self.get(number).contacts.binary_search_by_key(&bodies, |contact| contact.0).is_ok()
+        self.get(number).contacts.binary_search(&bodies).is_ok()
     }
 
     /// When a cluster is renewed, for the member that bears the event; never for the others.

@@ -61,7 +61,7 @@ pub(super) fn answer(
     let mut group = touch::gather(timeline, stage, seeds, surface, time);
     let struck = respond_to_impacts(timeline, stage, &mut group);
     let supports = support::find(stage, &mut group);
-    let held = supports.iter().flat_map(|support| &support.contacts).map(|contact| contact.0);
+    let held = supports.iter().flat_map(|support| &support.contacts).copied();
     let answered: Vec<Bodies> = struck.into_iter().chain(held).collect();
     begin_flights(timeline, &group, supports);
     for member in &group.members {

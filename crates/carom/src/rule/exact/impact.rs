@@ -30,7 +30,7 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
             let begun = Body { position: place, time, ..timeline.bodies[slot as usize] };
             let acceleration = kinds[one].acceleration;
             predict::measure(timeline, &begun, acceleration, &mut around[one], |_| time);
-            is_alone(timeline, [slot, slots[1 - one]], &around[one])
+            is_alone(timeline, [slot, slots[1 - one]], &around[one], place, time)
                 && stage.touches_no_surface(timeline, slot, place, kinds[one].radius * NEARBY, time)
         });
     if is_alone {
@@ -50,21 +50,33 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
     timeline.around = around;
 }
 
-/// Whether a sphere touches nothing but one other. Of spheres that fly differently nothing is known
-/// here: one that is near enough to matter counts as touching.
+/// Whether a sphere touches nothing but one other at `time` \[s\].
 #[inline]
-fn is_alone(timeline: &Timeline, [slot, other]: [u32; 2], around: &Surroundings) -> bool {
+fn is_alone(
+    timeline: &Timeline,
+    [slot, other]: [u32; 2],
+    around: &Surroundings,
+    place: DVec3,
+    time: f64,
+) -> bool {
     let kind = timeline.kind_of(slot);
-    let is_apart = |near: u32, offset: DVec3| {
+    let is_apart = |near: u32, offset: DVec3, shift: DVec3| {
         let near_kind = timeline.kind_of(near);
+        // The distances of spheres that fly differently were not measured.
+        let offset = if near_kind.flies_like(kind) {
+            offset
+        } else {
+            timeline.state_of(near, time).0 + shift - place
+        };
         let reach = (kind.radius + near_kind.radius) * (1.0 + NEARBY);
-        let is_apart = offset.length_squared() > reach * reach && near_kind.flies_like(kind);
-        is_apart || near == other
+        offset.length_squared() > reach * reach || near == other
     };
     let Surroundings { near, offsets, .. } = around;
     let (same_box, of_images) = offsets.split_at(near.in_same_box().len());
-    near.in_same_box().iter().zip(same_box).all(|(&near, &offset)| is_apart(near, offset))
-        && near.images().iter().zip(of_images).all(|(near, &offset)| is_apart(near.0, offset))
+    let mut in_same_box = near.in_same_box().iter().zip(same_box);
+    let mut images = near.images().iter().zip(of_images);
+    in_same_box.all(|(&near, &offset)| is_apart(near, offset, DVec3::ZERO))
+        && images.all(|(&(near, shift), &offset)| is_apart(near, offset, shift))
 }
 
 /// Gives the two spheres their impulse, and writes it down.

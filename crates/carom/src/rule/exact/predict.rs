@@ -200,7 +200,7 @@ fn meet_closing(
         } else if last_together(timeline, [slot, other_slot], [kind, other_kind]) {
             f64::INFINITY
         } else {
-            meeting([body, other], [kind, other_kind], shift, first.time)
+            meeting([body, other], [kind, other_kind], shift)
         };
         if time < first.time {
             let target = Target::Sphere(other_slot);
@@ -269,14 +269,15 @@ fn meeting_of_alike([a, b]: [&Body; 2], kinds: [&Kind; 2], offset: DVec3, start:
 /// Relative rounding of a distance and of a speed of two spheres that touch.
 const TOUCHING: f64 = 64.0 * f64::EPSILON;
 
-/// When two spheres meet that fly differently, up to `end` \[s\] on the world's clock.
-fn meeting(bodies: [&Body; 2], kinds: [&Kind; 2], shift: DVec3, end: f64) -> f64 {
+/// When two spheres meet that fly differently. Searched for without end: what is known already must
+/// not change by a bit what is found.
+fn meeting(bodies: [&Body; 2], kinds: [&Kind; 2], shift: DVec3) -> f64 {
     let start = bodies[0].time.max(bodies[1].time);
     let first = bodies[0].flight_from(kinds[0], start);
     let mut second = bodies[1].flight_from(kinds[1], start);
     second.position += shift;
     let radius_sum = kinds[0].radius + kinds[1].radius;
-    match contact_time::sphere_sphere(&first, &second, radius_sum, end - start) {
+    match contact_time::sphere_sphere(&first, &second, radius_sum, f64::INFINITY) {
         Some(delay) => start + delay,
         None => f64::INFINITY,
     }
@@ -308,8 +309,8 @@ fn meet_surfaces(
         let mut flight = body.flight_from(kind, start);
         flight.position -= shift;
         let turns = motion.angular_velocity != DVec3::ZERO;
-        let end = if turns { first.time.min(timeline.frame[1]) } else { first.time };
-        let horizon = end - start;
+        // Where a turning surface will be is known until the end of the frame.
+        let horizon = if turns { timeline.frame[1] - start } else { f64::INFINITY };
         let delay = contact_time::sphere_surface(&flight, kind.radius, &form, &motion, horizon);
         if let Some(delay) = delay
             && start + delay < first.time

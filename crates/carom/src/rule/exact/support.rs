@@ -32,8 +32,8 @@ pub(super) struct Support {
     /// Slots of the spheres, in the order of their indices, with the acceleration of each, of
     /// everything but drag \[m/s²\].
     pub members: Vec<(u32, DVec3)>,
-    /// Ascending, with the shift between the frames of the two bodies \[m\].
-    pub contacts: Vec<(Bodies, DVec3)>,
+    /// Ascending.
+    pub contacts: Vec<Bodies>,
     /// When the forces have to be found anew, on the world's clock \[s\].
     pub renewal: f64,
 }
@@ -322,7 +322,7 @@ fn connected(
     for touch in touches {
         let root = of(&mut supports, touch.second);
         if let Some(support) = supports.get_mut(&root) {
-            support.contacts.push((touch.bodies, touch.shift));
+            support.contacts.push(touch.bodies);
         }
     }
     supports.into_values().collect()

@@ -12,6 +12,7 @@ use super::support::Support;
 use super::{hold, predict};
 use crate::bodies::{Motion, SphereId};
 use crate::forces;
+use crate::surface::Role;
 use crate::system::System;
 
 /// Spheres are put in order of place again after this many events per sphere: seldom enough to
@@ -201,7 +202,7 @@ impl Timeline {
     pub fn arrange(&mut self, system: &System, time: f64) {
         self.moving_surfaces = (0u32..)
             .zip(system.surfaces)
-            .filter(|(_, surface)| !surface.motion.is_at_rest())
+            .filter(|(_, surface)| surface.role == Role::Deflects && !surface.motion.is_at_rest())
             .map(|(number, _)| number)
             .collect();
         self.fill_cells(system, time);
@@ -354,8 +355,10 @@ impl Timeline {
     /// Surfaces that a sphere may meet before it leaves its cell, with the shift \[m\] that brings
     /// them to where its position counts.
     pub fn surfaces_near(&self, slot: u32) -> impl Iterator<Item = (u32, DVec3)> {
-        let near = self.cells.surfaces_near(slot, self.kind_of(slot).level);
-        near.chain(self.moving_surfaces.iter().map(|&surface| (surface, DVec3::ZERO)))
+        let level = self.kind_of(slot).level;
+        let shift = self.cells.way_round(slot, level);
+        let moving = self.moving_surfaces.iter().map(move |&surface| (surface, shift));
+        self.cells.surfaces_near(slot, level).chain(moving)
     }
 
     /// Centre \[m\] and velocity \[m/s\] of a sphere at `time` \[s\].

@@ -32,7 +32,8 @@ pub(super) struct Touch {
     pub gap: f64,
     /// How the normal turns when the spheres slide.
     pub bend: Bend,
-    /// Of the surface at the point \[m/s\]; 0 where body 1 is a sphere.
+    /// Of the surface, were it to reach as far as the centre of body 2 \[m/s\]: along the normal it is
+    /// the same where they touch. 0 where body 1 is a sphere.
     pub surface_velocity: DVec3,
     /// Of the surface \[rad/s\].
     pub surface_spin: DVec3,
@@ -113,7 +114,7 @@ impl Touch {
                     form => sphere_surface(form, center, second.kind.radius)?,
                 };
                 let bend = bend_of(&form, center, &separation);
-                Some(Self { bend, ..self.with(separation).with_motion(&motion) })
+                Some(Self { bend, ..self.with(separation).with_motion(&motion, center) })
             }
         }
     }
@@ -123,11 +124,12 @@ impl Touch {
         Self { gap: distance, normal, point, ..self }
     }
 
-    fn with_motion(self, motion: &SurfaceMotion) -> Self {
-        let surface_velocity = motion.velocity_at(self.point);
+    /// Seen from a frame that moves and turns with the surface, at the centre of the sphere.
+    fn with_motion(self, motion: &SurfaceMotion, center: DVec3) -> Self {
+        let surface_velocity = motion.velocity_at(center);
         let spin = motion.angular_velocity;
-        // The point of the surface is drawn towards the axis.
-        let surface_pull = -spin.cross(spin.cross(self.point - motion.origin));
+        // What turns with the surface is drawn towards the axis.
+        let surface_pull = -spin.cross(spin.cross(center - motion.origin));
         Self { surface_velocity, surface_spin: spin, surface_pull, ..self }
     }
 
@@ -194,10 +196,10 @@ pub(super) fn gather(
     let mut gathering = Gathering { timeline, stage, time, ..Gathering::empty(timeline, stage) };
     seeds.iter().for_each(|&seed| gathering.join(seed));
     if let [first, second] = *seeds {
-        gathering.connect_seeds(first, second);
+        gathering.connect_nearest(first, second);
     }
     if let (Some(surface), [slot]) = (surface, seeds) {
-        gathering.connect_surface(*slot, surface);
+        gathering.connect_surface(*slot, surface, true);
     }
     while let Some(slot) = gathering.frontier.pop() {
         gathering.touch_spheres(slot);
@@ -254,8 +256,9 @@ impl<'a> Gathering<'a> {
         self.touches.entry(Bodies::pair(indices)).or_insert(Found { shift, is_given });
     }
 
-    /// Two spheres that were predicted to meet now touch, whatever rounding says.
-    fn connect_seeds(&mut self, first: u32, second: u32) {
+    /// Two spheres touch, whatever rounding says: those that were predicted to meet now, or stay in
+    /// contact. In a periodic box, the nearest images do.
+    fn connect_nearest(&mut self, first: u32, second: u32) {
         let place = |slot| self.timeline.state_of(slot, self.time).0;
         let offset = place(second) - place(first);
         let shift = cells::folded(offset, self.stage.period) - offset;
@@ -263,7 +266,7 @@ impl<'a> Gathering<'a> {
     }
 
     /// Likewise for a sphere and a surface.
-    fn connect_surface(&mut self, slot: u32, surface: u32) {
+    fn connect_surface(&mut self, slot: u32, surface: u32, is_given: bool) {
         let sphere = self.timeline.index_of[slot as usize];
         let place = self.timeline.state_of(slot, self.time).0;
         let distance = |shift: DVec3| {
@@ -274,8 +277,8 @@ impl<'a> Gathering<'a> {
         let images = self.timeline.surfaces_near(slot).filter(|near| near.0 == surface);
         let nearest = images.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
         if let Some((_, shift)) = nearest {
-            let found = Found { shift: -shift, is_given: true };
-            self.touches.insert(Bodies::Surface { sphere, surface }, found);
+            let bodies = Bodies::Surface { sphere, surface };
+            self.touches.entry(bodies).or_insert(Found { shift: -shift, is_given });
         }
     }
 
@@ -335,8 +338,16 @@ impl<'a> Gathering<'a> {
         let Some(number) = timeline.kind_of(slot).cluster else { return };
         let cluster = timeline.clusters.get(number);
         cluster.members.iter().for_each(|&member| self.join(member));
-        for &(bodies, shift) in &cluster.contacts {
-            self.touches.entry(bodies).or_insert(Found { shift, is_given: false });
+        let slot_of = |index: u32| timeline.slot_of[index as usize];
+        for &bodies in &cluster.contacts {
+            match bodies {
+                Bodies::Pair(first, second) => {
+                    self.connect_nearest(slot_of(first), slot_of(second));
+                }
+                Bodies::Surface { sphere, surface } => {
+                    self.connect_surface(slot_of(sphere), surface, false);
+                }
+            }
         }
     }
 
