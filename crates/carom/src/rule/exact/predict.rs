@@ -199,8 +199,11 @@ fn meet_closing(
             meeting_of_alike([body, other], kinds, offset, start_with(other))
         } else if last_together(timeline, [slot, other_slot], [kind, other_kind]) {
             f64::INFINITY
-        } else {
+        } else if timeline.index_of[slot as usize] < timeline.index_of[other_slot as usize] {
             meeting([body, other], [kind, other_kind], shift)
+        } else {
+            // In the order of ids: the other way round the same time might round differently.
+            meeting([other, body], [other_kind, kind], -shift)
         };
         if time < first.time {
             let target = Target::Sphere(other_slot);
