@@ -97,13 +97,28 @@ fn every_mistake_is_told_with_its_line_and_field() {
         ("[camera]", "[simulation]\nduration = -1\n[camera]", "31: simulation.duration"),
         (
             "[camera]",
-            "[simulation.bisect]\nmax_halvings = 0\n[camera]",
-            "31: simulation.bisect.max_halvings: must be at least 1",
+            "[simulation]\nrule = 'bisect'\nbisect = { max_halvings = 0 }\n[camera]",
+            "32: simulation.bisect.max_halvings: must be at least 1",
         ),
         (
             "[camera]",
-            "[simulation.bisect]\ntolerance = 0.01\n[camera]",
-            "31: simulation.bisect.tolerance: must be at most 1/100 of the smallest radius, 0.1",
+            "[simulation.exact]\ncontact_duration = 0\n[camera]",
+            "31: simulation.exact.contact_duration: must be positive",
+        ),
+        (
+            "[camera]",
+            "[simulation.boundary.periodic]\nsize = [9, 0, 9]\n[camera]",
+            "31: simulation.boundary.periodic.size: must be positive",
+        ),
+        (
+            "[camera]",
+            "[simulation]\nrule = 'discrete'\nboundary = { periodic = { size = [9, 9, 9] } }\n[camera]",
+            "32: simulation.boundary: must be used with the rule `exact`",
+        ),
+        (
+            "[camera]",
+            "[simulation]\nrule = 'bisect'\nbisect = { tolerance = 0.01 }\n[camera]",
+            "32: simulation.bisect.tolerance: must be at most 1/100 of the smallest radius, 0.1",
         ),
         ("[camera]", "[colors]\nspheres = [0, 0, 2]\n[camera]", "31: colors.spheres: must have"),
         (

@@ -6,7 +6,7 @@
 
 #![allow(clippy::disallowed_methods, missing_docs)]
 
-use carom::{Collider, DQuat, DVec3, Pose, Rule, Settings, Shape, Sphere, World};
+use carom::{Bisect, Collider, DQuat, DVec3, Pose, Rule, Settings, Shape, Sphere, World};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const RADIUS: f64 = 0.5;
@@ -55,7 +55,12 @@ fn gas(count: usize, rule: Rule) -> World {
 }
 
 fn frames(criterion: &mut Criterion) {
-    for (name, rule) in [("discrete", Rule::Discrete), ("bisect", Rule::default())] {
+    let rules = [
+        ("discrete", Rule::Discrete),
+        ("bisect", Rule::Bisect(Bisect::default())),
+        ("exact", Rule::default()),
+    ];
+    for (name, rule) in rules {
         let mut group = criterion.benchmark_group(format!("gas/{name}"));
         group.sample_size(20);
         for count in [1_000, 10_000, 100_000] {

@@ -13,7 +13,7 @@ use crate::validate;
 pub struct Settings {
     /// The step rule.
     pub rule: Rule,
-    /// The integrator the rule moves spheres with.
+    /// The integrator that `discrete` and `bisect` move spheres with; `exact` needs none.
     pub integrator: Integrator,
     /// Restitution of a contact, from that of its two bodies.
     pub restitution_rule: RestitutionRule,
