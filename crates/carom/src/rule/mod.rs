@@ -48,7 +48,8 @@ pub struct Exact {
     /// were hit within that time loses no energy (the TC model of Luding and McNamara 1998). So no
     /// sequence of ever shorter bounces stops the clock.
     pub contact_duration: f64,
-    /// Impacts of one sphere in a frame; more are refused as an error, so that a step ends.
+    /// Impacts of one sphere in a frame, its contacts that had to be looked at again included; more
+    /// are refused as an error, so that a step ends.
     pub max_impacts: u32,
 }
 

@@ -32,6 +32,8 @@ const MAX_CELLS: f64 = 65_000.0;
 /// A sphere leaves its cell when it is beyond its face by this part of the cell's width: more than
 /// rounding, so that none is ever between two cells.
 const OVERHANG: f64 = 1.0 / 256.0;
+/// Cells are wider than they need be by this factor: more than the rounding of the faces' places.
+const WIDTH_SLACK: f64 = 1.0 + 1e-9;
 
 /// All levels, from the largest spheres to the smallest.
 #[derive(Debug, Clone, Default)]
@@ -362,7 +364,7 @@ impl Level {
         let count = held().count();
         let of_level = kinds.iter().filter(|kind| kind.level >= number);
         let radius = of_level.map(|kind| kind.radius).fold(0.0, f64::max);
-        let min_width = 2.0 * radius / (1.0 - 2.0 * OVERHANG) * (1.0 + 1e-9);
+        let min_width = 2.0 * radius / (1.0 - 2.0 * OVERHANG) * WIDTH_SLACK;
 
         let mut low = DVec3::INFINITY;
         let mut high = DVec3::NEG_INFINITY;

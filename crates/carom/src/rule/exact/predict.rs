@@ -256,9 +256,9 @@ fn meeting_of_alike([a, b]: [&Body; 2], kinds: [&Kind; 2], offset: DVec3, start:
     let velocity = velocity_of_alike([a, b], kinds[0].acceleration, start);
     let radius_sum = kinds[0].radius + kinds[1].radius;
     let gap = offset.length_squared() - radius_sum * radius_sum;
-    if gap.abs() <= TOUCHING * radius_sum * radius_sum {
+    if gap.abs() <= TOUCH_ROUNDING * radius_sum * radius_sum {
         // Two that touch close only if they do so by more than the rounding of their speeds.
-        let rounding = TOUCHING * radius_sum * (a.velocity.length() + b.velocity.length());
+        let rounding = TOUCH_ROUNDING * radius_sum * (a.velocity.length() + b.velocity.length());
         if -offset.dot(velocity) <= rounding {
             return f64::INFINITY;
         }
@@ -270,7 +270,7 @@ fn meeting_of_alike([a, b]: [&Body; 2], kinds: [&Kind; 2], offset: DVec3, start:
 }
 
 /// Relative rounding of a distance and of a speed of two spheres that touch.
-const TOUCHING: f64 = 64.0 * f64::EPSILON;
+const TOUCH_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// When two spheres meet that fly differently. Searched for without end: what is known already must
 /// not change by a bit what is found.

@@ -19,6 +19,10 @@ const MIN_BUCKETS: usize = 16;
 /// The queue is cleared of void entries when it holds this many times what it can need.
 const MAX_VOID_RATIO: usize = 4;
 
+/// Buckets are at least this part of the time wide: some roundings of the clock, so that the next
+/// bucket always begins later.
+const NARROWEST: f64 = 4.0 * f64::EPSILON;
+
 /// An event of a sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Entry {
@@ -158,7 +162,7 @@ impl EventQueue {
         let per_event = (median - first) / (middle + 1) as f64;
         let width = per_event * ENTRIES_PER_BUCKET as f64;
         // Events at one time need no width, but time must move on.
-        self.width = width.max(first.abs() * f64::EPSILON * 4.0).max(f64::MIN_POSITIVE);
+        self.width = width.max(NARROWEST * first.abs()).max(f64::MIN_POSITIVE);
         self.start = first;
         self.next_bucket = 0;
         self.current_end = first;

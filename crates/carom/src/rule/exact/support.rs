@@ -381,7 +381,8 @@ fn corrections(members: &[Member], touches: &[Touch], excess: &[f64]) -> Vec<DVe
     let mut residual: Vec<f64> = excess.iter().map(|excess| -excess).collect();
     let mut direction = residual.clone();
     let mut square = dot(&residual, &residual);
-    let enough = square * f64::EPSILON * f64::EPSILON;
+    // Of the squares: what is left is below the rounding of what was there.
+    let enough = square * (f64::EPSILON * f64::EPSILON);
     for _ in 0..2 * touches.len() {
         if square <= enough {
             break;

@@ -16,6 +16,9 @@ use crate::surface::{Form, Rectangle, SurfaceMotion};
 /// Bodies touch when the gap between them is below this many roundings of their coordinates: what
 /// the time of an impact and the way to it leave uncertain.
 const TOUCHING: f64 = 256.0 * f64::EPSILON;
+/// Relative rounding of a time at which two bodies may be said to meet: that of the clock, and of the
+/// sums that lead to it.
+const CLOCK_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Two bodies that touch.
 #[derive(Debug, Clone, Copy)]
@@ -329,7 +332,7 @@ impl<'a> Gathering<'a> {
     /// Gap \[m\] up to which two bodies touch: rounding of their coordinates, and how far they
     /// move in the rounding of the clock.
     fn touching_gap(&self, coordinates: f64, speed: f64) -> f64 {
-        TOUCHING * coordinates + 4.0 * f64::EPSILON * self.time.abs() * speed
+        TOUCHING * coordinates + CLOCK_ROUNDING * self.time.abs() * speed
     }
 
     /// A cluster is in a group as a whole.
