@@ -7,8 +7,8 @@
 mod common;
 
 use carom::{
-    Bisect, Collider, ConstantForce, DQuat, DVec3, Emitter, Gravity, Integrator, Pose,
-    RestitutionRule, Rule, Settings, Shape, Sphere, ViscousDrag, WindBack, World,
+    Bisect, Collider, ConstantForce, DQuat, DVec3, Emitter, Error, Exact, Gravity, Integrator,
+    Pose, RestitutionRule, Rule, Settings, Shape, Sphere, ViscousDrag, WindBack, World,
 };
 use proptest::prelude::*;
 
@@ -61,7 +61,9 @@ fn settings() -> impl Strategy<Value = Settings> {
             Rule::Bisect(Bisect { tolerance, max_halvings, max_impacts, wind_back })
         },
     );
-    let rule = prop_oneof![Just(Rule::Discrete), bisect, Just(Rule::default())];
+    // Spheres that overlap from the start may be wedged in, and meet without end.
+    let exact = Rule::Exact(Exact { max_impacts: 10_000, ..Exact::default() });
+    let rule = prop_oneof![Just(Rule::Discrete), bisect, Just(exact)];
     let integrator = prop::sample::select(vec![
         Integrator::SemiImplicitEuler,
         Integrator::ExplicitEuler,
@@ -232,7 +234,10 @@ proptest! {
         let size: f64 = spheres.iter().map(|s| s.kilograms() * s.velocity.length()).sum();
         let (momentum, energy) = (world.momentum(), world.kinetic_energy());
         for h in frames {
-            world.step(h).unwrap();
+            match world.step(h) {
+                Err(Error::TooManyImpacts { .. }) => break,
+                result => drop(result.unwrap()),
+            }
         }
         // Some hundred impacts, each rounding momenta no larger than all together.
         prop_assert!((world.momentum() - momentum).length() <= 1e-13 * size);

@@ -45,8 +45,8 @@ impl Default for Rule {
 pub struct Exact {
     /// How long a contact lasts \[s\], > 0. Two bodies that would be back in contact sooner, under
     /// the forces that press them together, stay in contact; and an impact of two spheres that both
-    /// were hit within that time loses no energy (the TC model of Luding and McNamara 1998). So no
-    /// sequence of ever shorter bounces stops the clock.
+    /// were hit within that time gives nothing back, unless it is elastic. So no sequence of ever
+    /// shorter bounces stops the clock.
     pub contact_duration: f64,
     /// Impacts of one sphere in a frame, its contacts that had to be looked at again included; more
     /// are refused as an error, so that a step ends.

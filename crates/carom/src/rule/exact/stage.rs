@@ -41,9 +41,11 @@ impl Stage<'_> {
         self.system.spheres.id[timeline.index_of[slot as usize] as usize]
     }
 
-    /// Restitution of an impact of spheres: 1 instead of less where all were hit less than a
-    /// contact's duration ago. Luding and McNamara, "How to handle the inelastic collapse of a
-    /// dissipative hard-sphere gas with the TC model", Granular Matter 1, 113 (1998).
+    /// Restitution of an impact of spheres: nothing is given back, unless all is, where all of them
+    /// were hit less than a contact's duration ago. So the shorter and shorter flights of an
+    /// inelastic collapse come to an end (McNamara and Young, Phys. Fluids A 4, 496 (1992)). The TC
+    /// model of Luding and McNamara, Granular Matter 1, 113 (1998), has the same condition and gives
+    /// back all, which leaves spheres that are wedged in to bounce without end.
     pub fn restitution_at<const N: usize>(
         &self,
         bodies: [&Body; N],
@@ -52,7 +54,7 @@ impl Stage<'_> {
     ) -> f64 {
         let was_hit =
             |body: &&Body| body.flights > 0 && time - body.time < self.parameters.contact_duration;
-        if restitution < 1.0 && bodies.iter().all(was_hit) { 1.0 } else { restitution }
+        if restitution < 1.0 && bodies.iter().all(was_hit) { 0.0 } else { restitution }
     }
 
     /// Writes down impacts that were answered together.
