@@ -37,6 +37,7 @@ impl Flight {
     }
 
     /// Centre \[m\] and velocity \[m/s\] at a time \[s\].
+    #[inline]
     pub fn after(&self, t: f64) -> (DVec3, DVec3) {
         let Propagator { decay, drift, fall } = Propagator::over(t, self.drag_rate);
         let position = self.position + (drift * self.velocity + fall * self.acceleration);
@@ -89,19 +90,26 @@ impl Propagator {
     ///
     /// Nothing is infinite, so that an absent velocity or acceleration still adds zero after any
     /// time.
+    #[inline]
     pub fn over(t: f64, drag_rate: f64) -> Self {
         let z = drag_rate * t;
         let Self { decay, drift, fall } = if z == 0.0 {
             Self { decay: 1.0, drift: t, fall: 0.5 * t * t }
-        } else if z <= SERIES_LIMIT {
+        } else {
+            Self::with_drag(t, drag_rate, z)
+        };
+        Self { decay, drift: drift.min(f64::MAX), fall: fall.min(f64::MAX) }
+    }
+
+    fn with_drag(t: f64, drag_rate: f64, z: f64) -> Self {
+        if z <= SERIES_LIMIT {
             let lost = libm::expm1(-z);
             Self { decay: 1.0 + lost, drift: t * (-lost / z), fall: t * t * f2_series(z) }
         } else {
             let decay = libm::exp(-z);
             let drift = -libm::expm1(-z) / drag_rate;
             Self { decay, drift, fall: (t - drift) / drag_rate }
-        };
-        Self { decay, drift: drift.min(f64::MAX), fall: fall.min(f64::MAX) }
+        }
     }
 }
 

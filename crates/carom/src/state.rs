@@ -78,8 +78,9 @@ impl State {
     ///
     /// # Errors
     /// [`Error::NonFiniteState`] if a force is not finite, [`Error::Invalid`] if a periodic box is
-    /// too small for the spheres.
+    /// too small for the spheres or if there are too many of them.
     pub fn begin_frame(&mut self, frame: [f64; 2]) -> Result<(), Error> {
+        self.check_count()?;
         self.check_box()?;
         let timeline = self.timeline.take();
         let (system, motion) = self.split();
@@ -88,6 +89,14 @@ impl State {
         self.timeline = Some(timeline);
         let time = frame[0];
         begun.map_err(|sphere| Error::NonFiniteState { sphere, quantity: "velocity", time })
+    }
+
+    /// Refuses more spheres than the rule `exact` can tell apart.
+    fn check_count(&self) -> Result<(), Error> {
+        let (count, most) = (self.spheres.ids().len(), exact::MAX_SPHERES);
+        let requirement = "few enough for the rule exact: at most 2^27 spheres";
+        validate::require(count <= most, "spheres", requirement, count as f64)
+            .map_err(|invalid| invalid.about(Subject::Step))
     }
 
     /// Refuses a periodic box in which a sphere could touch two images of another one.

@@ -9,14 +9,18 @@ pub(super) struct AxisMotion {
 
 impl AxisMotion {
     /// A time \[s\] before which the motion stays between `low` < 0 and `high` > 0 \[m\] from
-    /// where it is, and whether it can reach `high` first. Without drag it is when it gets there.
-    pub fn leaves(&self, low: f64, high: f64) -> (f64, bool) {
-        let up = self.reaches(high, 1.0);
-        let down = self.reaches(-low, -1.0);
-        if up <= down { (up, true) } else { (down, false) }
+    /// where it is. Without drag it is when it gets there.
+    #[inline(always)]
+    pub fn leaves(&self, low: f64, high: f64) -> f64 {
+        if self.acceleration == 0.0 && self.drag_rate == 0.0 {
+            let distance = if self.velocity > 0.0 { high.max(0.0) } else { low.min(0.0) };
+            return if self.velocity == 0.0 { f64::INFINITY } else { distance / self.velocity };
+        }
+        self.reaches(high, 1.0).min(self.reaches(-low, -1.0))
     }
 
     /// Likewise for one side, `distance` \[m\] away in the direction of `sign`.
+    #[inline(never)]
     fn reaches(&self, distance: f64, sign: f64) -> f64 {
         let (velocity, acceleration) = (sign * self.velocity, sign * self.acceleration);
         let distance = distance.max(0.0);

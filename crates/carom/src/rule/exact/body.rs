@@ -35,7 +35,7 @@ pub(super) struct Kind {
     pub acceleration: DVec3,
     /// k / m \[1/s\]
     pub drag_rate: f64,
-    /// Size class of the cells that hold it.
+    /// Size class, of those in which neighbours are looked for.
     pub level: u32,
     /// The cluster whose lasting contacts bear it. Such a sphere is of a kind of its own.
     pub cluster: Option<u32>,
@@ -53,6 +53,7 @@ impl Kind {
 
 impl Body {
     /// The flight from its start, whose own time is 0 there.
+    #[inline]
     pub fn flight(&self, kind: &Kind) -> Flight {
         Flight {
             position: self.position,
@@ -63,6 +64,7 @@ impl Body {
     }
 
     /// Centre \[m\] and velocity \[m/s\] at `time` \[s\].
+    #[inline]
     pub fn state_at(&self, kind: &Kind, time: f64) -> (DVec3, DVec3) {
         self.flight(kind).after(time - self.time)
     }

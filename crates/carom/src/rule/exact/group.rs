@@ -8,7 +8,7 @@ use super::stage::Stage;
 use super::support::{self, Support};
 use super::timeline::Timeline;
 use super::touch::{self, Touch};
-use super::{cells, predict};
+use super::{periodic, predict};
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
 use crate::report::{Impact, ImpactGroup, Participants};
@@ -65,7 +65,7 @@ pub(super) fn answer(
     let answered: Vec<Bodies> = struck.into_iter().chain(held).collect();
     begin_flights(timeline, &group, supports);
     for member in &group.members {
-        predict::predict(timeline, stage.system, member.slot, group.time);
+        predict::predict(timeline, stage, member.slot, group.time);
     }
     if let Some(bodies) = met(timeline, seeds, surface)
         && !answered.contains(&bodies)
@@ -118,7 +118,7 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
         }
         struck.push(touch.bodies);
         let between = Participants::of(touch.bodies, stage.system);
-        let point = cells::folded(touch.point, stage.period);
+        let point = periodic::folded(touch.point, stage.period);
         // Faces of a box share edges and corners, where a sphere meets several at one place.
         let same = impacts.iter_mut().find(|it| it.between == between && it.point == point);
         if let Some(impact) = same {

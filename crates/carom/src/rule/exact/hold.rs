@@ -24,6 +24,8 @@ pub(super) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64
             linear.acceleration + forces::total_of_others(system.forces, state, time) / kind.mass
         };
         timeline.begin_flight(slot, position, velocity, start);
+        // In a periodic box the flight may begin at an image of that place.
+        let (position, velocity) = timeline.state_of(slot, start);
         let before = acceleration_in(&state(position, velocity), start);
         timeline.set_acceleration(slot, before);
         let (position, velocity) = timeline.state_of(slot, start + half);

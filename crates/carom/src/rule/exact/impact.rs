@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::body::Body;
+use super::body::Kind;
 use super::predict;
 use super::stage::Stage;
-use super::timeline::{Surroundings, Timeline};
-use super::{cells, group};
+use super::timeline::Timeline;
+use super::{group, periodic};
 use crate::report::{Impact, ImpactGroup, Participants};
 use crate::respond;
 
@@ -19,106 +19,117 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
     // In the order of ids, as everywhere.
     let mut slots = slots;
     slots.sort_unstable_by_key(|&slot| timeline.index_of[slot as usize]);
-    let kinds = slots.map(|slot| *timeline.kind_of(slot));
-    let states = slots.map(|slot| timeline.state_of(slot, time));
-    let alike = kinds[0].flies_like(&kinds[1]) && kinds.iter().all(|kind| kind.cluster.is_none());
-    let mut around = std::mem::take(&mut timeline.around);
-    let is_alone = alike
-        && (0..2).all(|one| {
-            let (slot, place) = (slots[one], states[one].0);
-            timeline.cells.near(slot, kinds[one].level, &mut around[one].near);
-            let begun = Body { position: place, time, ..timeline.bodies[slot as usize] };
-            let acceleration = kinds[one].acceleration;
-            predict::measure(timeline, &begun, acceleration, &mut around[one], |_| time);
-            is_alone(timeline, [slot, slots[1 - one]], &around[one], place, time)
-                && stage.touches_no_surface(timeline, slot, place, kinds[one].radius * NEARBY, time)
-        });
-    if is_alone {
-        answer(timeline, stage, slots, states, time);
-        for one in 0..2 {
-            let slot = slots[one];
-            if timeline.bodies[slot as usize].position == states[one].0 {
-                predict::predict_from(timeline, stage.system, slot, &mut around[one], time);
-            } else {
-                // Its position was folded into the box: distances round differently now.
-                predict::predict(timeline, stage.system, slot, time);
-            }
-        }
-    } else {
-        group::answer(timeline, stage, &slots, None, time);
+    let kinds = slots.map(|slot| timeline.kind_of(slot));
+    if !kinds[0].flies_like(kinds[1]) || kinds.iter().any(|kind| kind.cluster.is_some()) {
+        return group::answer(timeline, stage, &slots, None, time);
     }
-    timeline.around = around;
+    // As if they were alone: then they need not look around once more.
+    let impact = PairImpact::at(timeline, stage, slots, time);
+    let before = slots.map(|slot| timeline.bodies[slot as usize]);
+    let after = impact.places.into_iter().zip(impact.velocities);
+    for (slot, (place, velocity)) in slots.into_iter().zip(after) {
+        timeline.bodies[slot as usize].begin_flight(place, velocity, time);
+    }
+    if !(0..2).all(|one| is_alone(timeline, stage, slots, one, time)) {
+        slots
+            .into_iter()
+            .zip(before)
+            .for_each(|(slot, body)| timeline.bodies[slot as usize] = body);
+        return group::answer(timeline, stage, &slots, None, time);
+    }
+    impact.record(timeline, stage, slots);
+    let is_folded = slots.map(|slot| timeline.fold(slot));
+    for (one, slot) in slots.into_iter().enumerate() {
+        if is_folded[one] {
+            // In another place distances round differently.
+            predict::predict(timeline, stage, slot, time);
+        } else {
+            let around = &stage.around[one];
+            let outlook = predict::outlook_from_here(timeline, stage.system, slot, around, time);
+            timeline.schedule(slot, outlook);
+        }
+    }
 }
 
-/// Whether a sphere touches nothing but one other at `time` \[s\].
-#[inline]
+/// Whether one of two spheres, whose flights begin at `time` \[s\], touches nothing but the other.
+/// It looks around.
+#[inline(always)]
 fn is_alone(
     timeline: &Timeline,
-    [slot, other]: [u32; 2],
-    around: &Surroundings,
-    place: DVec3,
-    time: f64,
-) -> bool {
-    let kind = timeline.kind_of(slot);
-    let is_apart = |near: u32, offset: DVec3, shift: DVec3| {
-        let near_kind = timeline.kind_of(near);
-        // The distances of spheres that fly differently were not measured.
-        let offset = if near_kind.flies_like(kind) {
-            offset
-        } else {
-            timeline.state_of(near, time).0 + shift - place
-        };
-        let reach = (kind.radius + near_kind.radius) * (1.0 + NEARBY);
-        offset.length_squared() > reach * reach || near == other
-    };
-    let Surroundings { near, offsets, .. } = around;
-    let (same_box, of_images) = offsets.split_at(near.in_same_box().len());
-    let mut in_same_box = near.in_same_box().iter().zip(same_box);
-    let mut images = near.images().iter().zip(of_images);
-    in_same_box.all(|(&near, &offset)| is_apart(near, offset, DVec3::ZERO))
-        && images.all(|(&(near, shift), &offset)| is_apart(near, offset, shift))
-}
-
-/// Gives the two spheres their impulse, and writes it down.
-fn answer(
-    timeline: &mut Timeline,
     stage: &mut Stage,
     slots: [u32; 2],
-    states: [(DVec3, DVec3); 2],
+    one: usize,
     time: f64,
-) {
-    let kinds = slots.map(|slot| *timeline.kind_of(slot));
-    let [(x1, v1), (x2, v2)] = states;
-    let offset = cells::folded(x2 - x1, stage.period);
-    let normal = offset / offset.length();
-    let approach_speed = (v1 - v2).dot(normal);
-    let bodies = slots.map(|slot| timeline.bodies[slot as usize]);
-    let restitution = stage.restitution_rule().combine(kinds[0].restitution, kinds[1].restitution);
-    let restitution = stage.restitution_at([&bodies[0], &bodies[1]], restitution, time);
-    let masses = kinds.map(|kind| kind.mass);
-    // A grazing contact may turn out, by rounding, not to close: then nothing happens.
-    if let Some((after, impulse)) = respond::line_of_centres([v1, v2], masses, normal, restitution)
-    {
-        let separation_speed = (after[1] - after[0]).dot(normal);
-        let [first, second] = slots.map(|slot| stage.id_of(timeline, slot));
-        let between = Participants::Spheres(first, second);
-        let point = cells::folded(x1 + kinds[0].radius * normal, stage.period);
-        let impact = Impact {
-            time: stage.since_start(time),
-            between,
-            point,
+) -> bool {
+    let (slot, other) = (slots[one], slots[1 - one]);
+    let Kind { level, radius, .. } = *timeline.kind_of(slot);
+    let around = &mut stage.around[one];
+    timeline.neighbours.near(slot, level, &mut around.near);
+    let touches = around.look(timeline, slot, |_| time, (other, NEARBY));
+    let place = timeline.bodies[slot as usize].position;
+    !touches && stage.touches_no_surface(timeline, slot, place, radius * NEARBY, time)
+}
+
+/// The impact of two spheres by itself, which all laws answer alike.
+struct PairImpact {
+    time: f64,
+    places: [DVec3; 2],
+    velocities_before: [DVec3; 2],
+    velocities: [DVec3; 2],
+    normal: DVec3,
+    approach_speed: f64,
+    restitution: f64,
+    /// \[N s\]; `None` if a grazing contact turns out, by rounding, not to close.
+    impulse: Option<f64>,
+}
+
+impl PairImpact {
+    #[inline(always)]
+    fn at(timeline: &Timeline, stage: &Stage, slots: [u32; 2], time: f64) -> Self {
+        let kinds = slots.map(|slot| timeline.kind_of(slot));
+        let [(x1, v1), (x2, v2)] = slots.map(|slot| timeline.state_of(slot, time));
+        let offset = periodic::folded(x2 - x1, stage.period);
+        let normal = offset / offset.length();
+        let [e1, e2] = kinds.map(|kind| kind.restitution);
+        let restitution = stage.restitution_rule().combine(e1, e2);
+        let bodies = slots.map(|slot| &timeline.bodies[slot as usize]);
+        let restitution = stage.restitution_at(bodies, restitution, time);
+        let masses = kinds.map(|kind| kind.mass);
+        let answer = respond::line_of_centres([v1, v2], masses, normal, restitution);
+        Self {
+            time,
+            places: [x1, x2],
+            velocities_before: [v1, v2],
+            velocities: answer.map_or([v1, v2], |answer| answer.0),
             normal,
-            approach_speed,
-            separation_speed,
+            approach_speed: (v1 - v2).dot(normal),
+            restitution,
+            impulse: answer.map(|answer| answer.1),
+        }
+    }
+
+    fn record(&self, timeline: &Timeline, stage: &mut Stage, slots: [u32; 2]) {
+        let Some(impulse) = self.impulse else { return };
+        let kinds = slots.map(|slot| timeline.kind_of(slot));
+        let [first, second] = slots.map(|slot| stage.id_of(timeline, slot));
+        let point = self.places[0] + kinds[0].radius * self.normal;
+        let impact = Impact {
+            time: stage.since_start(self.time),
+            between: Participants::Spheres(first, second),
+            point: periodic::folded(point, stage.period),
+            normal: self.normal,
+            approach_speed: self.approach_speed,
+            separation_speed: (self.velocities[1] - self.velocities[0]).dot(self.normal),
             impulse,
         };
-        let account = account_of([v1, v2], after, masses, approach_speed, restitution);
+        let account = account_of(
+            self.velocities_before,
+            self.velocities,
+            kinds.map(|kind| kind.mass),
+            self.approach_speed,
+            self.restitution,
+        );
         stage.record(&[impact], account);
-        timeline.begin_flight(slots[0], x1, after[0], time);
-        timeline.begin_flight(slots[1], x2, after[1], time);
-    } else {
-        timeline.begin_flight(slots[0], x1, v1, time);
-        timeline.begin_flight(slots[1], x2, v2, time);
     }
 }
 

@@ -1,6 +1,6 @@
 //! The rule `exact`: spheres fly in closed form from event to event.
 //!
-//! 1. **predict** what each sphere comes upon next: another sphere, a surface, the end of its cell
+//! 1. **predict** what each sphere comes upon next: another sphere, a surface, the end of its neighbourhood
 //! 2. take the first event from the **queue**
 //! 3. **impact**: answer it, with all that touch there, and predict anew what changed
 //!
@@ -8,18 +8,25 @@
 
 mod axis_motion;
 mod body;
-mod cells;
 mod cluster;
+mod grid;
 mod group;
 mod hold;
 mod impact;
+mod lists;
+mod near_surfaces;
+mod neighbour;
+mod neighbours;
+mod periodic;
 mod predict;
 mod queue;
 mod stage;
 mod support;
+mod surroundings;
 mod timeline;
 mod touch;
 
+pub(crate) use neighbour::MAX_SPHERES;
 use stage::Stage;
 pub(crate) use timeline::Timeline;
 use timeline::{Next, Target};
@@ -59,19 +66,20 @@ pub(crate) fn advance(
 ) -> Result<(), TooManyImpacts> {
     let Rule::Exact(parameters) = system.settings.rule else { return Ok(()) };
     let period = system.settings.boundary.period();
-    let mut stage = Stage { system, parameters, report, start, length, period };
+    let around = Default::default();
+    let mut stage = Stage { system, parameters, report, start, length, period, around };
     while let Some((slot, next)) = timeline.next(end) {
         let event = match next {
             Next::Event(event) => event,
-            Next::Crossing(crossing) => {
-                predict::cross(timeline, system, slot, crossing);
+            Next::Departure(time) => {
+                predict::relocate(timeline, &mut stage, slot, time);
                 continue;
             }
         };
         match event.target {
-            Target::Restart => predict::restart(timeline, system, slot, event.time),
+            Target::Restart => predict::restart(timeline, &mut stage, slot, event.time),
             Target::Sphere(other) if timeline.bodies[other as usize].flights != event.flights => {
-                predict::predict(timeline, system, slot, event.time);
+                predict::predict(timeline, &mut stage, slot, event.time);
             }
             Target::Sphere(other) => {
                 impact::of_spheres(timeline, &mut stage, [slot, other], event.time);

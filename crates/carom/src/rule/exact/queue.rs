@@ -1,9 +1,9 @@
 //! The queue of events: which sphere's next event comes first.
 //!
 //! A calendar queue (Brown 1988; with bounded increment, Paul, J. Comput. Phys. 221, 615, 2007):
-//! events lie unsorted in buckets of time, and only the bucket at work is kept in order, in a heap
-//! small enough to stay in the fastest cache. What lies beyond the last bucket waits on one pile.
-//! An operation takes constant time, whatever the number of events.
+//! events lie unsorted in buckets of time, and only the bucket at work is sorted; what comes into it
+//! later goes into a small heap. What lies beyond the last bucket waits on one pile. An operation
+//! takes constant time, whatever the number of events.
 //!
 //! Each sphere has one event at a time. When it changes, the old entry stays where it is and is
 //! dropped when its turn comes, for its time is no longer the sphere's.
@@ -52,8 +52,10 @@ impl PartialOrd for Entry {
 /// Events in the order of time.
 #[derive(Debug, Clone, Default)]
 pub(super) struct EventQueue {
-    /// Events before `current_end`, in order.
-    current: BinaryHeap<Reverse<Entry>>,
+    /// Events before `current_end`, the first one last.
+    current: Vec<Entry>,
+    /// Likewise, those that were added since the bucket was sorted.
+    late: BinaryHeap<Reverse<Entry>>,
     current_end: f64,
     /// Bucket `b` holds events from `start + b width` to `start + (b + 1) width`.
     buckets: Vec<Vec<Entry>>,
@@ -88,7 +90,7 @@ impl EventQueue {
         }
         self.len += 1;
         if entry.time < self.current_end {
-            self.current.push(Reverse(entry));
+            self.late.push(Reverse(entry));
         } else {
             match self.bucket_of(entry.time) {
                 Some(bucket) => self.buckets[bucket].push(entry),
@@ -108,11 +110,15 @@ impl EventQueue {
     /// Takes out the first event that is not void and not later than `end` \[s\].
     pub fn pop(&mut self, end: f64, is_live: impl Fn(&Entry) -> bool) -> Option<Entry> {
         loop {
-            while let Some(&Reverse(first)) = self.current.peek() {
+            while let Some((first, is_late)) = self.first() {
                 if first.time > end {
                     return None;
                 }
-                self.current.pop();
+                if is_late {
+                    self.late.pop();
+                } else {
+                    self.current.pop();
+                }
                 self.len -= 1;
                 if is_live(&first) {
                     return Some(first);
@@ -122,6 +128,24 @@ impl EventQueue {
                 return None;
             }
         }
+    }
+
+    /// The first entry of the current bucket, and whether it is a late one.
+    #[inline]
+    fn first(&self) -> Option<(Entry, bool)> {
+        match (self.current.last(), self.late.peek()) {
+            (Some(&sorted), Some(&Reverse(late))) if late < sorted => Some((late, true)),
+            (Some(&sorted), _) => Some((sorted, false)),
+            (None, Some(&Reverse(late))) => Some((late, true)),
+            (None, None) => None,
+        }
+    }
+
+    /// The slot of an entry that is among the next, but for those that were added late.
+    #[inline]
+    pub fn upcoming(&self, place: usize) -> Option<u32> {
+        let place = self.current.len().checked_sub(place + 1)?;
+        Some(self.current[place].slot)
     }
 
     /// Makes the next bucket that is not empty the current one.
@@ -135,10 +159,9 @@ impl EventQueue {
                 continue;
             }
             let before = entries.len();
-            let mut heap = std::mem::take(&mut self.current).into_vec();
-            heap.extend(entries.drain(..).filter(|entry| is_live(entry)).map(Reverse));
-            self.len -= before - heap.len();
-            self.current = heap.into();
+            self.current.extend(entries.drain(..).filter(|entry| is_live(entry)));
+            self.len -= before - self.current.len();
+            self.current.sort_unstable_by(|a, b| b.cmp(a));
             if !self.current.is_empty() {
                 return true;
             }
@@ -176,11 +199,12 @@ impl EventQueue {
         if self.len <= MAX_VOID_RATIO * self.spheres.max(ENTRIES_PER_BUCKET * MIN_BUCKETS) {
             return;
         }
-        self.current.retain(|entry| is_live(&entry.0));
+        self.current.retain(|entry| is_live(entry));
+        self.late.retain(|entry| is_live(&entry.0));
         self.buckets.iter_mut().for_each(|bucket| bucket.retain(|entry| is_live(entry)));
         self.far.retain(|entry| is_live(entry));
         let waiting: usize = self.buckets.iter().map(Vec::len).sum();
-        self.len = self.current.len() + waiting + self.far.len();
+        self.len = self.current.len() + self.late.len() + waiting + self.far.len();
     }
 }
 

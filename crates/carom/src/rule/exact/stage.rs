@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::body::Body;
+use super::surroundings::Surroundings;
 use super::timeline::Timeline;
 use crate::bodies::SphereId;
 use crate::detect::sphere_surface;
@@ -24,6 +25,8 @@ pub(super) struct Stage<'a> {
     pub length: f64,
     /// Edges of the periodic box \[m\]; infinite along an open axis.
     pub period: DVec3,
+    /// Working memory: what is around the spheres at work.
+    pub around: [Surroundings; 2],
 }
 
 impl Stage<'_> {
@@ -79,6 +82,9 @@ impl Stage<'_> {
         margin: f64,
         time: f64,
     ) -> bool {
+        if self.system.surfaces.is_empty() {
+            return true;
+        }
         let radius = timeline.kind_of(slot).radius;
         timeline.surfaces_near(slot).all(|(surface, shift)| {
             let (form, _) = self.surface_at(surface, time);

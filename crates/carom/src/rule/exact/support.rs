@@ -283,7 +283,7 @@ fn sliding_time(
                 acceleration: accelerations.each[touch.second].dot(axis),
                 drag_rate: member.kind.drag_rate,
             };
-            time = time.min(motion.leaves(-half_length - place, half_length - place).0);
+            time = time.min(motion.leaves(-half_length - place, half_length - place));
         }
     }
     time

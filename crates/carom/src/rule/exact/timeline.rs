@@ -5,10 +5,12 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::body::{Body, Kind};
-use super::cells::{self, Cells, Contents, Crossing, Near};
 use super::cluster::{Cluster, Clusters};
+use super::neighbours::{self, Contents, Neighbours};
+use super::periodic;
 use super::queue::{Entry, EventQueue};
 use super::support::Support;
+use super::surroundings::Surroundings;
 use super::{hold, predict};
 use crate::bodies::{Motion, SphereId};
 use crate::forces;
@@ -19,18 +21,19 @@ use crate::system::System;
 /// cost little, often enough that neighbours stay near each other in memory.
 const EVENTS_PER_ARRANGEMENT: u64 = 24;
 
+/// More spheres than this do not stay in the fast caches.
+const MANY: usize = 20_000;
+
 /// All that the rule keeps between frames.
 ///
-/// Only the flights and the clusters are state. Cells, queue and events follow from them: they
+/// Only the flights and the clusters are state. Neighbours, queue and events follow from them: they
 /// decide how fast the next event is found, never what it is.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Timeline {
     /// By slot: in the order of places, so that neighbours share memory.
     pub(super) bodies: Vec<Body>,
-    /// What each sphere meets next, by slot.
-    pub(super) events: Vec<Event>,
-    /// When each sphere leaves its cell, by slot.
-    pub(super) crossings: Vec<Crossing>,
+    /// What lies ahead of each sphere, by slot.
+    pub(super) outlooks: Vec<Outlook>,
     pub(super) kinds: Vec<Kind>,
     /// Kinds that nobody is of.
     spare_kinds: Vec<u32>,
@@ -39,7 +42,7 @@ pub(crate) struct Timeline {
     /// Place of each slot in the arrays of the world, and back.
     pub(super) index_of: Vec<u32>,
     pub(super) slot_of: Vec<u32>,
-    pub(super) cells: Cells,
+    pub(super) neighbours: Neighbours,
     pub(super) queue: EventQueue,
     pub(super) clusters: Clusters,
     /// Surfaces that move: near every sphere.
@@ -50,18 +53,6 @@ pub(crate) struct Timeline {
     /// Whether spheres are under forces that are held constant over a frame.
     holds_forces: bool,
     events_since_arranged: u64,
-    /// Working memory: spheres near those at work.
-    pub(super) around: [Surroundings; 2],
-}
-
-/// Who is near a sphere.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Surroundings {
-    pub near: Near,
-    /// From the centre of the sphere to that of each \[m\].
-    pub offsets: Vec<DVec3>,
-    /// The places in that order of those that it may meet.
-    pub closing: Vec<u32>,
 }
 
 /// What a sphere meets next.
@@ -74,11 +65,29 @@ pub(super) struct Event {
     pub flights: u32,
 }
 
+/// What lies ahead of a sphere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Outlook {
+    pub event: Event,
+    /// When it leaves its neighbourhood, on the world's clock \[s\].
+    pub departure: f64,
+}
+
+impl Outlook {
+    const EMPTY: Self = Self { event: Event::NEVER, departure: f64::INFINITY };
+
+    /// When the first of it happens, on the world's clock \[s\].
+    fn time(&self) -> f64 {
+        self.event.time.min(self.departure)
+    }
+}
+
 /// What happens next to a sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Next {
     Event(Event),
-    Crossing(Crossing),
+    /// It leaves its neighbourhood at this time \[s\].
+    Departure(f64),
 }
 
 /// What a sphere comes upon.
@@ -103,6 +112,7 @@ impl Timeline {
         let mut timeline = Self { frame: [time; 2], ..Self::default() };
         timeline.take_in(system, motion, |_| Err(time));
         timeline.arrange(system, time);
+        timeline.predict_all(system, time);
         timeline
     }
 
@@ -121,10 +131,11 @@ impl Timeline {
             Ok(index) => Ok(before.free_flight_of(index, time)),
             Err(_) => Err(time_of(id)),
         });
+        timeline.arrange(system, time);
         if timeline.holds_forces {
             hold::renew(&mut timeline, system, [time, before.frame[1]]);
         }
-        timeline.arrange(system, time);
+        timeline.predict_all(system, time);
         timeline
     }
 
@@ -166,7 +177,7 @@ impl Timeline {
     /// Gathers the spheres into kinds; gives the kind of each.
     fn find_kinds(&mut self, system: &System) -> Vec<u32> {
         let spheres = system.spheres;
-        let levels = cells::levels_of(&spheres.radius);
+        let levels = neighbours::levels_of(&spheres.radius);
         let mut known = BTreeMap::new();
         let mut kinds_of = Vec::with_capacity(levels.len());
         for (index, &level) in levels.iter().enumerate() {
@@ -197,16 +208,15 @@ impl Timeline {
         kinds_of
     }
 
-    /// Puts the spheres in the order of their places and predicts everything anew, as of `time`
-    /// \[s\].
-    pub fn arrange(&mut self, system: &System, time: f64) {
+    /// Puts the spheres in the order of their places, and finds who is near whom, as of `time`
+    /// \[s\]. What was predicted is void.
+    fn arrange(&mut self, system: &System, time: f64) {
         self.moving_surfaces = (0u32..)
             .zip(system.surfaces)
             .filter(|(_, surface)| surface.role == Role::Deflects && !surface.motion.is_at_rest())
             .map(|(number, _)| number)
             .collect();
-        self.fill_cells(system, time);
-        let order = self.cells.curve_order();
+        let order = self.contents(system, time).curve_order();
         if order.windows(2).any(|pair| pair[0] > pair[1]) {
             let mut new_slots = vec![0; order.len()];
             for (new, &old) in (0u32..).zip(&order) {
@@ -218,13 +228,13 @@ impl Timeline {
                 self.slot_of[index as usize] = slot;
             }
             self.clusters.renumber(|slot| new_slots[slot as usize]);
-            self.fill_cells(system, time);
         }
-        self.predict_all(system, time);
+        self.neighbours = Neighbours::new(self.contents(system, time));
+        self.events_since_arranged = 0;
     }
 
-    fn fill_cells(&mut self, system: &System, time: f64) {
-        self.cells = Cells::new(Contents {
+    fn contents<'a>(&'a self, system: &System<'a>, time: f64) -> Contents<'a> {
+        Contents {
             bodies: &self.bodies,
             kinds: &self.kinds,
             time,
@@ -232,28 +242,18 @@ impl Timeline {
             surfaces: system.surfaces,
             tree: system.tree,
             spheres_collide: system.settings.spheres_collide,
-        });
-    }
-
-    /// Predicts the next event of every sphere, as of `time` \[s\].
-    pub fn predict_all(&mut self, system: &System, time: f64) {
-        self.events_since_arranged = 0;
-        self.queue = EventQueue::new(self.bodies.len());
-        self.events.clear();
-        self.events.resize(self.bodies.len(), Event::NEVER);
-        self.crossings.clear();
-        self.crossings.resize(self.bodies.len(), Crossing::NEVER);
-        for slot in 0..self.bodies.len() as u32 {
-            predict::predict(self, system, slot, time);
         }
     }
 
-    /// Puts the spheres in order again if enough has happened since.
-    pub fn arrange_if_due(&mut self, system: &System, time: f64) {
-        let is_live = |entry: &Entry| is_live(&self.events, &self.crossings, entry);
-        self.queue.tidy(is_live);
-        if self.events_since_arranged > EVENTS_PER_ARRANGEMENT * self.bodies.len() as u64 {
-            self.arrange(system, time);
+    /// Predicts the next event of every sphere, as of `time` \[s\].
+    fn predict_all(&mut self, system: &System, time: f64) {
+        self.queue = EventQueue::new(self.bodies.len());
+        self.outlooks.clear();
+        self.outlooks.resize(self.bodies.len(), Outlook::EMPTY);
+        let mut around = Surroundings::default();
+        for slot in 0..self.bodies.len() as u32 {
+            let outlook = predict::outlook(self, system, slot, &mut around, time);
+            self.schedule(slot, outlook);
         }
     }
 
@@ -270,40 +270,81 @@ impl Timeline {
                 return Err(system.spheres.id[self.index_of[slot] as usize]);
             }
         }
-        if self.holds_forces || !self.moving_surfaces.is_empty() {
-            self.predict_all(system, frame[0]);
+        let events = EVENTS_PER_ARRANGEMENT * self.bodies.len() as u64;
+        let is_due = self.events_since_arranged > events;
+        if is_due {
+            self.arrange(system, frame[0]);
         }
-        self.arrange_if_due(system, frame[0]);
+        if is_due || self.holds_forces || !self.moving_surfaces.is_empty() {
+            self.predict_all(system, frame[0]);
+        } else {
+            self.queue.tidy(|entry| is_live(&self.outlooks, entry));
+        }
         self.count_flights();
         Ok(())
     }
 
     /// Notes what a sphere meets next.
     pub(super) fn reschedule(&mut self, slot: u32, event: Event) {
-        self.schedule(slot, event, self.crossings[slot as usize]);
+        self.schedule(slot, Outlook { event, ..self.outlooks[slot as usize] });
     }
 
-    /// Notes what a sphere meets next, and when it leaves its cell.
+    /// Notes what lies ahead of a sphere.
     #[inline]
-    pub(super) fn schedule(&mut self, slot: u32, event: Event, crossing: Crossing) {
-        self.events[slot as usize] = event;
-        self.crossings[slot as usize] = crossing;
+    pub(super) fn schedule(&mut self, slot: u32, outlook: Outlook) {
+        self.outlooks[slot as usize] = outlook;
         let index = self.index_of[slot as usize];
-        self.queue.push(Entry { time: event.time.min(crossing.time), slot, index });
+        self.queue.push(Entry { time: outlook.time(), slot, index });
     }
 
     /// What happens next, not later than `end` \[s\], and to which sphere.
     pub(super) fn next(&mut self, end: f64) -> Option<(u32, Next)> {
-        let Self { events, crossings, .. } = self;
-        let entry = self.queue.pop(end, |entry| is_live(events, crossings, entry))?;
+        let entry = self.queue.pop(end, |entry| is_live(&self.outlooks, entry))?;
+        self.anticipate();
         self.events_since_arranged += 1;
-        let (event, crossing) = (&events[entry.slot as usize], &crossings[entry.slot as usize]);
-        let next = if crossing.time < event.time {
-            Next::Crossing(*crossing)
-        } else {
-            Next::Event(*event)
-        };
+        let Outlook { event, departure } = self.outlooks[entry.slot as usize];
+        let next =
+            if departure < event.time { Next::Departure(departure) } else { Next::Event(event) };
         Some((entry.slot, next))
+    }
+
+    /// Whether there are more spheres than the fast caches hold.
+    #[inline(always)]
+    pub fn are_many(&self) -> bool {
+        self.bodies.len() > MANY
+    }
+
+    /// Reads what the next events will need, so that it is in the cache by then: all at once, not one
+    /// after another. Nothing is done with it.
+    #[inline]
+    fn anticipate(&self) {
+        if !self.are_many() {
+            return;
+        }
+        let Self { outlooks, bodies, neighbours, queue, .. } = self;
+        // What is read in one step is found from what was read in the steps before.
+        let spheres = |place: usize| {
+            let slot = queue.upcoming(place);
+            let other = slot.and_then(|slot| match outlooks[slot as usize].event.target {
+                Target::Sphere(other) => Some(other),
+                _ => None,
+            });
+            slot.into_iter().chain(other)
+        };
+        let mut read = 0.0;
+        if let Some(slot) = queue.upcoming(8) {
+            read += outlooks[slot as usize].departure + bodies[slot as usize].time;
+        }
+        for slot in spheres(6) {
+            read += bodies[slot as usize].time + neighbours.read_place(slot);
+        }
+        for slot in spheres(3) {
+            read += neighbours.read_cells(slot);
+        }
+        for slot in spheres(1) {
+            read += neighbours.read_bodies(slot, bodies);
+        }
+        std::hint::black_box(read);
     }
 
     pub(super) fn kind_of(&self, slot: u32) -> &Kind {
@@ -352,13 +393,13 @@ impl Timeline {
         }
     }
 
-    /// Surfaces that a sphere may meet before it leaves its cell, with the shift \[m\] that brings
-    /// them to where its position counts.
+    /// Surfaces that a sphere may meet in its neighbourhood, with the shift \[m\] that brings them to
+    /// where its position counts.
     pub fn surfaces_near(&self, slot: u32) -> impl Iterator<Item = (u32, DVec3)> {
         let level = self.kind_of(slot).level;
-        let shift = self.cells.way_round(slot, level);
+        let shift = self.neighbours.way_round(slot);
         let moving = self.moving_surfaces.iter().map(move |&surface| (surface, shift));
-        self.cells.surfaces_near(slot, level).chain(moving)
+        self.neighbours.surfaces_near(slot, level).chain(moving)
     }
 
     /// Centre \[m\] and velocity \[m/s\] of a sphere at `time` \[s\].
@@ -369,17 +410,25 @@ impl Timeline {
 
     /// Begins another flight of a sphere from this state at `time` \[s\].
     pub fn begin_flight(&mut self, slot: u32, position: DVec3, velocity: DVec3, time: f64) {
-        let level = self.kind_of(slot).level;
-        let position = self.cells.fold(slot, level, position);
         self.bodies[slot as usize].begin_flight(position, velocity, time);
+        self.fold(slot);
     }
 
-    /// The flight of the sphere at an index of the world's arrays. One that lasting contacts bear
-    /// begins another flight at `time` \[s\], free of them.
+    /// Folds the place where a flight begins into the periodic box; whether it was elsewhere.
+    #[inline]
+    pub fn fold(&mut self, slot: u32) -> bool {
+        let Body { position, kind, .. } = self.bodies[slot as usize];
+        let folded = self.neighbours.fold(slot, self.kinds[kind as usize].level, position);
+        self.bodies[slot as usize].position = folded;
+        folded != position
+    }
+
+    /// The flight of the sphere at an index of the world's arrays. Where forces of lasting contacts or
+    /// forces held constant act on it, another flight begins at `time` \[s\], free of them.
     fn free_flight_of(&self, index: usize, time: f64) -> Body {
         let slot = self.slot_of[index];
         let mut body = self.bodies[slot as usize];
-        if self.kind_of(slot).cluster.is_some() {
+        if self.holds_forces || self.kind_of(slot).cluster.is_some() {
             let (position, velocity) = self.state_of(slot, time);
             body.begin_flight(position, velocity, time);
         }
@@ -390,14 +439,13 @@ impl Timeline {
     pub fn write_motion(&self, motion: &mut Motion, period: DVec3, time: f64) {
         for (body, &index) in self.bodies.iter().zip(&self.index_of) {
             let (position, velocity) = body.state_at(&self.kinds[body.kind as usize], time);
-            motion.position[index as usize] = cells::folded(position, period);
+            motion.position[index as usize] = periodic::folded(position, period);
             motion.velocity[index as usize] = velocity;
         }
     }
 }
 
 /// Whether an entry of the queue still tells what happens next to its sphere.
-fn is_live(events: &[Event], crossings: &[Crossing], entry: &Entry) -> bool {
-    let slot = entry.slot as usize;
-    events[slot].time.min(crossings[slot].time) == entry.time
+fn is_live(outlooks: &[Outlook], entry: &Entry) -> bool {
+    outlooks[entry.slot as usize].time() == entry.time
 }

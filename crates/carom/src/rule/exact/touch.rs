@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::cells::{self, Near};
 use super::group::{Group, Member};
+use super::neighbours::Vicinity;
+use super::periodic;
 use super::stage::Stage;
 use super::timeline::Timeline;
 use crate::detect::contact::Bodies;
@@ -264,7 +265,7 @@ impl<'a> Gathering<'a> {
     fn connect_nearest(&mut self, first: u32, second: u32) {
         let place = |slot| self.timeline.state_of(slot, self.time).0;
         let offset = place(second) - place(first);
-        let shift = cells::folded(offset, self.stage.period) - offset;
+        let shift = periodic::folded(offset, self.stage.period) - offset;
         self.connect([first, second], shift);
     }
 
@@ -293,9 +294,10 @@ impl<'a> Gathering<'a> {
         let kind = *timeline.kind_of(slot);
         let (place, velocity) = timeline.state_of(slot, self.time);
         let mut found = Vec::new();
-        let mut around = Near::default();
-        timeline.cells.near(slot, kind.level, &mut around);
-        for (near, shift) in around.iter() {
+        let mut around = Vicinity::default();
+        timeline.neighbours.near(slot, kind.level, &mut around);
+        for neighbour in around.iter() {
+            let (near, shift) = (neighbour.slot(), timeline.neighbours.shift_of(slot, neighbour));
             let (near_place, near_velocity) = timeline.state_of(near, self.time);
             let radius_sum = kind.radius + timeline.kind_of(near).radius;
             let gap = (near_place + shift - place).length() - radius_sum;

@@ -1,0 +1,295 @@
+//! Grids: which places are near each other.
+
+use std::ops::{Range, RangeInclusive};
+
+use glam::DVec3;
+
+use crate::detect::surface_tree::Bounds;
+
+/// Below this number of spheres, one cell for all of them is faster than any grid.
+const SINGLE_CELL: usize = 24;
+/// Cells per sphere, at most.
+const CELLS_PER_SPHERE: f64 = 4.0;
+/// Cells along an axis, at most: a coordinate is 16 bits.
+const MAX_CELLS: f64 = 65_000.0;
+
+/// Cells of equal size. The outermost ones of an open axis reach to infinity; a periodic axis closes
+/// on itself.
+#[derive(Debug, Clone)]
+pub(super) struct Grid {
+    /// Corner of cell (0, 0, 0) \[m\].
+    origin: DVec3,
+    /// Edges of a cell \[m\].
+    width: DVec3,
+    counts: [u16; 3],
+    periodic: [bool; 3],
+}
+
+/// Cells about one that lie side by side and are seen from there alike.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Block<'a> {
+    grid: &'a Grid,
+    first: [u16; 3],
+    lens: [u16; 3],
+    /// How often the way there goes round each periodic axis.
+    pub turns: [i8; 3],
+    /// Whether these cells, or the one they are seen from, reach to infinity along each axis.
+    pub is_endless: [bool; 3],
+}
+
+impl Block<'_> {
+    /// Visits the cells, in rows one after another.
+    #[inline(always)]
+    pub fn for_each_row(&self, mut visit: impl FnMut(Range<usize>)) {
+        let [row, layer] = [self.grid.counts[0], self.grid.counts[1]].map(usize::from);
+        let mut first_of_layer = self.grid.index(self.first);
+        let [x, y, z] = self.lens.map(usize::from);
+        for _ in 0..z {
+            let mut first = first_of_layer;
+            for _ in 0..y {
+                visit(first..first + x);
+                first += row;
+            }
+            first_of_layer += row * layer;
+        }
+    }
+}
+
+/// A [`Block`] along one axis.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    first: u16,
+    len: u16,
+    turns: i8,
+    is_endless: bool,
+}
+
+/// A side of a cell: downward or upward along an axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Side {
+    axis: usize,
+    step: i16,
+}
+
+impl Grid {
+    /// A grid over these places \[m\]: its cells at least `min_width` \[m\] wide, and not more than
+    /// are worth while for the number of spheres that `seek` each other.
+    pub fn over(
+        places: impl Iterator<Item = DVec3>,
+        period: DVec3,
+        min_width: f64,
+        seek: usize,
+    ) -> Self {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        places.for_each(|place| (low, high) = (low.min(place), high.max(place)));
+        let periodic = [0, 1, 2].map(|axis| period[axis].is_finite());
+        for axis in 0..3 {
+            if periodic[axis] {
+                (low[axis], high[axis]) = (-0.5 * period[axis], 0.5 * period[axis]);
+            }
+        }
+        let extent = (high - low).max(DVec3::ZERO);
+        let counts = cell_counts([1; 3], extent, min_width, seek);
+        let width = DVec3::from_array([0, 1, 2].map(|axis| {
+            let width = extent[axis] / f64::from(counts[axis]);
+            if periodic[axis] { width } else { width.max(min_width) }
+        }));
+        Self { origin: low, width, counts, periodic }
+    }
+
+    /// A grid whose cells are parts of the cells of this one, likewise.
+    pub fn divided(&self, min_width: f64, seek: usize) -> Self {
+        let counts = cell_counts(self.counts, self.width, min_width, seek);
+        let parts = [0, 1, 2].map(|axis| f64::from(counts[axis] / self.counts[axis]));
+        Self { width: self.width / DVec3::from_array(parts), counts, ..self.clone() }
+    }
+
+    /// How many cells there are.
+    pub fn len(&self) -> usize {
+        self.counts.iter().map(|&count| usize::from(count)).product()
+    }
+
+    /// Edges of a cell \[m\].
+    pub fn width(&self) -> DVec3 {
+        self.width
+    }
+
+    /// Centre of a cell \[m\].
+    #[inline]
+    pub fn center(&self, cell: [u16; 3]) -> DVec3 {
+        self.origin + (DVec3::from_array(cell.map(f64::from)) + 0.5) * self.width
+    }
+
+    /// The cell of a place in the box \[m\].
+    pub fn cell_of(&self, place: DVec3) -> [u16; 3] {
+        [0, 1, 2].map(|axis| {
+            let cell = (place[axis] - self.origin[axis]) / self.width[axis];
+            // A conversion rounds to zero, and takes what is below it for zero.
+            (cell as u16).min(self.counts[axis] - 1)
+        })
+    }
+
+    pub fn index(&self, cell: [u16; 3]) -> usize {
+        let [x, y, z] = cell.map(usize::from);
+        x + usize::from(self.counts[0]) * (y + usize::from(self.counts[1]) * z)
+    }
+
+    /// Each cell, in the order of indices.
+    pub fn cells(&self) -> impl Iterator<Item = [u16; 3]> + use<> {
+        let [nx, ny, nz] = self.counts;
+        (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])))
+    }
+
+    /// Whether the cell reaches to infinity, downward and upward, along an axis.
+    pub fn is_endless(&self, cell: [u16; 3], axis: usize) -> [bool; 2] {
+        let open = !self.periodic[axis];
+        [open && cell[axis] == 0, open && cell[axis] + 1 == self.counts[axis]]
+    }
+
+    /// Bounds of a sphere in a cell, without those on whose side the cell reaches to infinity.
+    #[inline(always)]
+    pub fn without_ends(&self, cell: [u16; 3], low: DVec3, high: DVec3) -> (DVec3, DVec3) {
+        if self.periodic == [true; 3] { (low, high) } else { self.without(cell, low, high) }
+    }
+
+    fn without(&self, cell: [u16; 3], mut low: DVec3, mut high: DVec3) -> (DVec3, DVec3) {
+        for axis in 0..3 {
+            let [downward, upward] = self.is_endless(cell, axis);
+            if downward {
+                low[axis] = f64::NEG_INFINITY;
+            }
+            if upward {
+                high[axis] = f64::INFINITY;
+            }
+        }
+        (low, high)
+    }
+
+    /// Turns about an axis by which images of a thing may be near cells.
+    pub fn image_turns(&self, axis: usize) -> RangeInclusive<i8> {
+        if self.periodic[axis] { -1..=1 } else { 0..=0 }
+    }
+
+    /// Bounds of the places of a cell \[m\].
+    pub fn bounds(&self, cell: [u16; 3]) -> Bounds {
+        let corner = self.origin + DVec3::from_array(cell.map(f64::from)) * self.width;
+        let (min, max) = self.without_ends(cell, corner, corner + self.width);
+        Bounds { min, max }
+    }
+
+    /// Visits those of a cell and the cells next to it that lie on one side, if one is given.
+    #[inline(always)]
+    pub fn for_each_block(&self, cell: [u16; 3], side: Option<Side>, mut visit: impl FnMut(Block)) {
+        // So far from the outermost cells, none of those next to it is seen otherwise.
+        let is_inside = (0..3).all(|axis| {
+            let rim = if self.periodic[axis] { 1 } else { 2 };
+            cell[axis] >= rim && cell[axis] + rim < self.counts[axis]
+        });
+        if is_inside {
+            let (mut first, mut lens) = (cell.map(|cell| cell - 1), [3; 3]);
+            if let Some(Side { axis, step }) = side {
+                (first[axis], lens[axis]) = (cell[axis].wrapping_add_signed(step), 1);
+            }
+            visit(Block { grid: self, first, lens, turns: [0; 3], is_endless: [false; 3] });
+            return;
+        }
+        let [x, y, z] = [0, 1, 2].map(|axis| match side {
+            Some(side) if side.axis == axis => self.runs(cell[axis], axis, [side.step; 2]),
+            _ => self.runs(cell[axis], axis, [-1, 1]),
+        });
+        for z in z.into_iter().take_while(|run| run.len > 0) {
+            for y in y.into_iter().take_while(|run| run.len > 0) {
+                for x in x.into_iter().take_while(|run| run.len > 0) {
+                    visit(Block {
+                        grid: self,
+                        first: [x.first, y.first, z.first],
+                        lens: [x.len, y.len, z.len],
+                        turns: [x.turns, y.turns, z.turns],
+                        is_endless: [x.is_endless, y.is_endless, z.is_endless],
+                    });
+                }
+            }
+        }
+    }
+
+    /// The side of a cell that another one is on, if it is a neighbour along one axis.
+    pub fn side(&self, from: [u16; 3], to: [u16; 3]) -> Option<Side> {
+        let mut differing = (0..3).filter(|&axis| from[axis] != to[axis]);
+        let (axis, None) = (differing.next()?, differing.next()) else { return None };
+        let last = self.counts[axis] - 1;
+        let step = match i32::from(to[axis]) - i32::from(from[axis]) {
+            // In a ring of two cells, one is on both sides of the other.
+            1 | -1 if last == 1 => return None,
+            1 => 1,
+            -1 => -1,
+            // Round the axis.
+            step if step == i32::from(last) => -1,
+            step if step == -i32::from(last) => 1,
+            _ => return None,
+        };
+        Some(Side { axis, step })
+    }
+
+    /// A cell and those next to it along an axis, of these steps: runs in order, then empty ones.
+    fn runs(&self, cell: u16, axis: usize, steps: [i16; 2]) -> [Run; 3] {
+        let count = i32::from(self.counts[axis]);
+        let is_outermost = |cell: i32| cell == 0 || cell + 1 == count;
+        let mut runs = [Run { first: 0, len: 0, turns: 0, is_endless: false }; 3];
+        let mut next = 0;
+        for step in steps[0]..=steps[1] {
+            let number = i32::from(cell) + i32::from(step);
+            let turns = number.div_euclid(count);
+            if turns != 0 && !self.periodic[axis] {
+                continue;
+            }
+            let number = number.rem_euclid(count);
+            let is_open = !self.periodic[axis];
+            let is_endless = is_open && (is_outermost(number) || is_outermost(i32::from(cell)));
+            let run = Run { first: number as u16, len: 1, turns: turns as i8, is_endless };
+            let last: &mut Run = &mut runs[usize::max(next, 1) - 1];
+            let joins = last.first + last.len == run.first
+                && (last.turns, last.is_endless) == (run.turns, run.is_endless);
+            if next > 0 && joins {
+                last.len += 1;
+            } else {
+                runs[next] = run;
+                next += 1;
+            }
+        }
+        runs
+    }
+
+    /// Where a place in the box lies along a space-filling curve through the cells (Morton).
+    pub fn curve_key(&self, place: DVec3) -> u64 {
+        let cell = self.cell_of(place);
+        (0..3).fold(0, |key, axis| key | spread(cell[axis]) << axis)
+    }
+}
+
+/// Cells along each axis, a multiple of `counts`, when so many are `width` \[m\] wide: at least
+/// `min_width` \[m\] wide, and not more than are worth while for this number of spheres.
+fn cell_counts(counts: [u16; 3], width: DVec3, min_width: f64, spheres: usize) -> [u16; 3] {
+    if spheres <= SINGLE_CELL || !width.is_finite() {
+        return counts;
+    }
+    let budget = CELLS_PER_SPHERE * spheres as f64;
+    let along = |min_width: f64| {
+        [0, 1, 2].map(|axis| {
+            let count = f64::from(counts[axis]);
+            let most = (MAX_CELLS / count).floor();
+            count * (width[axis] / min_width).floor().clamp(1.0, most)
+        })
+    };
+    let is_divided = |cells: [f64; 3]| (0..3).any(|axis| cells[axis] > f64::from(counts[axis]));
+    let mut min_width = min_width;
+    // Widening by an eighth at a time comes within a third of the budget.
+    while along(min_width).iter().product::<f64>() > budget && is_divided(along(min_width)) {
+        min_width *= 1.125;
+    }
+    along(min_width).map(|count| count as u16)
+}
+
+/// The bits of a coordinate, each three places from the next.
+fn spread(coordinate: u16) -> u64 {
+    (0..16).fold(0, |bits, bit| bits | (u64::from(coordinate) >> bit & 1) << (3 * bit))
+}

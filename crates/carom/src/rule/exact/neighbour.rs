@@ -1,0 +1,73 @@
+//! A neighbour of a sphere.
+
+/// Bits of the slot in a [`Neighbour`].
+const SLOT_BITS: u32 = 27;
+/// The image 0 turns away, among those at -1, 0 or 1 turns about each axis.
+const MIDDLE_IMAGE: i32 = 13;
+
+/// More spheres than this cannot be told apart.
+pub(crate) const MAX_SPHERES: usize = 1 << SLOT_BITS;
+
+/// A neighbour of a sphere: its slot, and which of its images it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Neighbour(u32);
+
+impl Neighbour {
+    /// One whose position counts in the same box as that of the sphere.
+    #[inline(always)]
+    pub fn in_same_box(slot: u32) -> Self {
+        Self(slot)
+    }
+
+    /// One whose image is near, so many turns from itself in the box about the origin.
+    pub fn image(slot: u32, turns: [i8; 3]) -> Self {
+        let [x, y, z] = turns.map(i32::from);
+        let number = x + 3 * y + 9 * z + MIDDLE_IMAGE;
+        Self(slot | (number as u32 + 1) << SLOT_BITS)
+    }
+
+    #[inline(always)]
+    pub fn slot(self) -> u32 {
+        self.0 & ((1 << SLOT_BITS) - 1)
+    }
+
+    #[inline(always)]
+    pub fn is_in_same_box(self) -> bool {
+        self.0 < 1 << SLOT_BITS
+    }
+
+    /// The turns of an image.
+    pub fn image_turns(self) -> [i32; 3] {
+        let number = (self.0 >> SLOT_BITS) as i32 - 1;
+        [number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1]
+    }
+
+    /// What the sphere at `slot`, of which this is a neighbour, is to it.
+    #[inline]
+    pub fn mirrored(self, slot: u32) -> Self {
+        match self.0 >> SLOT_BITS {
+            0 => Self(slot),
+            image => Self(slot | (2 * (MIDDLE_IMAGE as u32 + 1) - image) << SLOT_BITS),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn image_tells_its_turns_and_mirrors_them() {
+        let slot = MAX_SPHERES as u32 - 1;
+        for number in 0..27i8 {
+            let turns = [number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1];
+            let image = Neighbour::image(slot, turns);
+            assert_eq!((image.slot(), image.is_in_same_box()), (slot, false));
+            assert_eq!(image.image_turns(), turns.map(i32::from));
+            assert_eq!(image.mirrored(7), Neighbour::image(7, turns.map(|turns| -turns)));
+        }
+        let plain = Neighbour::in_same_box(slot);
+        assert!(plain.is_in_same_box() && plain.slot() == slot);
+        assert_eq!(plain.mirrored(7), Neighbour::in_same_box(7));
+    }
+}

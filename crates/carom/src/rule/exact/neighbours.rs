@@ -1,0 +1,662 @@
+//! Neighbours: whom a sphere can meet before one of them leaves its neighbourhood.
+//!
+//! Each sphere has a neighbourhood, a box about a place where it was. It leaves it by an event of
+//! its own, and gets another one; between such events nobody new has to be looked for.
+//!
+//! Who is near is found in a hierarchy of grids. A level holds the spheres of one size class, and
+//! as visitors all smaller ones; its cells are parts of those of the level above. Two spheres that
+//! can meet lie in the same or in adjacent cells of the level of the larger one. As a rule the
+//! neighbourhood of a sphere is its cell, and whoever is in the cells around may be met.
+//!
+//! Where spheres of one size are crowded, that would be many. There a neighbourhood is a cube about
+//! the sphere itself, and each has a list of the others that it can meet while both are in theirs
+//! (Donev, Torquato and Stillinger, J. Comput. Phys. 202, 737 (2005)).
+//!
+//! In a periodic box places are folded into the box, and each sphere counts how often it went round
+//! since its flight began. On open axes the outermost cells, and the neighbourhoods in them, reach
+//! to infinity, so spheres may go anywhere.
+//!
+//! Neighbours decide only when a meeting is noticed, never its time: results do not depend on them.
+
+use std::mem::take;
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::axis_motion::AxisMotion;
+use super::body::{Body, Kind};
+use super::grid::{Grid, Side};
+use super::lists::Lists;
+use super::near_surfaces::NearSurfaces;
+use super::neighbour::Neighbour;
+use super::periodic::{folded, turns_of, way_round};
+use crate::detect::surface_tree::SurfaceTree;
+use crate::surface::Surface;
+
+/// Radii within this factor share a level.
+const LEVEL_RATIO: f64 = 4.0;
+/// Smaller spheres than `LEVEL_RATIO` to the minus this share the last level.
+const MAX_LEVELS: usize = 24;
+/// A neighbourhood reaches beyond the cell by this part of its width, so that whoever leaves it is
+/// in another cell, whatever rounding does.
+const OVERHANG: f64 = 1.0 / 64.0;
+/// A sphere has left its neighbourhood when it is this part of the half edge away from the centre:
+/// the rest is more than rounding, of places and of the clock.
+const DEPARTURE: f64 = 1.0 - 1.0 / 128.0;
+/// Lists are kept if there are more spheres than this to a cell as wide as a diameter: then to
+/// look at fewer neighbours is worth the upkeep.
+const CROWDED: f64 = 0.55;
+/// Where there are lists, cells are wider than a diameter by this part of it, at least.
+const LIST_ROOM: f64 = 0.28;
+/// Where there are lists, a neighbourhood is laid ahead of its sphere by this part of its half edge.
+const AHEAD: f64 = 0.5;
+/// Distances are compared with this margin, more than their rounding.
+const SLACK: f64 = 1.0 + 1e-9;
+
+/// Spheres by cell, as they are seen from the box about the origin: as a rule not more than three.
+type CellLists = Lists<Neighbour, 3>;
+/// Neighbours of each sphere, by slot: as a rule not more than fifteen.
+type NeighbourLists = Lists<Neighbour, 15>;
+
+/// The neighbourhoods of all spheres, and who is near whom.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Neighbours {
+    /// From the largest spheres to the smallest.
+    levels: Vec<Level>,
+    /// By slot.
+    neighbourhoods: Vec<Neighbourhood>,
+    /// By slot, where spheres are crowded.
+    lists: Option<NeighbourLists>,
+    /// Edges of the periodic box \[m\]; infinite along an open axis.
+    period: DVec3,
+    /// Whether spheres have to find each other at all.
+    spheres_collide: bool,
+    /// Working memory of a relocation: neighbours before and after.
+    before: Buffer,
+    after: Buffer,
+}
+
+/// The spheres of one size class.
+#[derive(Debug, Clone)]
+struct Level {
+    grid: Grid,
+    /// Half the edges of their neighbourhoods \[m\].
+    half_edges: DVec3,
+    /// Its spheres.
+    own: CellLists,
+    /// Smaller ones, if there are any.
+    visitors: Option<CellLists>,
+    surfaces: NearSurfaces,
+}
+
+/// Where a sphere is until it leaves.
+#[derive(Debug, Clone, Copy)]
+struct Neighbourhood {
+    /// In the box \[m\].
+    center: DVec3,
+    /// Of the sphere \[m\].
+    radius: f64,
+    /// How often the sphere went round each periodic axis since its flight began.
+    turns: [i32; 3],
+    /// Of the grid of its own level.
+    cell: [u16; 3],
+}
+
+/// Those who are near a sphere.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Vicinity {
+    same_box: Buffer,
+    images: Vec<Neighbour>,
+}
+
+impl Vicinity {
+    /// Those whose positions count in the same box as that of the sphere.
+    #[inline(always)]
+    pub fn in_same_box(&self) -> &[Neighbour] {
+        self.same_box.found()
+    }
+
+    /// Those of whom an image is near.
+    #[inline(always)]
+    pub fn images(&self) -> &[Neighbour] {
+        &self.images
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = Neighbour> {
+        self.in_same_box().iter().chain(&self.images).copied()
+    }
+
+    fn clear(&mut self) {
+        self.same_box.len = 0;
+        self.images.clear();
+    }
+
+    /// Of those from `start` on, moves images to the others, and drops the sphere itself.
+    #[inline(always)]
+    fn sort_from(&mut self, start: usize, slot: u32) {
+        let Self { same_box, images } = self;
+        let added = &same_box.buffer[start..same_box.len];
+        let are_images = added.iter().fold(false, |any, other| any | !other.is_in_same_box());
+        if are_images {
+            images.extend(added.iter().filter(|other| !other.is_in_same_box()));
+        }
+        same_box.retain_from(start, |other| other.is_in_same_box() & (other.slot() != slot));
+    }
+}
+
+/// Neighbours in memory that is used again.
+#[derive(Debug, Clone, Default)]
+struct Buffer {
+    /// Those who were found; what lies behind has no meaning.
+    buffer: Vec<Neighbour>,
+    len: usize,
+}
+
+impl Buffer {
+    #[inline(always)]
+    fn found(&self) -> &[Neighbour] {
+        &self.buffer[..self.len]
+    }
+
+    /// Adds the spheres of some cells.
+    #[inline(always)]
+    fn add_cells(&mut self, cells: &CellLists, range: Range<usize>) {
+        self.len = cells.gather(range, &mut self.buffer, self.len);
+    }
+
+    /// Adds the neighbours of a sphere.
+    #[inline(always)]
+    fn add_list(&mut self, lists: &NeighbourLists, slot: u32) {
+        let list = slot as usize..slot as usize + 1;
+        self.len = lists.gather(list, &mut self.buffer, self.len);
+    }
+
+    /// Of those from `start` on, keeps some. Without branches on that, which no processor can
+    /// foresee.
+    #[inline(always)]
+    fn retain_from(&mut self, start: usize, is_kept: impl Fn(Neighbour) -> bool) {
+        let found = &mut self.buffer[start..self.len];
+        let mut count = 0;
+        for n in 0..found.len() {
+            let neighbour = found[n];
+            found[count] = neighbour;
+            count += usize::from(is_kept(neighbour));
+        }
+        self.len = start + count;
+    }
+}
+
+/// What neighbours are found from.
+#[derive(Clone, Copy)]
+pub(super) struct Contents<'a> {
+    pub bodies: &'a [Body],
+    pub kinds: &'a [Kind],
+    /// On the world's clock \[s\].
+    pub time: f64,
+    /// Edges of the periodic box about the origin \[m\]; infinite along an open axis.
+    pub period: DVec3,
+    pub surfaces: &'a [Surface],
+    pub tree: &'a SurfaceTree,
+    /// Whether spheres have to find each other at all.
+    pub spheres_collide: bool,
+}
+
+impl Contents<'_> {
+    fn place_of(&self, body: &Body) -> DVec3 {
+        body.state_at(&self.kinds[body.kind as usize], self.time).0
+    }
+
+    fn level_count(&self) -> u32 {
+        self.kinds.iter().map(|kind| kind.level + 1).max().unwrap_or(0)
+    }
+
+    /// The largest radius of a level \[m\].
+    fn radius_of(&self, level: u32) -> f64 {
+        let of_level = self.kinds.iter().filter(|kind| kind.level == level);
+        of_level.map(|kind| kind.radius).fold(0.0, f64::max)
+    }
+
+    /// The grid of each level.
+    fn grids(&self) -> Vec<Grid> {
+        let mut grids: Vec<Grid> = Vec::new();
+        for level in 0..self.level_count() {
+            let min_width = 2.0 * self.radius_of(level) / (1.0 - 2.0 * OVERHANG) * SLACK;
+            let is_held = |body: &&Body| self.kinds[body.kind as usize].level >= level;
+            let seek =
+                if self.spheres_collide { self.bodies.iter().filter(is_held).count() } else { 0 };
+            grids.push(match grids.last() {
+                Some(above) => above.divided(min_width, seek),
+                None => self.grid(min_width, seek),
+            });
+        }
+        grids
+    }
+
+    /// A grid over all spheres.
+    fn grid(&self, min_width: f64, seek: usize) -> Grid {
+        let places = self.bodies.iter().map(|body| folded(self.place_of(body), self.period));
+        Grid::over(places, self.period, min_width, seek)
+    }
+
+    /// A grid for lists of neighbours, if spheres are of one level and crowded in `grid`.
+    fn grid_for_lists(&self, grid: &Grid) -> Option<Grid> {
+        let count = self.bodies.len();
+        let diameter = 2.0 * self.radius_of(0);
+        let volume = grid.len() as f64 * grid.width().element_product();
+        let crowd = count as f64 / volume * (diameter * diameter * diameter);
+        let lists = self.spheres_collide && self.level_count() == 1 && crowd > CROWDED;
+        lists.then(|| self.grid(diameter * (1.0 + LIST_ROOM), count))
+    }
+
+    /// Slots in an order in which neighbours are near each other in memory: along a space-filling
+    /// curve through the cells of the smallest spheres.
+    pub fn curve_order(&self) -> Vec<u32> {
+        let Some(grid) = self.grids().pop() else { return Vec::new() };
+        let key = |slot: &u32| {
+            let place = self.place_of(&self.bodies[*slot as usize]);
+            grid.curve_key(folded(place, self.period))
+        };
+        let mut order: Vec<u32> = (0..self.bodies.len() as u32).collect();
+        order.sort_by_cached_key(key);
+        order
+    }
+}
+
+/// Level of each radius, from 0 for the largest, with no empty level between.
+pub(super) fn levels_of(radii: &[f64]) -> Vec<u32> {
+    let largest = radii.iter().copied().fold(0.0, f64::max);
+    let size_class = |radius: f64| {
+        let mut class = 0;
+        let mut bound = largest / LEVEL_RATIO;
+        while radius <= bound && class + 1 < MAX_LEVELS {
+            (class, bound) = (class + 1, bound / LEVEL_RATIO);
+        }
+        class
+    };
+    let mut in_use = [false; MAX_LEVELS];
+    radii.iter().for_each(|&radius| in_use[size_class(radius)] = true);
+    let level = |radius: f64| in_use[..size_class(radius)].iter().filter(|used| **used).count();
+    radii.iter().map(|&radius| level(radius) as u32).collect()
+}
+
+impl Neighbours {
+    /// Finds who is near whom.
+    pub fn new(contents: Contents) -> Self {
+        let Contents { bodies, kinds, period, spheres_collide, .. } = contents;
+        let mut grids = contents.grids();
+        let mut lists = None;
+        let mut half_edges: Vec<DVec3> =
+            grids.iter().map(|grid| (0.5 + OVERHANG) * grid.width()).collect();
+        if let [grid] = &mut grids[..]
+            && let Some(wider) = contents.grid_for_lists(grid)
+        {
+            // Two neighbourhoods side by side, and the spheres that reach out of them, are as wide
+            // as a cell.
+            let reach = wider.width().min_element() / (2.0 * SLACK);
+            half_edges = vec![DVec3::splat(reach - contents.radius_of(0))];
+            *grid = wider;
+            lists = Some(Lists::new(bodies.len()));
+        }
+        let count = grids.len();
+        let levels = (0u32..).zip(grids.into_iter().zip(half_edges));
+        let levels = levels.map(|(number, (grid, half_edges))| {
+            let reach = half_edges + contents.radius_of(number);
+            Level {
+                own: Lists::new(grid.len()),
+                visitors: (number as usize + 1 < count).then(|| Lists::new(grid.len())),
+                surfaces: NearSurfaces::new(contents, &grid, reach),
+                half_edges,
+                grid,
+            }
+        });
+        let nowhere = |body: &Body| Neighbourhood {
+            center: DVec3::ZERO,
+            radius: kinds[body.kind as usize].radius,
+            turns: [0; 3],
+            cell: [0; 3],
+        };
+        let mut neighbours = Self {
+            levels: levels.collect(),
+            neighbourhoods: bodies.iter().map(nowhere).collect(),
+            lists,
+            period,
+            spheres_collide,
+            ..Self::default()
+        };
+        let mut new = Vicinity::default();
+        for (slot, body) in (0u32..).zip(bodies) {
+            let (kind, place) = (&kinds[body.kind as usize], contents.place_of(body));
+            neighbours.place(slot, kind.level, place, body.velocity);
+            neighbours.enter_cells(slot, kind.level);
+            if neighbours.lists.is_some() {
+                new.clear();
+                neighbours.list(slot, &mut new);
+            }
+        }
+        neighbours
+    }
+
+    /// Finds the spheres that the one at `slot`, of level `level`, may meet before one of them
+    /// leaves its neighbourhood.
+    #[inline(always)]
+    pub fn near(&self, slot: u32, level: u32, near: &mut Vicinity) {
+        near.clear();
+        match &self.lists {
+            Some(lists) => {
+                near.same_box.add_list(lists, slot);
+                near.sort_from(0, slot);
+            }
+            None => self.gather(slot, level, [[0; 3]; 2], near),
+        }
+    }
+
+    /// Reads where a sphere is, and its list if there are lists.
+    #[inline]
+    pub fn read_place(&self, slot: u32) -> f64 {
+        let listed = self.lists.as_ref().map_or(0, |lists| lists.first(slot as usize).len());
+        self.neighbourhoods[slot as usize].radius + listed as f64
+    }
+
+    /// Reads the cells around a sphere, if there are no lists.
+    #[inline]
+    pub fn read_cells(&self, slot: u32) -> f64 {
+        let ([Level { grid, own, .. }], None) = (&self.levels[..], &self.lists) else { return 0.0 };
+        let mut read = 0;
+        grid.for_each_block(self.neighbourhoods[slot as usize].cell, None, |block| {
+            block.for_each_row(|row| {
+                read += own.first(row.start).len() + own.first(row.end - 1).len();
+            });
+        });
+        read as f64
+    }
+
+    /// Reads the bodies of those who are on the list of a sphere, if there are lists.
+    #[inline]
+    pub fn read_bodies(&self, slot: u32, bodies: &[Body]) -> f64 {
+        let near = self.lists.as_ref().map_or(&[][..], |lists| lists.first(slot as usize));
+        near.iter().map(|near| bodies[near.slot() as usize].time).sum()
+    }
+
+    /// Where to a neighbour of the sphere at `slot` has to be shifted to be near \[m\].
+    #[inline(always)]
+    pub fn shift_of(&self, slot: u32, neighbour: Neighbour) -> DVec3 {
+        if neighbour.is_in_same_box() { DVec3::ZERO } else { self.shift_of_image(slot, neighbour) }
+    }
+
+    #[inline(never)]
+    fn shift_of_image(&self, slot: u32, neighbour: Neighbour) -> DVec3 {
+        let turns = self.turns_between(slot, neighbour.slot(), neighbour.image_turns());
+        way_round(turns, self.period)
+    }
+
+    /// Turns between where the positions of two spheres count, when in the box there are so many.
+    fn turns_between(&self, slot: u32, other: u32, in_box: [i32; 3]) -> [i32; 3] {
+        let turns = |slot: u32, axis: usize| self.neighbourhoods[slot as usize].turns[axis];
+        [0, 1, 2].map(|axis| in_box[axis] + turns(slot, axis) - turns(other, axis))
+    }
+
+    /// From the box about the origin to where the position of the sphere counts \[m\].
+    #[inline]
+    pub fn way_round(&self, slot: u32) -> DVec3 {
+        way_round(self.neighbourhoods[slot as usize].turns, self.period)
+    }
+
+    /// Surfaces that the sphere may meet in its neighbourhood, with the shift \[m\] that brings them to
+    /// where its position counts.
+    pub fn surfaces_near(&self, slot: u32, level: u32) -> impl Iterator<Item = (u32, DVec3)> {
+        let Level { grid, surfaces, .. } = &self.levels[level as usize];
+        let Neighbourhood { turns, cell, .. } = self.neighbourhoods[slot as usize];
+        let near = if surfaces.is_empty() { &[] } else { surfaces.of_cell(grid.index(cell)) };
+        near.iter().map(move |near| {
+            let turns = [0, 1, 2].map(|axis| i32::from(near.turns[axis]) + turns[axis]);
+            (near.surface, way_round(turns, self.period))
+        })
+    }
+
+    /// A time before which the sphere does not leave its neighbourhood, on the world's clock \[s\].
+    #[inline(always)]
+    pub fn departure(&self, slot: u32, body: &Body, kind: &Kind, now: f64) -> f64 {
+        let Level { grid, half_edges, .. } = &self.levels[kind.level as usize];
+        let Neighbourhood { center, cell, .. } = self.neighbourhoods[slot as usize];
+        let (position, velocity) = body.state_at(kind, now);
+        let offset = center + self.way_round(slot) - position;
+        let half_edges = DEPARTURE * half_edges;
+        let (low, high) = grid.without_ends(cell, offset - half_edges, offset + half_edges);
+        let mut first = f64::INFINITY;
+        for axis in 0..3 {
+            let motion = AxisMotion {
+                velocity: velocity[axis],
+                acceleration: kind.acceleration[axis],
+                drag_rate: kind.drag_rate,
+            };
+            first = first.min(motion.leaves(low[axis], high[axis]));
+        }
+        // The clock has to move on, however fast the sphere is.
+        (now + first).max(now.next_up())
+    }
+
+    /// Gives a sphere that is at `position` \[m\] with `velocity` \[m/s\] another neighbourhood, and
+    /// finds those who were not near it before, perhaps with others who were.
+    pub fn relocate(
+        &mut self,
+        slot: u32,
+        level: u32,
+        [position, velocity]: [DVec3; 2],
+        near: &mut Vicinity,
+    ) {
+        near.clear();
+        let before = self.neighbourhoods[slot as usize].cell;
+        self.leave_cells(slot, level);
+        self.place(slot, level, position, velocity);
+        self.enter_cells(slot, level);
+        if self.lists.is_some() {
+            self.list(slot, near);
+        } else {
+            let after = self.neighbourhoods[slot as usize].cell;
+            self.gather(slot, level, [before, after], near);
+        }
+    }
+
+    /// Lays the neighbourhood of a sphere about it.
+    fn place(&mut self, slot: u32, level: u32, position: DVec3, velocity: DVec3) {
+        let Level { grid, half_edges, .. } = &self.levels[level as usize];
+        let neighbourhood = &mut self.neighbourhoods[slot as usize];
+        let speed = velocity.length();
+        let is_listed = self.lists.is_some();
+        let ahead = if is_listed && speed > 0.0 && speed.is_finite() {
+            AHEAD * half_edges * (velocity / speed)
+        } else {
+            DVec3::ZERO
+        };
+        let center = position + ahead;
+        neighbourhood.turns = turns_of(center, self.period);
+        neighbourhood.center = center - way_round(neighbourhood.turns, self.period);
+        neighbourhood.cell = grid.cell_of(neighbourhood.center);
+        if !is_listed {
+            neighbourhood.center = grid.center(neighbourhood.cell);
+        }
+    }
+
+    /// The sphere, as it is seen from the box about the origin.
+    fn mark(&self, slot: u32) -> Neighbour {
+        match self.neighbourhoods[slot as usize].turns {
+            [0, 0, 0] => Neighbour::in_same_box(slot),
+            _ => Neighbour::image(slot, [0; 3]),
+        }
+    }
+
+    fn enter_cells(&mut self, slot: u32, level: u32) {
+        self.for_its_cells(slot, level, |cells, cell, mark| cells.add(cell, mark));
+    }
+
+    fn leave_cells(&mut self, slot: u32, level: u32) {
+        self.for_its_cells(slot, level, |cells, cell, mark| cells.remove(cell, mark));
+    }
+
+    /// Does something about a sphere in the cell that holds it on each level.
+    #[inline]
+    fn for_its_cells(
+        &mut self,
+        slot: u32,
+        own_level: u32,
+        mut act: impl FnMut(&mut CellLists, usize, Neighbour),
+    ) {
+        let mark = self.mark(slot);
+        let Neighbourhood { center, cell, .. } = self.neighbourhoods[slot as usize];
+        for Level { grid, visitors, .. } in &mut self.levels[..own_level as usize] {
+            if let Some(visitors) = visitors {
+                act(visitors, grid.index(grid.cell_of(center)), mark);
+            }
+        }
+        let Level { grid, own, .. } = &mut self.levels[own_level as usize];
+        act(own, grid.index(cell), mark);
+    }
+
+    /// Appends the spheres in the cells around a sphere. If it comes `from` another cell of its level
+    /// `to` where it is now, it may leave out those who were near there.
+    #[inline(always)]
+    fn gather(&self, slot: u32, own_level: u32, [from, to]: [[u16; 3]; 2], near: &mut Vicinity) {
+        if !self.spheres_collide {
+            return;
+        }
+        let Neighbourhood { center, cell, .. } = self.neighbourhoods[slot as usize];
+        for Level { grid, own, .. } in &self.levels[..own_level as usize] {
+            self.gather_from((grid, own), slot, grid.cell_of(center), None, near);
+        }
+        let Level { grid, own, visitors, .. } = &self.levels[own_level as usize];
+        let side = if from == to { None } else { grid.side(from, to) };
+        self.gather_from((grid, own), slot, cell, side, near);
+        if let Some(visitors) = visitors {
+            self.gather_from((grid, visitors), slot, cell, side, near);
+        }
+    }
+
+    /// Appends the spheres in a cell and those around it, or on one side of it.
+    #[inline(always)]
+    fn gather_from(
+        &self,
+        (grid, spheres): (&Grid, &CellLists),
+        slot: u32,
+        cell: [u16; 3],
+        side: Option<Side>,
+        near: &mut Vicinity,
+    ) {
+        let is_turned = self.neighbourhoods[slot as usize].turns != [0; 3];
+        grid.for_each_block(cell, side, |block| {
+            let start = near.same_box.len;
+            block.for_each_row(|row| near.same_box.add_cells(spheres, row));
+            if block.turns == [0; 3] && !is_turned {
+                near.sort_from(start, slot);
+            } else {
+                let others = &near.same_box.buffer[start..near.same_box.len];
+                let others = others.iter().filter(|other| other.slot() != slot);
+                let image = |other: &Neighbour| Neighbour::image(other.slot(), block.turns);
+                near.images.extend(others.map(image));
+                near.same_box.len = start;
+            }
+        });
+    }
+
+    /// Brings the list of a sphere and those of its neighbours up to date. Finds those who are new to
+    /// its own.
+    fn list(&mut self, slot: u32, new: &mut Vicinity) {
+        let (mut before, mut after) = (take(&mut self.before), take(&mut self.after));
+        (before.len, after.len) = (0, 0);
+        self.find_peers(slot, &mut after);
+        if let Some(lists) = &mut self.lists {
+            before.add_list(lists, slot);
+            lists.set(slot as usize, after.found());
+            for gone in before.found().iter().filter(|gone| !contains(after.found(), gone)) {
+                lists.remove(gone.slot() as usize, gone.mirrored(slot));
+            }
+            for &come in after.found().iter().filter(|come| !contains(before.found(), come)) {
+                lists.add(come.slot() as usize, come.mirrored(slot));
+                new.images.push(come);
+            }
+        }
+        (self.before, self.after) = (before, after);
+    }
+
+    /// Finds the others whom a sphere can meet while both are in their neighbourhoods.
+    fn find_peers(&self, slot: u32, peers: &mut Buffer) {
+        let [Level { grid, half_edges, own, .. }] = &self.levels[..] else { return };
+        let Neighbourhood { center, radius, turns, cell } = self.neighbourhoods[slot as usize];
+        grid.for_each_block(cell, None, |block| {
+            let start = peers.len;
+            block.for_each_row(|row| peers.add_cells(own, row));
+            let image = block.turns;
+            let way = way_round(image.map(i32::from), self.period);
+            let reach = block.is_endless.map(|is| if is { f64::INFINITY } else { 2.0 });
+            let reach = DVec3::from_array(reach) * half_edges;
+            peers.retain_from(start, |other| {
+                let neighbourhood = &self.neighbourhoods[other.slot() as usize];
+                // Seen from the other one it is the same to the last bit, but for the sign.
+                let offset = (neighbourhood.center - center) + way;
+                let gap = (offset.abs() - reach).max(DVec3::ZERO);
+                let radius_sum = radius + neighbourhood.radius;
+                let is_near = gap.length_squared() <= radius_sum * radius_sum * SLACK;
+                is_near & (other.slot() != slot)
+            });
+            for other in &mut peers.buffer[start..peers.len] {
+                let found = other.slot();
+                let is_in_same_box =
+                    image == [0; 3] && self.neighbourhoods[found as usize].turns == turns;
+                *other = if is_in_same_box {
+                    Neighbour::in_same_box(found)
+                } else {
+                    self.neighbour(slot, found, image)
+                };
+            }
+        });
+    }
+
+    /// What a sphere is to that at `slot`, when its image so many turns away is near.
+    fn neighbour(&self, slot: u32, other: u32, turns: [i8; 3]) -> Neighbour {
+        if self.turns_between(slot, other, turns.map(i32::from)) == [0; 3] {
+            Neighbour::in_same_box(other)
+        } else {
+            Neighbour::image(other, turns)
+        }
+    }
+
+    /// Folds the position of a sphere into the periodic box, where a flight of it begins.
+    #[inline]
+    pub fn fold(&mut self, slot: u32, level: u32, position: DVec3) -> DVec3 {
+        let turns = turns_of(position, self.period);
+        if turns == [0; 3] {
+            return position;
+        }
+        self.turn_back(slot, level, turns);
+        position - way_round(turns, self.period)
+    }
+
+    /// Counts turns of a sphere no longer: of its neighbours, others are now in the same box.
+    fn turn_back(&mut self, slot: u32, level: u32, turns: [i32; 3]) {
+        self.leave_cells(slot, level);
+        let near = self.lists.as_ref().map(|lists| lists.members(slot as usize));
+        let near = near.unwrap_or_default();
+        let in_box = |near: &Neighbour| {
+            if near.is_in_same_box() {
+                self.turns_between(near.slot(), slot, [0; 3])
+            } else {
+                near.image_turns()
+            }
+        };
+        let in_box: Vec<_> = near.iter().map(in_box).collect();
+        let counted = &mut self.neighbourhoods[slot as usize].turns;
+        (0..3).for_each(|axis| counted[axis] -= turns[axis]);
+        for (old, in_box) in near.into_iter().zip(in_box) {
+            let new = self.neighbour(slot, old.slot(), in_box.map(|turns| turns as i8));
+            if let Some(lists) = &mut self.lists {
+                lists.replace(slot as usize, old, new);
+                lists.replace(old.slot() as usize, old.mirrored(slot), new.mirrored(slot));
+            }
+        }
+        self.enter_cells(slot, level);
+    }
+}
+
+/// Whether a neighbour is among others. Looks at all of them, which is faster than to stop at it.
+fn contains(neighbours: &[Neighbour], neighbour: &Neighbour) -> bool {
+    neighbours.iter().fold(false, |found, other| found | (other == neighbour))
+}

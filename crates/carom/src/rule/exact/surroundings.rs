@@ -1,0 +1,309 @@
+//! What a sphere sees around it: how far its neighbours are, and which of them it meets first.
+
+use glam::DVec3;
+
+use super::body::{Body, Kind};
+use super::neighbour::Neighbour;
+use super::neighbours::Vicinity;
+use super::timeline::{Event, Target, Timeline};
+use crate::contact_time;
+use crate::detect::contact::Bodies;
+
+/// Relative rounding of a distance and of a speed of two spheres that touch.
+const TOUCH_ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// Relative margin by which spheres have to pass each other to be left out: far more than rounding.
+const PASSING_MARGIN: f64 = 1e-12;
+
+/// Who is near a sphere, and whom of them it may meet.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Surroundings {
+    pub near: Vicinity,
+    /// Those whom it may meet; what lies behind `count` has no meaning.
+    closing: Vec<Closing>,
+    count: usize,
+}
+
+/// A sphere that another may meet.
+#[derive(Debug, Clone, Copy)]
+struct Closing {
+    neighbour: Neighbour,
+    /// From the other one, as if both flew alike \[m\].
+    offset: DVec3,
+}
+
+/// Two spheres that fly alike, as one of them sees the other. Under an acceleration both fall alike;
+/// that this need not be asked for each neighbour is what `FALLS` is for.
+struct Pair<'a, const FALLS: bool> {
+    bodies: [&'a Body; 2],
+    /// Of both \[m/s²\]; zero unless `FALLS`.
+    acceleration: DVec3,
+    /// Start of one of their flights, and not before that of the other, on the world's clock \[s\].
+    start: f64,
+}
+
+impl<const FALLS: bool> Pair<'_, FALLS> {
+    /// From the centre of the first sphere to that of the second, at the start \[m\].
+    #[inline(always)]
+    fn offset(&self, shift: DVec3) -> DVec3 {
+        let [a, b] = self.bodies;
+        let [age_a, age_b] = [self.start - a.time, self.start - b.time];
+        let offset = b.position - a.position + shift + (age_b * b.velocity - age_a * a.velocity);
+        if FALLS {
+            offset + (0.5 * (age_b * age_b - age_a * age_a)) * self.acceleration
+        } else {
+            offset
+        }
+    }
+
+    /// Velocity of the second sphere seen from the first at the start \[m/s\].
+    #[inline(always)]
+    fn velocity(&self) -> DVec3 {
+        let [a, b] = self.bodies;
+        let velocity = b.velocity - a.velocity;
+        if FALLS {
+            velocity + ((self.start - b.time) - (self.start - a.time)) * self.acceleration
+        } else {
+            velocity
+        }
+    }
+
+    /// When they meet, on the world's clock \[s\]; infinite if they never do. Each sees the other move
+    /// in a straight line at constant speed.
+    #[inline(always)]
+    fn meeting(&self, offset: DVec3, radius_sum: f64) -> f64 {
+        let [a, b] = self.bodies;
+        let velocity = self.velocity();
+        let distance_squared = offset.length_squared();
+        let gap = distance_squared - radius_sum * radius_sum;
+        if gap.abs() <= TOUCH_ROUNDING * radius_sum * radius_sum {
+            // Two that touch close only if they do so by more than the rounding of their speeds.
+            let rounding =
+                TOUCH_ROUNDING * radius_sum * (a.velocity.length() + b.velocity.length());
+            if -offset.dot(velocity) <= rounding {
+                return f64::INFINITY;
+            }
+        }
+        match contact_time::sphere_sphere_linear(offset, velocity, radius_sum) {
+            Some(delay) => self.start + delay,
+            None => f64::INFINITY,
+        }
+    }
+}
+
+impl Surroundings {
+    /// Looks for those near it whom a sphere may meet, at the start of a flight of either that
+    /// `start_with` gives \[s\]. Tells whether one of them but `other` is nearer to it than the sum
+    /// of their radii and `part` of it.
+    #[inline(always)]
+    pub fn look(
+        &mut self,
+        timeline: &Timeline,
+        slot: u32,
+        start_with: impl Fn(&Body) -> f64,
+        (other, part): (u32, f64),
+    ) -> bool {
+        let kind = *timeline.kind_of(slot);
+        self.count = 0;
+        if timeline.kinds.len() == 1 && kind.flies_like(&kind) {
+            let alike = |_: &Body| (true, kind.radius);
+            return if kind.acceleration == DVec3::ZERO {
+                self.look_at_all::<false>(timeline, slot, start_with, alike, (other, part))
+            } else {
+                self.look_at_all::<true>(timeline, slot, start_with, alike, (other, part))
+            };
+        }
+        let is_alike = |other: &Body| {
+            let other = &timeline.kinds[other.kind as usize];
+            (kind.flies_like(other), other.radius)
+        };
+        let touches = self.look_at_all::<true>(timeline, slot, start_with, is_alike, (other, part));
+        touches || self.touches_others(timeline, slot, (other, part))
+    }
+
+    #[inline(always)]
+    fn look_at_all<const FALLS: bool>(
+        &mut self,
+        timeline: &Timeline,
+        slot: u32,
+        start_with: impl Fn(&Body) -> f64,
+        is_alike: impl Fn(&Body) -> (bool, f64),
+        besides: (u32, f64),
+    ) -> bool {
+        let Self { near, closing, count } = self;
+        if timeline.are_many() {
+            // All at once, so that none waits for another to come into the cache.
+            let bodies = &timeline.bodies;
+            let times = near.in_same_box().iter().map(|near| bodies[near.slot() as usize].time);
+            std::hint::black_box(times.sum::<f64>());
+        }
+        let most = near.in_same_box().len() + near.images().len();
+        if closing.len() < most {
+            let nobody = Neighbour::in_same_box(slot);
+            closing.resize(most, Closing { neighbour: nobody, offset: DVec3::ZERO });
+        }
+        let (same_box, images) = (near.in_same_box(), near.images());
+        let closing = &mut closing[..most];
+        let nowhere = |_| DVec3::ZERO;
+        let shift = |image| timeline.neighbours.shift_of(slot, image);
+        let look = Look::<FALLS, _, _> { timeline, slot, start_with, is_alike, besides };
+        let mut touches = look.at(same_box, nowhere, closing, count);
+        if !images.is_empty() {
+            touches |= look.at(images, shift, closing, count);
+        }
+        touches
+    }
+
+    /// Whether one of the spheres that fly differently, but `other`, is nearer to the sphere than the
+    /// sum of their radii and `part` of it, when its flight begins.
+    fn touches_others(&self, timeline: &Timeline, slot: u32, (other, part): (u32, f64)) -> bool {
+        let (body, kind) = (&timeline.bodies[slot as usize], timeline.kind_of(slot));
+        self.near.iter().any(|neighbour| {
+            let near = timeline.kind_of(neighbour.slot());
+            if neighbour.slot() == other || near.flies_like(kind) {
+                return false;
+            }
+            let shift = timeline.neighbours.shift_of(slot, neighbour);
+            let place = timeline.state_of(neighbour.slot(), body.time).0 + shift;
+            let reach = (kind.radius + near.radius) * (1.0 + part);
+            (place - body.position).length_squared() <= reach * reach
+        })
+    }
+
+    /// Puts the first meeting with one of those in the place of `first`, if it comes first.
+    #[inline(always)]
+    pub fn first_meeting(
+        &self,
+        timeline: &Timeline,
+        slot: u32,
+        start_with: impl Fn(&Body) -> f64,
+        first: &mut Event,
+    ) {
+        if timeline.kind_of(slot).acceleration == DVec3::ZERO {
+            self.first_meeting_of::<false>(timeline, slot, start_with, first);
+        } else {
+            self.first_meeting_of::<true>(timeline, slot, start_with, first);
+        }
+    }
+
+    #[inline(always)]
+    fn first_meeting_of<const FALLS: bool>(
+        &self,
+        timeline: &Timeline,
+        slot: u32,
+        start_with: impl Fn(&Body) -> f64,
+        first: &mut Event,
+    ) {
+        let Timeline { bodies, kinds, .. } = timeline;
+        let body = &bodies[slot as usize];
+        let kind = &kinds[body.kind as usize];
+        let Kind { acceleration, radius, .. } = *kind;
+        for &Closing { neighbour, offset } in &self.closing[..self.count] {
+            let other = &bodies[neighbour.slot() as usize];
+            let other_kind = &kinds[other.kind as usize];
+            let time = if kind.flies_like(other_kind) {
+                let start = start_with(other);
+                let pair = Pair::<FALLS> { bodies: [body, other], acceleration, start };
+                pair.meeting(offset, radius + other_kind.radius)
+            } else {
+                meeting_of_others(timeline, slot, neighbour)
+            };
+            if time < first.time {
+                let target = Target::Sphere(neighbour.slot());
+                *first = Event { time, target, flights: other.flights };
+            }
+        }
+    }
+}
+
+/// How a sphere looks at those near it.
+struct Look<'a, const FALLS: bool, S, A> {
+    timeline: &'a Timeline,
+    slot: u32,
+    start_with: S,
+    /// Tells of another one whether it flies alike, and its radius \[m\].
+    is_alike: A,
+    /// A sphere that may touch, and the part of the sum of radii up to which others do.
+    besides: (u32, f64),
+}
+
+impl<const FALLS: bool, S, A> Look<'_, FALLS, S, A>
+where
+    S: Fn(&Body) -> f64,
+    A: Fn(&Body) -> (bool, f64),
+{
+    /// Adds to those it may meet: of those that fly alike, the ones that come closer and do not pass
+    /// by. Without branches on that, which no processor can foresee. Tells whether one touches.
+    #[inline(always)]
+    fn at(
+        &self,
+        near: &[Neighbour],
+        shift_of: impl Fn(Neighbour) -> DVec3,
+        found: &mut [Closing],
+        count: &mut usize,
+    ) -> bool {
+        let bodies = &self.timeline.bodies[..];
+        let body = bodies[self.slot as usize];
+        let Kind { acceleration, radius, .. } = *self.timeline.kind_of(self.slot);
+        let (besides, part) = self.besides;
+        let mut touches = false;
+        for &neighbour in near {
+            let other = &bodies[neighbour.slot() as usize];
+            let (is_alike, other_radius) = (self.is_alike)(other);
+            let start = (self.start_with)(other);
+            let pair = Pair::<FALLS> { bodies: [&body, other], acceleration, start };
+            let offset = pair.offset(shift_of(neighbour));
+            let velocity = pair.velocity();
+            let radius_sum = radius + other_radius;
+            let distance_squared = offset.length_squared();
+            let closing = offset.dot(velocity);
+            let gap = distance_squared * (1.0 - PASSING_MARGIN) - radius_sum * radius_sum;
+            let meets = velocity.length_squared() * gap <= closing * closing;
+            let reach = radius_sum * (1.0 + part);
+            let is_near = (distance_squared <= reach * reach) & is_alike;
+            touches |= is_near & (neighbour.slot() != besides);
+            found[*count] = Closing { neighbour, offset };
+            *count += usize::from(((closing < 0.0) & meets) | !is_alike);
+        }
+        touches
+    }
+}
+
+/// When a sphere meets one that flies differently, on the world's clock \[s\]; infinite if never.
+fn meeting_of_others(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 {
+    let slots = [slot, neighbour.slot()];
+    let bodies = slots.map(|slot| &timeline.bodies[slot as usize]);
+    let kinds = slots.map(|slot| timeline.kind_of(slot));
+    if last_together(timeline, slots, kinds) {
+        return f64::INFINITY;
+    }
+    let shift = timeline.neighbours.shift_of(slot, neighbour);
+    let [index, other_index] = slots.map(|slot| timeline.index_of[slot as usize]);
+    if index < other_index {
+        meeting(bodies, kinds, shift)
+    } else {
+        // In the order of ids: the other way round the same time might round differently.
+        meeting([bodies[1], bodies[0]], [kinds[1], kinds[0]], -shift)
+    }
+}
+
+/// Whether two spheres are in lasting contact with each other: then no impact ends their flights.
+fn last_together(timeline: &Timeline, slots: [u32; 2], kinds: [&Kind; 2]) -> bool {
+    kinds[0].cluster.is_some_and(|cluster| {
+        let pair = Bodies::pair(slots.map(|slot| timeline.index_of[slot as usize]));
+        kinds[1].cluster == Some(cluster) && timeline.clusters.contains(cluster, pair)
+    })
+}
+
+/// When two spheres meet that fly differently. Searched for without end: what is known already must
+/// not change by a bit what is found.
+fn meeting(bodies: [&Body; 2], kinds: [&Kind; 2], shift: DVec3) -> f64 {
+    let start = bodies[0].time.max(bodies[1].time);
+    let first = bodies[0].flight_from(kinds[0], start);
+    let mut second = bodies[1].flight_from(kinds[1], start);
+    second.position += shift;
+    let radius_sum = kinds[0].radius + kinds[1].radius;
+    match contact_time::sphere_sphere(&first, &second, radius_sum, f64::INFINITY) {
+        Some(delay) => start + delay,
+        None => f64::INFINITY,
+    }
+}
