@@ -19,5 +19,16 @@ pub fn test() -> Outcome {
     // The same bits in every build: the tests that pin hashes, optimised.
     let optimised = ["test", "--release", "--quiet", "--package"];
     cargo(&[&optimised[..], &["carom", "--test", "world", "--test", "exact"]].concat())?;
-    cargo(&[&optimised[..], &["carom-scene", "--test", "scenes"]].concat())
+    cargo(&[&optimised[..], &["carom-scene", "--test", "scenes"]].concat())?;
+    // And on any number of threads.
+    for threads in ["1", "2"] {
+        let threads = [("RAYON_NUM_THREADS", threads)];
+        let test = |package: &str, test: &str| {
+            let threaded = [package, "--features", "rayon", "--test", test];
+            cargo_with(&[&optimised[..], &threaded].concat(), &threads)
+        };
+        test("carom", "exact")?;
+        test("carom-scene", "scenes")?;
+    }
+    Ok(())
 }

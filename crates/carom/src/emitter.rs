@@ -12,7 +12,7 @@ use crate::validate;
 
 /// A sphere is due when its time is at most this much after the start of a frame \[s\], so that
 /// rounding in sums of frame times cannot delay it by a frame (`docs/physics.md`, stage 1).
-const DUE_TOLERANCE: f64 = 1e-9;
+pub(crate) const DUE_TOLERANCE: f64 = 1e-9;
 
 /// Names an emitter of a world.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -88,7 +88,7 @@ impl EmitterState {
     }
 
     fn is_due(&self, time: f64) -> bool {
-        self.due() <= time + DUE_TOLERANCE
+        self.due() <= time
     }
 
     /// Refuses a period so short that one frame would have to emit spheres without end.
@@ -110,7 +110,7 @@ pub(crate) struct Emission {
     pub retired: Vec<SphereId>,
 }
 
-/// Whether any emitter has a sphere due in the frame that starts at `time` \[s\].
+/// Whether any emitter has a sphere due until `time` \[s\].
 pub(crate) fn any_due(emitters: &Numbered<EmitterState>, time: f64) -> bool {
     emitters.iter().any(|(_, state)| state.is_due(time))
 }
@@ -120,7 +120,7 @@ pub(crate) fn next_due(emitters: &Numbered<EmitterState>) -> f64 {
     emitters.iter().map(|(_, state)| state.due()).fold(f64::INFINITY, f64::min)
 }
 
-/// Emits every sphere that is due in the frame that starts at `time` \[s\], emitter by emitter.
+/// Emits every sphere that is due until `time` \[s\], emitter by emitter.
 pub(crate) fn emit(
     emitters: &mut Numbered<EmitterState>,
     spheres: &mut Spheres,

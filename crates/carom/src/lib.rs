@@ -1,5 +1,5 @@
 //! **Carom moves spheres exactly.** Spheres under forces that collide with each other and with
-//! surfaces, which are fixed or moved from outside.
+//! surfaces, which are at rest or move as they are told.
 //!
 //! A [`World`] holds [`Spheres`], forces ([`Force`]), [`Collider`]s and [`Emitter`]s.
 //! [`World::step`] advances it by a frame and reports every [`Impact`]. The stages of a step are
@@ -37,6 +37,7 @@ mod integrate;
 mod interval;
 mod invariants;
 mod numbered;
+mod parallel;
 mod report;
 pub mod respond;
 mod rule;

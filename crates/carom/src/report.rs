@@ -106,7 +106,7 @@ fn relative(error: f64, scale: f64) -> f64 {
 pub enum Participants {
     /// Two spheres, bodies 1 and 2; the smaller id first.
     Spheres(SphereId, SphereId),
-    /// A fixed collider, body 1, and a sphere, body 2.
+    /// A collider, body 1, and a sphere, body 2.
     Collider {
         /// Body 1.
         collider: ColliderId,

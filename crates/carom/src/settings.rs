@@ -17,7 +17,7 @@ pub struct Settings {
     pub integrator: Integrator,
     /// Restitution of a contact, from that of its two bodies.
     pub restitution_rule: RestitutionRule,
-    /// Whether spheres collide with one another; fixed colliders they always collide with.
+    /// Whether spheres collide with one another; colliders they always collide with.
     pub spheres_collide: bool,
     /// How impacts at one instant in one group of touching bodies are answered.
     pub impact_law: ImpactLaw,

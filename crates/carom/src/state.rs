@@ -42,11 +42,7 @@ impl State {
 
     /// All spheres as they are now.
     pub fn now(&self) -> Instant<'_> {
-        self.at(self.clock.seconds())
-    }
-
-    /// All spheres as they are, when the time is said to be `time` \[s\].
-    pub fn at(&self, time: f64) -> Instant<'_> {
+        let time = self.clock.seconds();
         let properties = &self.spheres.properties;
         let system = System::new(&self.settings, &self.forces, &self.colliders, properties);
         Instant { system, motion: &self.spheres.motion, time }
@@ -63,13 +59,15 @@ impl State {
         let ids = self.timeline.is_some().then(|| self.spheres.ids().to_vec());
         let Self { emitters, spheres, next_id, .. } = self;
         let emission = emitter::emit(emitters, spheres, next_id, time);
+        let next = emitter::next_due(emitters);
         if let (Some(timeline), Some(ids)) = (self.timeline.take(), ids) {
             let (system, motion) = self.split();
             let due = |id| match emission.emitted.binary_search(&id) {
                 Ok(place) => emission.due[place],
                 Err(_) => time,
             };
-            self.timeline = Some(Timeline::adopt(&timeline, &ids, (&system, &*motion), time, due));
+            let span = [time, next];
+            self.timeline = Some(Timeline::adopt(&timeline, &ids, (&system, &*motion), span, due));
         }
         emission
     }
@@ -83,9 +81,10 @@ impl State {
         self.check_count()?;
         self.check_box()?;
         let timeline = self.timeline.take();
+        let next_emission = emitter::next_due(&self.emitters);
         let (system, motion) = self.split();
         let mut timeline = timeline.unwrap_or_else(|| Timeline::new(&system, motion, frame[0]));
-        let begun = timeline.begin_frame(&system, frame);
+        let begun = timeline.begin_frame(&system, frame, next_emission);
         self.timeline = Some(timeline);
         let time = frame[0];
         begun.map_err(|sphere| Error::NonFiniteState { sphere, quantity: "velocity", time })

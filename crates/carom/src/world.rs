@@ -123,13 +123,19 @@ impl World {
         }
         self.state.clock = clock;
         self.state.colliders.advance(dt);
+        if is_exact {
+            let now = self.state.now();
+            contacts::of_triggers(&now, 0.0, &mut self.search, |contact| {
+                self.report.triggers.extend(TriggerContact::of(&contact, &now.system));
+            });
+        }
         Ok(&self.report)
     }
 
     /// Takes a frame of `dt` \[s\] by a rule that knows nothing but frames.
     fn advance_by_frame(&mut self, dt: f64, before: &mut Option<BeforeEmission>) {
         let frame = Interval { time: self.time(), h: dt };
-        self.emit(frame.time, before);
+        self.emit(frame.time + emitter::DUE_TOLERANCE, before);
         let (system, motion) = self.state.split();
         rule::step(&system, motion, frame, &mut self.scratch, &mut self.report);
     }
@@ -155,10 +161,6 @@ impl World {
             self.emit(due, before);
         }
         self.state.end_frame(end);
-        let now = self.state.at(end);
-        contacts::of_triggers(&now, 0.0, &mut self.search, |contact| {
-            self.report.triggers.extend(TriggerContact::of(&contact, &now.system));
-        });
         Ok(())
     }
 

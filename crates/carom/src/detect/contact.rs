@@ -7,7 +7,7 @@ use super::{ContactState, Separation};
 pub(crate) enum Bodies {
     /// Spheres 1 and 2, the smaller index first.
     Pair(u32, u32),
-    /// A fixed surface, which is body 1, and a sphere, which is body 2.
+    /// A surface, which is body 1, and a sphere, which is body 2.
     Surface { sphere: u32, surface: u32 },
 }
 

@@ -25,7 +25,7 @@ pub use sphere_sphere::sphere_sphere;
 
 use crate::surface::Form;
 
-/// Separation of a fixed surface (body 1) and a sphere (body 2) with `center` and `radius` \[m\];
+/// Separation of a surface (body 1) and a sphere (body 2) with `center` and `radius` \[m\];
 /// `None` where the sphere is on the side that nothing collides with.
 pub(crate) fn sphere_surface(form: &Form, center: DVec3, radius: f64) -> Option<Separation> {
     match form {

@@ -97,7 +97,7 @@ pub(crate) fn total_linear(
     let mut total = LinearForce { acceleration: DVec3::ZERO, drag_rate: 0.0 };
     let mut is_all = true;
     for (_, force) in forces.iter() {
-        match force.linear(radius, mass) {
+        match linear_form(&**force, radius, mass) {
             Some(linear) => {
                 total.acceleration += linear.acceleration;
                 total.drag_rate += linear.drag_rate;
@@ -108,6 +108,15 @@ pub(crate) fn total_linear(
     (total, is_all)
 }
 
+/// The linear form of a force, if it has one that motion in closed form is made for: a drag that
+/// drives is not.
+fn linear_form(force: &dyn Force, radius: f64, mass: f64) -> Option<LinearForce> {
+    let is_usable = |linear: &LinearForce| {
+        linear.acceleration.is_finite() && linear.drag_rate >= 0.0 && linear.drag_rate.is_finite()
+    };
+    force.linear(radius, mass).filter(is_usable)
+}
+
 /// Sum of the forces \[N\] that are not linear on a sphere.
 pub(crate) fn total_of_others(
     forces: &Numbered<Arc<dyn Force>>,
@@ -115,6 +124,6 @@ pub(crate) fn total_of_others(
     time: f64,
 ) -> DVec3 {
     let others =
-        forces.iter().filter(|(_, force)| force.linear(sphere.radius, sphere.mass).is_none());
+        forces.iter().filter(|(_, f)| linear_form(&***f, sphere.radius, sphere.mass).is_none());
     others.fold(DVec3::ZERO, |sum, (_, force)| sum + force.on(sphere, time))
 }

@@ -19,7 +19,8 @@ pub(super) struct Body {
     pub time: f64,
     /// Its place among the kinds.
     pub kind: u32,
-    /// How often its flight began anew: a prediction made with another number is void.
+    /// Grows whenever its flight begins anew: a prediction made with another number is void. Odd
+    /// if an impact began it.
     pub flights: u32,
 }
 
@@ -78,6 +79,16 @@ impl Body {
     /// Ends the flight and begins another from this state, at `time` \[s\].
     pub fn begin_flight(&mut self, position: DVec3, velocity: DVec3, time: f64) {
         (self.position, self.velocity, self.time) = (position, velocity, time);
-        self.flights = self.flights.wrapping_add(1);
+        self.flights = (self.flights | 1).wrapping_add(1);
+    }
+
+    /// Makes the flight that begins one after an impact.
+    pub fn strike(&mut self) {
+        self.flights |= 1;
+    }
+
+    /// Whether an impact began the flight, less than `duration` before `time` \[s\].
+    pub fn was_struck(&self, time: f64, duration: f64) -> bool {
+        self.flights & 1 == 1 && time - self.time < duration
     }
 }

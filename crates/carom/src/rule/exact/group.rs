@@ -62,8 +62,8 @@ pub(super) fn answer(
     let struck = respond_to_impacts(timeline, stage, &mut group);
     let supports = support::find(stage, &mut group);
     let held = supports.iter().flat_map(|support| &support.contacts).copied();
-    let answered: Vec<Bodies> = struck.into_iter().chain(held).collect();
-    begin_flights(timeline, &group, supports);
+    let answered: Vec<Bodies> = struck.iter().copied().chain(held).collect();
+    begin_flights(timeline, &group, &struck, supports);
     for member in &group.members {
         predict::predict(timeline, stage, member.slot, group.time);
     }
@@ -88,11 +88,11 @@ fn met(timeline: &Timeline, seeds: &[u32], surface: Option<u32>) -> Option<Bodie
 /// Gives every closing contact its impulse, by the impact law, and writes them down; tells who got
 /// one.
 fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group) -> Vec<Bodies> {
-    let contacts = contacts_of(timeline, stage, group);
     let is_closing = |touch: &Touch| touch.normal_velocity(&group.members) < 0.0;
     if !group.touches.iter().any(is_closing) {
         return Vec::new();
     }
+    let contacts = contacts_of(timeline, stage, group);
     let approach: Vec<f64> =
         group.touches.iter().map(|touch| -touch.normal_velocity(&group.members)).collect();
     let masses: Vec<f64> = group.members.iter().map(|member| member.kind.mass).collect();
@@ -135,7 +135,9 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
             impulse,
         });
     }
-    stage.record(&impacts, account);
+    if !impacts.is_empty() {
+        stage.record(&impacts, account);
+    }
     struck
 }
 
@@ -183,11 +185,26 @@ fn account_of([before, after]: [&[DVec3]; 2], masses: &[f64]) -> ImpactGroup {
     }
 }
 
-/// Begins a new flight of every sphere of the group, borne by its lasting contacts.
-fn begin_flights(timeline: &mut Timeline, group: &Group, supports: Vec<Support>) {
+/// Begins a new flight of every sphere of the group, borne by its lasting contacts. Bodies that were
+/// `struck` begin it by that.
+fn begin_flights(
+    timeline: &mut Timeline,
+    group: &Group,
+    struck: &[Bodies],
+    supports: Vec<Support>,
+) {
     for member in &group.members {
         timeline.set_free(member.slot);
         timeline.begin_flight(member.slot, member.position, member.velocity, group.time);
+    }
+    for &bodies in struck {
+        let (sphere, other) = match bodies {
+            Bodies::Pair(first, second) => (first, Some(second)),
+            Bodies::Surface { sphere, .. } => (sphere, None),
+        };
+        for index in [sphere].into_iter().chain(other) {
+            timeline.bodies[timeline.slot_of[index as usize] as usize].strike();
+        }
     }
     supports.into_iter().for_each(|support| timeline.set_supported(support));
 }

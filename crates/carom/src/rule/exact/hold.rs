@@ -4,9 +4,9 @@ use super::timeline::Timeline;
 use crate::forces::{self, SphereState};
 use crate::system::System;
 
-/// Begins a new flight of every sphere at the start of the frame, under the forces that act on it
-/// in the middle: an error of the third order in the frame's length, of the second over all frames
-/// (the midpoint rule). Lasting contacts are found anew.
+/// Begins a new flight of every sphere at the start of a frame, or of a part of it, under the forces
+/// that act on it in the middle: an error of the third order in its length, of the second over all
+/// frames (the midpoint rule). Lasting contacts are found anew.
 pub(super) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64; 2]) {
     let half = 0.5 * (end - start);
     for slot in 0..timeline.bodies.len() as u32 {

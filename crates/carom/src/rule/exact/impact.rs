@@ -37,6 +37,9 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
             .for_each(|(slot, body)| timeline.bodies[slot as usize] = body);
         return group::answer(timeline, stage, &slots, None, time);
     }
+    if impact.impulse.is_some() {
+        slots.iter().for_each(|&slot| timeline.bodies[slot as usize].strike());
+    }
     impact.record(timeline, stage, slots);
     let is_folded = slots.map(|slot| timeline.fold(slot));
     for (one, slot) in slots.into_iter().enumerate() {

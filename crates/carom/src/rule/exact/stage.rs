@@ -44,7 +44,7 @@ impl Stage<'_> {
         self.system.spheres.id[timeline.index_of[slot as usize] as usize]
     }
 
-    /// Restitution of an impact of spheres: nothing is given back, unless all is, where all of them
+    /// Restitution of an impact: nothing is given back, unless all is, where all spheres in it
     /// were hit less than a contact's duration ago. So the shorter and shorter flights of an
     /// inelastic collapse come to an end (McNamara and Young, Phys. Fluids A 4, 496 (1992)). The TC
     /// model of Luding and McNamara, Granular Matter 1, 113 (1998), has the same condition and gives
@@ -55,9 +55,9 @@ impl Stage<'_> {
         restitution: f64,
         time: f64,
     ) -> f64 {
-        let was_hit =
-            |body: &&Body| body.flights > 0 && time - body.time < self.parameters.contact_duration;
-        if restitution < 1.0 && bodies.iter().all(was_hit) { 0.0 } else { restitution }
+        let duration = self.parameters.contact_duration;
+        let were_struck = || bodies.iter().all(|body| body.was_struck(time, duration));
+        if restitution < 1.0 && were_struck() { 0.0 } else { restitution }
     }
 
     /// Writes down impacts that were answered together.

@@ -9,8 +9,10 @@ use super::timeline::{Event, Target, Timeline};
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 
-/// Relative rounding of a distance and of a speed of two spheres that touch.
+/// Relative rounding of the places and of the speeds of two spheres that touch.
 const TOUCH_ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// Only within this part of the distance of centres may spheres be taken to touch.
+const NEARLY_TOUCHING: f64 = 1e-6;
 /// Relative margin by which spheres have to pass each other to be left out: far more than rounding.
 const PASSING_MARGIN: f64 = 1e-12;
 
@@ -71,22 +73,28 @@ impl<const FALLS: bool> Pair<'_, FALLS> {
     /// in a straight line at constant speed.
     #[inline(always)]
     fn meeting(&self, offset: DVec3, radius_sum: f64) -> f64 {
-        let [a, b] = self.bodies;
         let velocity = self.velocity();
-        let distance_squared = offset.length_squared();
-        let gap = distance_squared - radius_sum * radius_sum;
-        if gap.abs() <= TOUCH_ROUNDING * radius_sum * radius_sum {
-            // Two that touch close only if they do so by more than the rounding of their speeds.
-            let rounding =
-                TOUCH_ROUNDING * radius_sum * (a.velocity.length() + b.velocity.length());
-            if -offset.dot(velocity) <= rounding {
-                return f64::INFINITY;
-            }
+        let gap = offset.length_squared() - radius_sum * radius_sum;
+        if gap.abs() <= NEARLY_TOUCHING * radius_sum * radius_sum
+            && self.only_touch(offset, velocity, gap, radius_sum)
+        {
+            return f64::INFINITY;
         }
         match contact_time::sphere_sphere_linear(offset, velocity, radius_sum) {
             Some(delay) => self.start + delay,
             None => f64::INFINITY,
         }
+    }
+
+    /// Whether two spheres touch, and close by no more than the rounding of their speeds.
+    #[inline(never)]
+    fn only_touch(&self, offset: DVec3, velocity: DVec3, gap: f64, radius_sum: f64) -> bool {
+        let speed: f64 = self.bodies.iter().map(|body| body.velocity.length()).sum();
+        let place: f64 = self.bodies.iter().map(|body| body.position.length()).sum();
+        // How far they move in the rounding of the clock is in doubt, too.
+        let size = radius_sum + place + speed * self.start.abs();
+        gap.abs() <= TOUCH_ROUNDING * radius_sum * size
+            && -offset.dot(velocity) <= TOUCH_ROUNDING * radius_sum * speed
     }
 }
 

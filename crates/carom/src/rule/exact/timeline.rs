@@ -14,6 +14,7 @@ use super::surroundings::Surroundings;
 use super::{hold, predict};
 use crate::bodies::{Motion, SphereId};
 use crate::forces;
+use crate::parallel;
 use crate::surface::Role;
 use crate::system::System;
 
@@ -74,8 +75,6 @@ pub(super) struct Outlook {
 }
 
 impl Outlook {
-    const EMPTY: Self = Self { event: Event::NEVER, departure: f64::INFINITY };
-
     /// When the first of it happens, on the world's clock \[s\].
     fn time(&self) -> f64 {
         self.event.time.min(self.departure)
@@ -118,12 +117,12 @@ impl Timeline {
 
     /// Takes in, at `time` \[s\], the spheres that came since `before`, when these were the `ids`, and
     /// leaves out those that went; the others fly on. Spheres that came begin their flights at
-    /// `time_of` them \[s\]. Lasting contacts are found anew.
+    /// `time_of` them \[s\]. Lasting contacts are found anew. The next ones come at `next` \[s\].
     pub fn adopt(
         before: &Self,
         ids: &[SphereId],
         (system, motion): (&System, &Motion),
-        time: f64,
+        [time, next]: [f64; 2],
         time_of: impl Fn(SphereId) -> f64,
     ) -> Self {
         let mut timeline = Self { frame: before.frame, ..Self::default() };
@@ -133,7 +132,7 @@ impl Timeline {
         });
         timeline.arrange(system, time);
         if timeline.holds_forces {
-            hold::renew(&mut timeline, system, [time, before.frame[1]]);
+            hold::renew(&mut timeline, system, [time, next.min(before.frame[1])]);
         }
         timeline.predict_all(system, time);
         timeline
@@ -171,7 +170,8 @@ impl Timeline {
     /// How many flights of a sphere began in this frame.
     pub fn flights_in_frame(&self, slot: u32) -> u32 {
         let before = self.flights_before[self.index_of[slot as usize] as usize];
-        self.bodies[slot as usize].flights.wrapping_sub(before)
+        // Each adds two, or one if an impact began the flight before it.
+        self.bodies[slot as usize].flights.wrapping_sub(before).div_ceil(2)
     }
 
     /// Gathers the spheres into kinds; gives the kind of each.
@@ -248,23 +248,29 @@ impl Timeline {
     /// Predicts the next event of every sphere, as of `time` \[s\].
     fn predict_all(&mut self, system: &System, time: f64) {
         self.queue = EventQueue::new(self.bodies.len());
-        self.outlooks.clear();
-        self.outlooks.resize(self.bodies.len(), Outlook::EMPTY);
-        let mut around = Surroundings::default();
-        for slot in 0..self.bodies.len() as u32 {
-            let outlook = predict::outlook(self, system, slot, &mut around, time);
-            self.schedule(slot, outlook);
+        self.outlooks = parallel::map(self.bodies.len(), |around: &mut Surroundings, slot| {
+            predict::outlook(self, system, slot as u32, around, time)
+        });
+        for (slot, (outlook, &index)) in (0..).zip(self.outlooks.iter().zip(&self.index_of)) {
+            self.queue.push(Entry { time: outlook.time(), slot, index });
         }
     }
 
-    /// Prepares for a frame from and to these times \[s\].
+    /// Prepares for a frame from and to these times \[s\]. The next
+    /// spheres are emitted at `next` \[s\].
     ///
     /// # Errors
     /// A sphere on which a force is not finite.
-    pub fn begin_frame(&mut self, system: &System, frame: [f64; 2]) -> Result<(), SphereId> {
+    pub fn begin_frame(
+        &mut self,
+        system: &System,
+        frame: [f64; 2],
+        next: f64,
+    ) -> Result<(), SphereId> {
         self.frame = frame;
         if self.holds_forces {
-            hold::renew(self, system, frame);
+            // What is due already comes at the start of the frame, when this is done again.
+            hold::renew(self, system, [frame[0], next.clamp(frame[0], frame[1])]);
             let is_lost = |body: &Body| !self.kinds[body.kind as usize].acceleration.is_finite();
             if let Some(slot) = self.bodies.iter().position(is_lost) {
                 return Err(system.spheres.id[self.index_of[slot] as usize]);
@@ -437,11 +443,10 @@ impl Timeline {
 
     /// Writes the states of all spheres at `time` \[s\].
     pub fn write_motion(&self, motion: &mut Motion, period: DVec3, time: f64) {
-        for (body, &index) in self.bodies.iter().zip(&self.index_of) {
-            let (position, velocity) = body.state_at(&self.kinds[body.kind as usize], time);
-            motion.position[index as usize] = periodic::folded(position, period);
-            motion.velocity[index as usize] = velocity;
-        }
+        parallel::fill((&mut motion.position, &mut motion.velocity), |index| {
+            let (position, velocity) = self.state_of(self.slot_of[index], time);
+            (periodic::folded(position, period), velocity)
+        });
     }
 }
 

@@ -1,0 +1,48 @@
+//! Work on many spheres that do not depend on each other: on all threads with the feature `rayon`,
+//! on one without it. What comes out is the same to the last bit.
+
+/// Below this number threads cost more than they help.
+#[cfg(feature = "rayon")]
+const FEW: usize = 512;
+
+/// The results of `f` for 0, 1, ... below `count`, in this order. `f` is given working memory, in
+/// which it may find anything.
+#[cfg(feature = "rayon")]
+pub(crate) fn map<M: Default, T: Send>(
+    count: usize,
+    f: impl Fn(&mut M, usize) -> T + Sync + Send,
+) -> Vec<T> {
+    use rayon::prelude::*;
+    (0..count).into_par_iter().with_min_len(FEW).map_init(M::default, f).collect()
+}
+
+/// Likewise.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn map<M: Default, T: Send>(
+    count: usize,
+    f: impl Fn(&mut M, usize) -> T + Sync + Send,
+) -> Vec<T> {
+    let mut memory = M::default();
+    (0..count).map(|number| f(&mut memory, number)).collect()
+}
+
+/// Puts the results of `f` for 0, 1, ... into two arrays of one length.
+#[cfg(feature = "rayon")]
+pub(crate) fn fill<A: Send, B: Send>(
+    (first, second): (&mut [A], &mut [B]),
+    f: impl Fn(usize) -> (A, B) + Sync + Send,
+) {
+    use rayon::prelude::*;
+    let both = first.par_iter_mut().zip(second).enumerate().with_min_len(FEW);
+    both.for_each(|(number, (a, b))| (*a, *b) = f(number));
+}
+
+/// Likewise.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn fill<A: Send, B: Send>(
+    (first, second): (&mut [A], &mut [B]),
+    f: impl Fn(usize) -> (A, B) + Sync + Send,
+) {
+    let both = first.iter_mut().zip(second).enumerate();
+    both.for_each(|(number, (a, b))| (*a, *b) = f(number));
+}
