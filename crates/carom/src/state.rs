@@ -121,11 +121,18 @@ impl State {
     }
 
     /// Puts all spheres where they are at the end of a frame under the rule `exact`.
-    pub fn end_frame(&mut self, end: f64) {
-        if let Some(timeline) = &self.timeline {
-            let period = self.settings.boundary.period();
-            timeline.write_motion(&mut self.spheres.motion, period, end);
+    ///
+    /// # Errors
+    /// [`Error::NonFiniteState`] if one is nowhere; then none is moved.
+    pub fn end_frame(&mut self, end: f64) -> Result<(), Error> {
+        let Some(timeline) = &self.timeline else { return Ok(()) };
+        if let Some((index, quantity)) = timeline.lost(end) {
+            let (sphere, time) = (self.spheres.ids()[index], self.clock.seconds());
+            return Err(Error::NonFiniteState { sphere, quantity, time });
         }
+        let period = self.settings.boundary.period();
+        timeline.write_motion(&mut self.spheres.motion, period, end);
+        Ok(())
     }
 
     /// Refuses positions or velocities that are not finite.

@@ -104,18 +104,13 @@ impl World {
         self.state.check_emitters(last_emission)?;
 
         let mut before_emission = None;
-        self.start.copy_all(&self.state.spheres.motion);
         let moved = match self.state.settings.rule {
             Rule::Exact(_) => self.advance_exactly(dt, clock.seconds(), &mut before_emission),
-            Rule::Discrete | Rule::Bisect(_) => {
-                self.advance_by_frame(dt, &mut before_emission);
-                Ok(())
-            }
+            Rule::Discrete | Rule::Bisect(_) => self.advance_by_frame(dt, &mut before_emission),
         };
-        if let Err(error) = moved.and_then(|()| self.state.check_finite()) {
-            match before_emission {
-                Some(before) => before.restore(&mut self.state),
-                None => std::mem::swap(&mut self.state.spheres.motion, &mut self.start),
+        if let Err(error) = moved {
+            if let Some(before) = before_emission {
+                before.restore(&mut self.state);
             }
             self.state.timeline = None;
             self.report.clear();
@@ -132,16 +127,27 @@ impl World {
         Ok(&self.report)
     }
 
-    /// Takes a frame of `dt` \[s\] by a rule that knows nothing but frames.
-    fn advance_by_frame(&mut self, dt: f64, before: &mut Option<BeforeEmission>) {
+    /// Takes a frame of `dt` \[s\] by a rule that knows nothing but frames. If that fails, the spheres are
+    /// where they were, but for what was emitted.
+    fn advance_by_frame(
+        &mut self,
+        dt: f64,
+        before: &mut Option<BeforeEmission>,
+    ) -> Result<(), Error> {
+        self.start.copy_all(&self.state.spheres.motion);
         let frame = Interval { time: self.time(), h: dt };
         self.emit(frame.time + emitter::DUE_TOLERANCE, before);
         let (system, motion) = self.state.split();
         rule::step(&system, motion, frame, &mut self.scratch, &mut self.report);
+        let checked = self.state.check_finite();
+        if checked.is_err() {
+            std::mem::swap(&mut self.state.spheres.motion, &mut self.start);
+        }
+        checked
     }
 
-    /// Takes a frame of `length` until `end` \[s\] by the rule `exact`. What emitters have due within the frame
-    /// comes at its own time.
+    /// Takes a frame of `length` until `end` \[s\] by the rule `exact`. What emitters have due within the
+    /// frame comes at its own time. If that fails, no sphere was moved.
     fn advance_exactly(
         &mut self,
         length: f64,
@@ -160,8 +166,7 @@ impl World {
             }
             self.emit(due, before);
         }
-        self.state.end_frame(end);
-        Ok(())
+        self.state.end_frame(end)
     }
 
     /// Emits the spheres that are due at `time` \[s\]; notes what was before, the first time.

@@ -140,25 +140,23 @@ impl Grid {
         (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])))
     }
 
-    /// Whether the cell reaches to infinity, downward and upward, along an axis.
-    pub fn is_endless(&self, cell: [u16; 3], axis: usize) -> [bool; 2] {
-        let open = !self.periodic[axis];
-        [open && cell[axis] == 0, open && cell[axis] + 1 == self.counts[axis]]
-    }
-
-    /// Bounds of a sphere in a cell, without those on whose side the cell reaches to infinity.
+    /// Bounds of something about a place, without those on whose side its cell reaches to infinity.
     #[inline(always)]
-    pub fn without_ends(&self, cell: [u16; 3], low: DVec3, high: DVec3) -> (DVec3, DVec3) {
-        if self.periodic == [true; 3] { (low, high) } else { self.without(cell, low, high) }
+    pub fn without_ends(&self, place: DVec3, low: DVec3, high: DVec3) -> (DVec3, DVec3) {
+        if self.periodic == [true; 3] {
+            (low, high)
+        } else {
+            self.without_ends_of(self.cell_of(place), low, high)
+        }
     }
 
-    fn without(&self, cell: [u16; 3], mut low: DVec3, mut high: DVec3) -> (DVec3, DVec3) {
+    fn without_ends_of(&self, cell: [u16; 3], mut low: DVec3, mut high: DVec3) -> (DVec3, DVec3) {
         for axis in 0..3 {
-            let [downward, upward] = self.is_endless(cell, axis);
-            if downward {
+            let open = !self.periodic[axis];
+            if open && cell[axis] == 0 {
                 low[axis] = f64::NEG_INFINITY;
             }
-            if upward {
+            if open && cell[axis] + 1 == self.counts[axis] {
                 high[axis] = f64::INFINITY;
             }
         }
@@ -173,7 +171,7 @@ impl Grid {
     /// Bounds of the places of a cell \[m\].
     pub fn bounds(&self, cell: [u16; 3]) -> Bounds {
         let corner = self.origin + DVec3::from_array(cell.map(f64::from)) * self.width;
-        let (min, max) = self.without_ends(cell, corner, corner + self.width);
+        let (min, max) = self.without_ends_of(cell, corner, corner + self.width);
         Bounds { min, max }
     }
 

@@ -39,10 +39,10 @@ const LEVEL_RATIO: f64 = 4.0;
 const MAX_LEVELS: usize = 24;
 /// A neighbourhood reaches beyond the cell by this part of its width, so that whoever leaves it is
 /// in another cell, whatever rounding does.
-const OVERHANG: f64 = 1.0 / 64.0;
+const OVERHANG: f64 = 1.0 / 256.0;
 /// A sphere has left its neighbourhood when it is this part of the half edge away from the centre:
 /// the rest is more than rounding, of places and of the clock.
-const DEPARTURE: f64 = 1.0 - 1.0 / 128.0;
+const DEPARTURE: f64 = 1.0 - 1.0 / 512.0;
 /// Lists are kept if there are more spheres than this to a cell as wide as a diameter: then to
 /// look at fewer neighbours is worth the upkeep.
 const CROWDED: f64 = 0.55;
@@ -98,8 +98,6 @@ struct Neighbourhood {
     radius: f64,
     /// How often the sphere went round each periodic axis since its flight began.
     turns: [i32; 3],
-    /// Of the grid of its own level.
-    cell: [u16; 3],
 }
 
 /// Those who are near a sphere.
@@ -313,7 +311,6 @@ impl Neighbours {
             center: DVec3::ZERO,
             radius: kinds[body.kind as usize].radius,
             turns: [0; 3],
-            cell: [0; 3],
         };
         let mut neighbours = Self {
             levels: levels.collect(),
@@ -362,7 +359,7 @@ impl Neighbours {
     pub fn read_cells(&self, slot: u32) -> f64 {
         let ([Level { grid, own, .. }], None) = (&self.levels[..], &self.lists) else { return 0.0 };
         let mut read = 0;
-        grid.for_each_block(self.neighbourhoods[slot as usize].cell, None, |block| {
+        grid.for_each_block(self.cell_of(slot, grid), None, |block| {
             block.for_each_row(|row| {
                 read += own.first(row.start).len() + own.first(row.end - 1).len();
             });
@@ -405,8 +402,12 @@ impl Neighbours {
     /// where its position counts.
     pub fn surfaces_near(&self, slot: u32, level: u32) -> impl Iterator<Item = (u32, DVec3)> {
         let Level { grid, surfaces, .. } = &self.levels[level as usize];
-        let Neighbourhood { turns, cell, .. } = self.neighbourhoods[slot as usize];
-        let near = if surfaces.is_empty() { &[] } else { surfaces.of_cell(grid.index(cell)) };
+        let turns = self.neighbourhoods[slot as usize].turns;
+        let near = if surfaces.is_empty() {
+            &[]
+        } else {
+            surfaces.of_cell(grid.index(self.cell_of(slot, grid)))
+        };
         near.iter().map(move |near| {
             let turns = [0, 1, 2].map(|axis| i32::from(near.turns[axis]) + turns[axis]);
             (near.surface, way_round(turns, self.period))
@@ -417,11 +418,11 @@ impl Neighbours {
     #[inline(always)]
     pub fn departure(&self, slot: u32, body: &Body, kind: &Kind, now: f64) -> f64 {
         let Level { grid, half_edges, .. } = &self.levels[kind.level as usize];
-        let Neighbourhood { center, cell, .. } = self.neighbourhoods[slot as usize];
+        let center = self.neighbourhoods[slot as usize].center;
         let (position, velocity) = body.state_at(kind, now);
         let offset = center + self.way_round(slot) - position;
         let half_edges = DEPARTURE * half_edges;
-        let (low, high) = grid.without_ends(cell, offset - half_edges, offset + half_edges);
+        let (low, high) = grid.without_ends(center, offset - half_edges, offset + half_edges);
         let mut first = f64::INFINITY;
         for axis in 0..3 {
             let motion = AxisMotion {
@@ -445,14 +446,14 @@ impl Neighbours {
         near: &mut Vicinity,
     ) {
         near.clear();
-        let before = self.neighbourhoods[slot as usize].cell;
+        let before = self.cell_of(slot, &self.levels[level as usize].grid);
         self.leave_cells(slot, level);
         self.place(slot, level, position, velocity);
         self.enter_cells(slot, level);
         if self.lists.is_some() {
             self.list(slot, near);
         } else {
-            let after = self.neighbourhoods[slot as usize].cell;
+            let after = self.cell_of(slot, &self.levels[level as usize].grid);
             self.gather(slot, level, [before, after], near);
         }
     }
@@ -471,10 +472,15 @@ impl Neighbours {
         let center = position + ahead;
         neighbourhood.turns = turns_of(center, self.period);
         neighbourhood.center = center - way_round(neighbourhood.turns, self.period);
-        neighbourhood.cell = grid.cell_of(neighbourhood.center);
         if !is_listed {
-            neighbourhood.center = grid.center(neighbourhood.cell);
+            neighbourhood.center = grid.center(grid.cell_of(neighbourhood.center));
         }
+    }
+
+    /// The cell of a grid that the neighbourhood of a sphere lies about.
+    #[inline(always)]
+    fn cell_of(&self, slot: u32, grid: &Grid) -> [u16; 3] {
+        grid.cell_of(self.neighbourhoods[slot as usize].center)
     }
 
     /// The sphere, as it is seen from the box about the origin.
@@ -502,14 +508,14 @@ impl Neighbours {
         mut act: impl FnMut(&mut CellLists, usize, Neighbour),
     ) {
         let mark = self.mark(slot);
-        let Neighbourhood { center, cell, .. } = self.neighbourhoods[slot as usize];
+        let center = self.neighbourhoods[slot as usize].center;
         for Level { grid, visitors, .. } in &mut self.levels[..own_level as usize] {
             if let Some(visitors) = visitors {
                 act(visitors, grid.index(grid.cell_of(center)), mark);
             }
         }
         let Level { grid, own, .. } = &mut self.levels[own_level as usize];
-        act(own, grid.index(cell), mark);
+        act(own, grid.index(grid.cell_of(center)), mark);
     }
 
     /// Appends the spheres in the cells around a sphere. If it comes `from` another cell of its level
@@ -519,11 +525,11 @@ impl Neighbours {
         if !self.spheres_collide {
             return;
         }
-        let Neighbourhood { center, cell, .. } = self.neighbourhoods[slot as usize];
         for Level { grid, own, .. } in &self.levels[..own_level as usize] {
-            self.gather_from((grid, own), slot, grid.cell_of(center), None, near);
+            self.gather_from((grid, own), slot, self.cell_of(slot, grid), None, near);
         }
         let Level { grid, own, visitors, .. } = &self.levels[own_level as usize];
+        let cell = self.cell_of(slot, grid);
         let side = if from == to { None } else { grid.side(from, to) };
         self.gather_from((grid, own), slot, cell, side, near);
         if let Some(visitors) = visitors {
@@ -580,8 +586,8 @@ impl Neighbours {
     /// Finds the others whom a sphere can meet while both are in their neighbourhoods.
     fn find_peers(&self, slot: u32, peers: &mut Buffer) {
         let [Level { grid, half_edges, own, .. }] = &self.levels[..] else { return };
-        let Neighbourhood { center, radius, turns, cell } = self.neighbourhoods[slot as usize];
-        grid.for_each_block(cell, None, |block| {
+        let Neighbourhood { center, radius, turns } = self.neighbourhoods[slot as usize];
+        grid.for_each_block(grid.cell_of(center), None, |block| {
             let start = peers.len;
             block.for_each_row(|row| peers.add_cells(own, row));
             let image = block.turns;

@@ -17,7 +17,7 @@ const ENTRIES_PER_BUCKET: usize = 32;
 /// Buckets of a small queue.
 const MIN_BUCKETS: usize = 16;
 /// The queue is cleared of void entries when it holds this many times what it can need.
-const MAX_VOID_RATIO: usize = 4;
+const MAX_VOID_RATIO: usize = 2;
 
 /// Buckets are at least this part of the time wide: some roundings of the clock, so that the next
 /// bucket always begins later.

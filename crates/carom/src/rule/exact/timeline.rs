@@ -216,6 +216,10 @@ impl Timeline {
             .filter(|(_, surface)| surface.role == Role::Deflects && !surface.motion.is_at_rest())
             .map(|(number, _)| number)
             .collect();
+        // What is made anew must not be in memory twice.
+        self.outlooks = Vec::new();
+        self.queue = EventQueue::default();
+        self.neighbours = Neighbours::default();
         let order = self.contents(system, time).curve_order();
         if order.windows(2).any(|pair| pair[0] > pair[1]) {
             let mut new_slots = vec![0; order.len()];
@@ -409,6 +413,7 @@ impl Timeline {
     }
 
     /// Centre \[m\] and velocity \[m/s\] of a sphere at `time` \[s\].
+    #[inline]
     pub fn state_of(&self, slot: u32, time: f64) -> (DVec3, DVec3) {
         let body = &self.bodies[slot as usize];
         body.state_at(&self.kinds[body.kind as usize], time)
@@ -439,6 +444,26 @@ impl Timeline {
             body.begin_flight(position, velocity, time);
         }
         body
+    }
+
+    /// The first sphere, by index, that is not anywhere at `time` \[s\], and which of its quantities is
+    /// not finite.
+    pub fn lost(&self, time: f64) -> Option<(usize, &'static str)> {
+        // Whatever is not finite makes the sum not a number.
+        let trace = |slot: u32| {
+            let (position, velocity) = self.state_of(slot, time);
+            0.0 * (position + velocity).element_sum()
+        };
+        let slots = 0..self.bodies.len() as u32;
+        if slots.map(trace).sum::<f64>() == 0.0 {
+            return None;
+        }
+        self.slot_of.iter().enumerate().find_map(|(index, &slot)| {
+            let (position, velocity) = self.state_of(slot, time);
+            let quantities = [("velocity", velocity), ("position", position)];
+            let lost = quantities.into_iter().find(|(_, value)| !value.is_finite());
+            lost.map(|(quantity, _)| (index, quantity))
+        })
     }
 
     /// Writes the states of all spheres at `time` \[s\].
