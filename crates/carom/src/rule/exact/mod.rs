@@ -25,6 +25,7 @@ mod support;
 mod surroundings;
 mod timeline;
 mod touch;
+mod vicinity;
 
 pub(crate) use neighbour::MAX_SPHERES;
 use stage::Stage;

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::body::{Body, Kind};
 use super::neighbour::Neighbour;
-use super::neighbours::Vicinity;
 use super::timeline::{Event, Target, Timeline};
+use super::vicinity::Vicinity;
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 

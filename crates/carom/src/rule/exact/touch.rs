@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::group::{Group, Member};
-use super::neighbours::Vicinity;
 use super::periodic;
 use super::stage::Stage;
 use super::timeline::Timeline;
+use super::vicinity::Vicinity;
 use crate::detect::contact::Bodies;
 use crate::detect::{Separation, sphere_rectangle_known_in_front, sphere_sphere, sphere_surface};
 use crate::respond::TouchingContact;
