@@ -6,7 +6,7 @@ use std::path::Path;
 
 use carom::World;
 
-use super::{Format, digits};
+use super::{Format, csv_file, digits};
 
 /// Columns: time at the end of the frame \[s\], number of the sphere in order of appearance,
 /// position \[m\], velocity \[m/s\].
@@ -16,9 +16,7 @@ pub(super) struct CsvTable(csv::Writer<File>);
 
 impl CsvTable {
     pub fn create(path: &Path) -> io::Result<Self> {
-        let mut writer = csv::Writer::from_writer(File::create(path)?);
-        writer.write_record(HEADER)?;
-        Ok(Self(writer))
+        Ok(Self(csv_file(path, &HEADER)?))
     }
 }
 

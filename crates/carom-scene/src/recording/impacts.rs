@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use carom::{Impact, Participants};
 
-use super::{RecordingError, digits, unwritable};
+use super::{RecordingError, csv_file, digits, unwritable};
 
 /// Columns: time \[s\]; kind and number of body 1 (`sphere` or `collider`) and number of body 2, a
 /// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; impulse \[N s\].
@@ -26,12 +26,7 @@ impl ImpactTable {
     /// # Errors
     /// For a place that cannot be written to.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
-        let create = || -> io::Result<csv::Writer<File>> {
-            let mut writer = csv::Writer::from_writer(File::create(path)?);
-            writer.write_record(HEADER)?;
-            Ok(writer)
-        };
-        let writer = create().map_err(|source| unwritable(path, source))?;
+        let writer = csv_file(path, &HEADER).map_err(|source| unwritable(path, source))?;
         Ok(Self { path: path.to_owned(), writer })
     }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use carom::{LedgerEntry, StepReport};
 
 use super::impacts::impact_fields;
-use super::{RecordingError, digits, unwritable};
+use super::{RecordingError, csv_file, digits, unwritable};
 
 /// Columns: those of the impacts up to the normal; speeds of approach and separation \[m/s\] and
 /// impulse \[N s\]; the law, the number of the group in the run and how many impacts it has; momentum
@@ -56,12 +56,7 @@ impl LedgerTable {
     /// # Errors
     /// For a place that cannot be written to.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
-        let create = || -> io::Result<csv::Writer<File>> {
-            let mut writer = csv::Writer::from_writer(File::create(path)?);
-            writer.write_record(HEADER)?;
-            Ok(writer)
-        };
-        let writer = create().map_err(|source| unwritable(path, source))?;
+        let writer = csv_file(path, &HEADER).map_err(|source| unwritable(path, source))?;
         Ok(Self { path: path.to_owned(), writer, groups: 0 })
     }
 

@@ -6,6 +6,7 @@ mod ledger;
 mod npz;
 mod vtk;
 
+use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -95,6 +96,13 @@ impl Trajectory {
 
 fn unwritable(path: &Path, source: io::Error) -> RecordingError {
     RecordingError::Unwritable { path: path.to_owned(), source }
+}
+
+/// Creates a CSV file with this header.
+fn csv_file(path: &Path, header: &[&str]) -> io::Result<csv::Writer<File>> {
+    let mut writer = csv::Writer::from_writer(File::create(path)?);
+    writer.write_record(header)?;
+    Ok(writer)
 }
 
 /// A number with 17 significant digits: as many as tell any two doubles apart.
