@@ -68,7 +68,11 @@ fn is_alone(
     let Kind { level, radius, .. } = *timeline.kind_of(slot);
     let around = &mut stage.around[one];
     timeline.neighbours.near(slot, level, &mut around.near);
-    let touches = around.look(timeline, slot, |_| time, (other, NEARBY));
+    let mut touches = around.look(timeline, slot, |_| time, (other, NEARBY));
+    // The two fly alike: where all are of one kind, all do.
+    if timeline.kinds.len() > 1 {
+        touches |= around.touches_others(timeline, slot, (other, NEARBY));
+    }
     let place = timeline.bodies[slot as usize].position;
     !touches && stage.touches_no_surface(timeline, slot, place, radius * NEARBY, time)
 }

@@ -254,7 +254,7 @@ impl Neighbours {
                 near.same_box.add_list(lists, slot);
                 near.sort_from(0, slot);
             }
-            None => self.gather(slot, level, [[0; 3]; 2], near),
+            None => self.gather(slot, level, None, near),
         }
     }
 
@@ -364,8 +364,8 @@ impl Neighbours {
         if self.lists.is_some() {
             self.list(slot, near);
         } else {
-            let after = self.cell_of(slot, &self.levels[level as usize].grid);
-            self.gather(slot, level, [before, after], near);
+            let grid = &self.levels[level as usize].grid;
+            self.gather(slot, level, grid.side(before, self.cell_of(slot, grid)), near);
         }
     }
 
@@ -429,10 +429,10 @@ impl Neighbours {
         act(own, grid.index(grid.cell_of(center)), mark);
     }
 
-    /// Appends the spheres in the cells around a sphere. If it comes `from` another cell of its level
-    /// `to` where it is now, it may leave out those who were near there.
+    /// Appends the spheres in the cells around a sphere; of its own level, and of smaller spheres, those
+    /// on one side, if one is given.
     #[inline(always)]
-    fn gather(&self, slot: u32, own_level: u32, [from, to]: [[u16; 3]; 2], near: &mut Vicinity) {
+    fn gather(&self, slot: u32, own_level: u32, side: Option<Side>, near: &mut Vicinity) {
         if !self.spheres_collide {
             return;
         }
@@ -441,7 +441,6 @@ impl Neighbours {
         }
         let Level { grid, own, visitors, .. } = &self.levels[own_level as usize];
         let cell = self.cell_of(slot, grid);
-        let side = if from == to { None } else { grid.side(from, to) };
         self.gather_from((grid, own), slot, cell, side, near);
         if let Some(visitors) = visitors {
             self.gather_from((grid, visitors), slot, cell, side, near);

@@ -100,8 +100,8 @@ impl<const FALLS: bool> Pair<'_, FALLS> {
 
 impl Surroundings {
     /// Looks for those near it whom a sphere may meet, at the start of a flight of either that
-    /// `start_with` gives \[s\]. Tells whether one of them but `other` is nearer to it than the sum
-    /// of their radii and `part` of it.
+    /// `start_with` gives \[s\]. Tells whether one of those that fly alike, but `other`, is nearer to
+    /// it than the sum of their radii and `part` of it.
     #[inline(always)]
     pub fn look(
         &mut self,
@@ -124,8 +124,7 @@ impl Surroundings {
             let other = &timeline.kinds[other.kind as usize];
             (kind.flies_like(other), other.radius)
         };
-        let touches = self.look_at_all::<true>(timeline, slot, start_with, is_alike, (other, part));
-        touches || self.touches_others(timeline, slot, (other, part))
+        self.look_at_all::<true>(timeline, slot, start_with, is_alike, (other, part))
     }
 
     #[inline(always)]
@@ -163,7 +162,12 @@ impl Surroundings {
 
     /// Whether one of the spheres that fly differently, but `other`, is nearer to the sphere than the
     /// sum of their radii and `part` of it, when its flight begins.
-    fn touches_others(&self, timeline: &Timeline, slot: u32, (other, part): (u32, f64)) -> bool {
+    pub fn touches_others(
+        &self,
+        timeline: &Timeline,
+        slot: u32,
+        (other, part): (u32, f64),
+    ) -> bool {
         let (body, kind) = (&timeline.bodies[slot as usize], timeline.kind_of(slot));
         self.near.iter().any(|neighbour| {
             let near = timeline.kind_of(neighbour.slot());
