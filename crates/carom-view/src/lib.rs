@@ -1,0 +1,5 @@
+//! The interface of Carom, one for desktop window and browser.
+
+#![warn(clippy::unwrap_used)]
+
+pub mod session;
