@@ -1,7 +1,31 @@
 //! Draws spheres and surfaces: into a window, a page, or offscreen into pictures and films.
+//!
+//! A [`Drawing`] is what there is to see, a [`Camera`] where it is seen from; a [`Renderer`] draws
+//! both into a [`Target`] on a device of wgpu, [`Offscreen`] into a [`Picture`] in memory. Nothing
+//! here knows physics or an interface.
 
 #![warn(clippy::unwrap_used)]
 
+mod bounds;
+mod camera;
+mod drawing;
+mod gpu;
+mod instances;
+mod offscreen;
 mod picture;
+mod pipelines;
+mod quality;
+mod renderer;
+mod shadow;
+mod target;
 
+pub use bounds::Bounds;
+pub use camera::Camera;
+pub use drawing::{Arrow, Ball, Drawing, Light, Material, Panel};
+pub use gpu::{Gpu, GpuError};
+pub use offscreen::Offscreen;
 pub use picture::Picture;
+pub use quality::Quality;
+pub use renderer::Renderer;
+pub use target::{COLOR_FORMAT, Target};
+pub use wgpu;

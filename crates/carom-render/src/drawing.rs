@@ -1,0 +1,180 @@
+//! What is drawn: spheres, surfaces and arrows, and the light on them.
+
+use carom::{DQuat, DVec3, Pose, Shape};
+use carom_scene::scene::{Color, Sun};
+
+use crate::bounds::Bounds;
+
+/// Everything in a picture.
+#[derive(Debug, Clone, Default)]
+pub struct Drawing {
+    /// Spheres.
+    pub balls: Vec<Ball>,
+    /// Rectangles, boxes and half-spaces.
+    pub panels: Vec<Panel>,
+    /// Arrows and lines.
+    pub arrows: Vec<Arrow>,
+    /// What lights them, and what is behind them.
+    pub light: Light,
+}
+
+/// What a ball is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Material {
+    /// Smooth.
+    #[default]
+    Plain,
+    /// With bands that show how it is turned.
+    Patterned,
+    /// Dull, with fine rings: it never gives way.
+    Fixed,
+    /// Its own colour, whatever the light: for marks.
+    Glowing,
+}
+
+/// A sphere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ball {
+    /// \[m\]
+    pub center: DVec3,
+    /// \[m\]
+    pub radius: f64,
+    /// sRGB.
+    pub color: Color,
+    /// From its own frame to the world; only a pattern shows it.
+    pub rotation: DQuat,
+    /// What it is made of.
+    pub material: Material,
+}
+
+/// A surface of a collider.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Panel {
+    /// A rectangle, box or half-space.
+    pub shape: Shape,
+    /// Where it is.
+    pub pose: Pose,
+    /// sRGB.
+    pub color: Color,
+    /// From 0, nothing to be seen, to 1.
+    pub opacity: f64,
+}
+
+/// A line or arrow of constant width.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arrow {
+    /// \[m\]
+    pub start: DVec3,
+    /// \[m\]
+    pub end: DVec3,
+    /// sRGB.
+    pub color: Color,
+    /// In pixels.
+    pub width: f64,
+    /// Whether it ends in a head.
+    pub head: bool,
+}
+
+/// Sun, sky, and what the ground sends back.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Light {
+    /// Unit vector to the sun.
+    pub to_sun: DVec3,
+    /// Of the sun, linear.
+    pub sun: [f32; 3],
+    /// Of the sky straight above, linear.
+    pub zenith: [f32; 3],
+    /// Of the sky at the horizon, linear.
+    pub horizon: [f32; 3],
+    /// Of all that lies below the horizon, linear.
+    pub ground: [f32; 3],
+}
+
+impl Default for Light {
+    /// A clear morning.
+    fn default() -> Self {
+        Self {
+            to_sun: DVec3::new(0.35, 0.8, 0.48).normalize(),
+            sun: linear([1.0, 0.957, 0.839]),
+            zenith: linear([0.60, 0.75, 0.92]),
+            horizon: linear([0.93, 0.955, 0.975]),
+            ground: linear([0.80, 0.83, 0.86]),
+        }
+    }
+}
+
+impl Light {
+    /// The light of a scene: its sun, and a sky of its background colour.
+    pub fn of_scene(scene: &carom_scene::Scene) -> Self {
+        let mut light = Self::default();
+        if let Some(Sun { rotation, color, intensity }) = &scene.sun {
+            // Light travels along the sun's local -z.
+            light.to_sun = DQuat::from_array(*rotation).normalize() * DVec3::Z;
+            light.sun = linear(*color).map(|part| part * *intensity as f32);
+        }
+        if let Some(background) = scene.colors.as_ref().and_then(|colors| colors.background) {
+            light.horizon = linear(background);
+            light.zenith = linear(background.map(|part| part * 0.88));
+            light.ground = linear(background.map(|part| part * 0.92));
+        }
+        light
+    }
+
+    /// The same light under a dark sky, for dark surroundings.
+    pub fn at_dusk(self) -> Self {
+        Self {
+            zenith: linear([0.13, 0.15, 0.20]),
+            horizon: linear([0.24, 0.26, 0.31]),
+            ground: linear([0.17, 0.17, 0.18]),
+            ..self
+        }
+    }
+}
+
+/// Linear from sRGB (IEC 61966-2-1).
+pub(crate) fn linear(color: Color) -> [f32; 3] {
+    color.map(|part| {
+        let part = part.clamp(0.0, 1.0);
+        let linear =
+            if part <= 0.040_45 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) };
+        linear as f32
+    })
+}
+
+impl Panel {
+    /// The box around it; `None` for a half-space, which has none.
+    pub fn bounds(&self) -> Option<Bounds> {
+        let half = match self.shape {
+            Shape::Rectangle { size_x, size_z } => 0.5 * DVec3::new(size_x, 0.0, size_z),
+            Shape::Box { size } => 0.5 * size,
+            _ => return None,
+        };
+        let rotation = self.pose.rotation.normalize();
+        let reach = (rotation * (DVec3::X * half.x)).abs()
+            + (rotation * (DVec3::Y * half.y)).abs()
+            + (rotation * (DVec3::Z * half.z)).abs();
+        Some(Bounds { min: self.pose.position - reach, max: self.pose.position + reach })
+    }
+}
+
+impl Drawing {
+    /// The box around everything that ends somewhere; `None` if nothing does.
+    pub fn bounds(&self) -> Option<Bounds> {
+        let balls = self.balls.iter().map(|ball| Bounds::of_sphere(ball.center, ball.radius));
+        Bounds::around(balls.chain(self.panels.iter().filter_map(Panel::bounds)))
+    }
+
+    /// Adds a collider: a fixed ball, or a panel.
+    pub fn add_collider(&mut self, shape: Shape, pose: Pose, color: Color, opacity: f64) {
+        match shape {
+            Shape::Sphere { radius } => self.balls.push(Ball {
+                center: pose.position,
+                radius,
+                color,
+                rotation: pose.rotation.normalize(),
+                material: Material::Fixed,
+            }),
+            _ => self.panels.push(Panel { shape, pose, color, opacity }),
+        }
+    }
+}

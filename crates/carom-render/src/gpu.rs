@@ -1,0 +1,83 @@
+//! The graphics device.
+
+use thiserror::Error;
+
+/// Why nothing can be drawn.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum GpuError {
+    /// There is no graphics driver at all.
+    #[error(
+        "no graphics adapter found; a software driver is enough (Debian, Ubuntu: apt-get install \
+         mesa-vulkan-drivers; Fedora: dnf install mesa-vulkan-drivers): {0}"
+    )]
+    NoAdapter(#[from] wgpu::RequestAdapterError),
+    /// The adapter refuses to work.
+    #[error("the graphics adapter {adapter} cannot be used: {source}")]
+    NoDevice {
+        /// Its name.
+        adapter: String,
+        /// Why.
+        source: wgpu::RequestDeviceError,
+    },
+    /// The device was lost, or is out of memory.
+    #[error("the graphics device failed: {0}")]
+    Lost(String),
+    /// A picture larger than the device can draw, or without pixels.
+    #[error("a picture of {width} x {height} pixels cannot be drawn: between 1 and {largest} each")]
+    Size {
+        /// In pixels.
+        width: u32,
+        /// In pixels.
+        height: u32,
+        /// Most pixels along an edge.
+        largest: u32,
+    },
+}
+
+/// A device to draw with, and the queue of its work.
+#[derive(Debug, Clone)]
+pub struct Gpu {
+    /// What the adapter calls itself.
+    pub adapter: String,
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its work.
+    pub queue: wgpu::Queue,
+}
+
+impl Gpu {
+    /// The fastest device there is, without any window.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`] where no driver is installed, [`GpuError::NoDevice`].
+    pub async fn open() -> Result<Self, GpuError> {
+        let adapter = match adapter(wgpu::Backends::PRIMARY).await {
+            Ok(adapter) => adapter,
+            // Only where there is nothing better: OpenGL without a display complains aloud.
+            Err(_) => adapter(wgpu::Backends::all()).await?,
+        };
+        let name = adapter.get_info().name;
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("carom"),
+            // Whatever the adapter has: pictures may be as large as it can draw.
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let opened = adapter.request_device(&descriptor).await;
+        let (device, queue) =
+            opened.map_err(|source| GpuError::NoDevice { adapter: name.clone(), source })?;
+        Ok(Self { adapter: name, device, queue })
+    }
+}
+
+/// The fastest adapter of these interfaces.
+async fn adapter(backends: wgpu::Backends) -> Result<wgpu::Adapter, wgpu::RequestAdapterError> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = backends;
+    let options = wgpu::RequestAdapterOptions {
+        power_preference: wgpu::PowerPreference::HighPerformance,
+        ..Default::default()
+    };
+    wgpu::Instance::new(descriptor).request_adapter(&options).await
+}

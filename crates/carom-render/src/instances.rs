@@ -1,0 +1,133 @@
+//! What is drawn many times, packed for the device. Places are relative to the eye, so that 32 bits
+//! are enough however far from the origin the eye is.
+
+use carom::{DVec3, Shape};
+
+use crate::drawing::{Arrow, Ball, Drawing, Material, Panel, linear};
+
+/// Numbers of a ball: centre and radius, colour and material, rotation.
+pub(crate) type PackedBall = [f32; 12];
+/// Numbers of a panel: centre and kind, rotation, half lengths and grid, colour and opacity.
+pub(crate) type PackedPanel = [f32; 16];
+/// Numbers of an arrow: start and width, end and head, colour.
+pub(crate) type PackedArrow = [f32; 12];
+
+/// A half-space is drawn out to this many times the distance of the eye from what there is else.
+const HORIZON: f64 = 60.0;
+
+/// All instances of a drawing, and how many panels of each kind there are.
+#[derive(Debug, Default)]
+pub(crate) struct Instances {
+    pub balls: Vec<PackedBall>,
+    /// Rectangles and half-spaces.
+    pub faces: Vec<PackedPanel>,
+    pub boxes: Vec<PackedPanel>,
+    pub arrows: Vec<PackedArrow>,
+}
+
+impl Instances {
+    /// Packs a drawing seen from `eye`; half-spaces reach to a horizon that suits a scene of this
+    /// `radius` \[m\].
+    pub fn pack(&mut self, drawing: &Drawing, eye: DVec3, radius: f64) {
+        let Self { balls, faces, boxes, arrows } = self;
+        balls.clear();
+        faces.clear();
+        boxes.clear();
+        arrows.clear();
+        balls.extend(drawing.balls.iter().map(|ball| packed_ball(ball, eye)));
+        arrows.extend(drawing.arrows.iter().map(|arrow| packed_arrow(arrow, eye)));
+        for panel in &drawing.panels {
+            match panel.shape {
+                Shape::Box { size } => boxes.push(packed_box(panel, size, eye)),
+                Shape::Rectangle { size_x, size_z } => {
+                    let half = 0.5 * DVec3::new(size_x, 0.0, size_z);
+                    faces.push(packed_panel(panel, panel.pose.position - eye, 0.0, half));
+                }
+                Shape::HalfSpace => faces.push(packed_half_space(panel, eye, radius)),
+                // Spheres are balls.
+                _ => {}
+            }
+        }
+    }
+}
+
+fn four(vector: DVec3, last: f64) -> [f32; 4] {
+    let [x, y, z] = vector.as_vec3().to_array();
+    [x, y, z, last as f32]
+}
+
+fn color(color: [f64; 3], last: f64) -> [f32; 4] {
+    let [r, g, b] = linear(color);
+    [r, g, b, last as f32]
+}
+
+fn joined<const N: usize>(parts: &[[f32; 4]]) -> [f32; N] {
+    std::array::from_fn(|i| parts[i / 4][i % 4])
+}
+
+fn packed_ball(ball: &Ball, eye: DVec3) -> PackedBall {
+    let material = match ball.material {
+        Material::Plain => 0.0,
+        Material::Patterned => 1.0,
+        Material::Fixed => 2.0,
+        Material::Glowing => 3.0,
+    };
+    joined(&[
+        four(ball.center - eye, ball.radius),
+        color(ball.color, material),
+        ball.rotation.as_quat().to_array(),
+    ])
+}
+
+fn packed_arrow(arrow: &Arrow, eye: DVec3) -> PackedArrow {
+    joined(&[
+        four(arrow.start - eye, arrow.width),
+        four(arrow.end - eye, if arrow.head { 1.0 } else { 0.0 }),
+        color(arrow.color, 1.0),
+    ])
+}
+
+fn packed_panel(panel: &Panel, center: DVec3, kind: f64, half: DVec3) -> PackedPanel {
+    let grid = grid_distance(2.0 * half.max_element());
+    joined(&[
+        four(center, kind),
+        panel.pose.rotation.normalize().as_quat().to_array(),
+        four(half, grid),
+        color(panel.color, panel.opacity),
+    ])
+}
+
+fn packed_box(panel: &Panel, size: DVec3, eye: DVec3) -> PackedPanel {
+    packed_panel(panel, panel.pose.position - eye, 1.0, 0.5 * size)
+}
+
+/// A half-space as a large square, moved along with the eye in steps of its grid, so that neither
+/// its edge nor a jump of its lines is ever seen.
+fn packed_half_space(panel: &Panel, eye: DVec3, radius: f64) -> PackedPanel {
+    let rotation = panel.pose.rotation.normalize();
+    let seen = rotation.inverse() * (eye - panel.pose.position);
+    let reach = HORIZON * radius.max(seen.y.abs()).max(1e-6);
+    let grid = grid_distance(2.0 * radius);
+    let below = (DVec3::new(seen.x, 0.0, seen.z) / grid).round() * grid;
+    let center = panel.pose.position + rotation * below;
+    let half = DVec3::new(reach, 0.0, reach);
+    let mut packed = packed_panel(panel, center - eye, 2.0, half);
+    packed[11] = grid as f32;
+    packed
+}
+
+/// A round distance of grid lines, of which some ten are on a `length` \[m\].
+fn grid_distance(length: f64) -> f64 {
+    let power = 10f64.powf((length.max(1e-9) / 10.0).log10().floor());
+    let rest = length / 10.0 / power;
+    power
+        * if rest < 1.5 {
+            1.0
+        } else if rest < 3.5 {
+            2.0
+        } else if rest < 7.5 {
+            5.0
+        } else {
+            10.0
+        }
+}

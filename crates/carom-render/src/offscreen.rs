@@ -1,0 +1,121 @@
+//! Pictures without any window.
+
+use crate::camera::Camera;
+use crate::drawing::Drawing;
+use crate::gpu::{Gpu, GpuError};
+use crate::picture::Picture;
+use crate::quality::Quality;
+use crate::renderer::Renderer;
+use crate::target::Target;
+
+/// Draws pictures of one size into memory.
+#[derive(Debug)]
+pub struct Offscreen {
+    gpu: Gpu,
+    renderer: Renderer,
+    target: Target,
+    readback: wgpu::Buffer,
+}
+
+/// Rows are copied from textures at multiples of this many bytes.
+const ALIGNMENT: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
+
+impl Offscreen {
+    /// A device of its own, for pictures of this width and height in pixels.
+    ///
+    /// # Errors
+    /// [`GpuError`] if there is no device, or none for pictures of this size.
+    pub fn new(size: [u32; 2], quality: Quality) -> Result<Self, GpuError> {
+        Self::on(pollster::block_on(Gpu::open())?, size, quality)
+    }
+
+    /// Likewise on a device that is there already.
+    ///
+    /// # Errors
+    /// [`GpuError::Size`]
+    pub fn on(gpu: Gpu, size: [u32; 2], quality: Quality) -> Result<Self, GpuError> {
+        let renderer = Renderer::new(&gpu.device, quality);
+        let (target, readback) = textures(&gpu, &renderer, size)?;
+        Ok(Self { gpu, renderer, target, readback })
+    }
+
+    /// Draws pictures of this size from now on.
+    ///
+    /// # Errors
+    /// [`GpuError::Size`]; then the size stays as it was.
+    pub fn resize(&mut self, size: [u32; 2]) -> Result<(), GpuError> {
+        if size != self.target.size() {
+            (self.target, self.readback) = textures(&self.gpu, &self.renderer, size)?;
+        }
+        Ok(())
+    }
+
+    /// The device it draws with.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// The picture that the camera sees.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device fails.
+    pub fn draw(&mut self, drawing: &Drawing, camera: &Camera) -> Result<Picture, GpuError> {
+        let Gpu { device, queue, .. } = &self.gpu;
+        self.renderer.draw(device, queue, drawing, camera, &self.target);
+        let [width, height] = self.target.size();
+        let row = aligned_row(width);
+        let mut encoder = device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_buffer(
+            self.target.picture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &self.readback,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(row),
+                    rows_per_image: None,
+                },
+            },
+            self.target.picture.size(),
+        );
+        queue.submit([encoder.finish()]);
+        self.readback.map_async(wgpu::MapMode::Read, .., |_| {});
+        device.poll(wgpu::PollType::wait_indefinitely()).map_err(lost)?;
+        let mut pixels = Vec::with_capacity(4 * width as usize * height as usize);
+        let bytes = self.readback.get_mapped_range(..).map_err(lost)?;
+        for line in bytes.chunks_exact(row as usize) {
+            pixels.extend_from_slice(&line[..4 * width as usize]);
+        }
+        drop(bytes);
+        self.readback.unmap();
+        // Coverage of the outlines is no opacity of the picture.
+        pixels.iter_mut().skip(3).step_by(4).for_each(|opacity| *opacity = u8::MAX);
+        Ok(Picture { width, height, pixels })
+    }
+}
+
+fn lost(error: impl std::fmt::Display) -> GpuError {
+    GpuError::Lost(error.to_string())
+}
+
+fn aligned_row(width: u32) -> u32 {
+    (4 * width).next_multiple_of(ALIGNMENT)
+}
+
+fn textures(
+    gpu: &Gpu,
+    renderer: &Renderer,
+    size: [u32; 2],
+) -> Result<(Target, wgpu::Buffer), GpuError> {
+    let largest = gpu.device.limits().max_texture_dimension_2d;
+    let [width, height] = size;
+    if !(1..=largest).contains(&width) || !(1..=largest).contains(&height) {
+        return Err(GpuError::Size { width, height, largest });
+    }
+    let readback = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("pixels"),
+        size: u64::from(aligned_row(width)) * u64::from(height),
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    Ok((renderer.target(&gpu.device, size), readback))
+}

@@ -1,0 +1,32 @@
+// Corners of the triangles of a rectangle or box, by their number.
+
+struct Corner {
+    place: vec3<f32>,
+    normal: vec3<f32>,
+}
+
+// `kind` 1: a box of six faces, twelve triangles; else the face of local +y at height 0.
+fn corner_of(index: u32, kind: f32) -> Corner {
+    let face = index / 6u;
+    let of_face = index % 6u;
+    // The triangles 0 1 2 and 3 2 1 of a square.
+    let number = select(of_face, 6u - of_face, of_face > 2u);
+    let a = f32(number & 1u) * 2.0 - 1.0;
+    let b = f32(number >> 1u) * 2.0 - 1.0;
+    let side = 1.0 - 2.0 * f32(face & 1u);
+    var corner: Corner;
+    if kind != 1.0 {
+        corner.place = vec3<f32>(a, 0.0, b);
+        corner.normal = vec3<f32>(0.0, 1.0, 0.0);
+    } else if face < 2u {
+        corner.place = vec3<f32>(a, side, b);
+        corner.normal = vec3<f32>(0.0, side, 0.0);
+    } else if face < 4u {
+        corner.place = vec3<f32>(side, a, b);
+        corner.normal = vec3<f32>(side, 0.0, 0.0);
+    } else {
+        corner.place = vec3<f32>(a, b, side);
+        corner.normal = vec3<f32>(0.0, 0.0, side);
+    }
+    return corner;
+}

@@ -1,0 +1,99 @@
+// Sun, sky and shadows: how what is drawn is lit. Positions are relative to the eye.
+
+struct Globals {
+    clip_from_eye: mat4x4<f32>,
+    // Shadow maps: of the sun, and of the sky straight above.
+    sun_from_eye: mat4x4<f32>,
+    sky_from_eye: mat4x4<f32>,
+    // To the sun; w: size of a texel of the sun's map, in m.
+    to_sun: vec4<f32>,
+    // Linear colours. Sun, w: 1 where shadows are softened by several taps.
+    sun: vec4<f32>,
+    // Sky straight above, w: size of a texel of the sky's map, in m.
+    zenith: vec4<f32>,
+    // Sky above the horizon, w: 1 where coverage is by several samples a pixel.
+    horizon: vec4<f32>,
+    // What the ground sends back from below.
+    ground: vec4<f32>,
+    // The view: ahead, and to the right and upper edge of the picture at distance 1.
+    ahead: vec4<f32>,
+    right: vec4<f32>,
+    up: vec4<f32>,
+    // Width and height of the picture in pixels, length of a texel of shadow maps.
+    picture: vec4<f32>,
+}
+
+@group(0) @binding(0) var<uniform> globals: Globals;
+@group(0) @binding(1) var shadow_maps: texture_depth_2d_array;
+@group(0) @binding(2) var shadow_sampler: sampler_comparison;
+
+fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
+    return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
+}
+
+fn tap(place: vec2<f32>, layer: i32, depth: f32) -> f32 {
+    return textureSampleCompareLevel(shadow_maps, shadow_sampler, place, layer, depth);
+}
+
+// How much of the light of a map arrives, from 0 to 1. `spread`: distance of taps, in texels.
+fn light_through(map: vec4<f32>, layer: i32, spread: f32) -> f32 {
+    let place = map.xy * vec2<f32>(0.5, -0.5) + 0.5;
+    if any(place < vec2<f32>(0.0)) || any(place > vec2<f32>(1.0)) || map.z > 1.0 {
+        return 1.0;
+    }
+    if globals.sun.w < 0.5 {
+        return tap(place, layer, map.z);
+    }
+    var sum = 0.0;
+    let texel = globals.picture.z * spread;
+    for (var i = -1; i <= 1; i++) {
+        for (var j = -1; j <= 1; j++) {
+            // Turned by atan(1/2), so that taps fall on no row or column twice.
+            let step = vec2<f32>(f32(i) + 0.5 * f32(j), f32(j) - 0.5 * f32(i));
+            sum += tap(place + step * texel, layer, map.z);
+        }
+    }
+    return sum / 9.0;
+}
+
+// The sky in a direction.
+fn sky(direction: vec3<f32>) -> vec3<f32> {
+    let height = direction.y;
+    let above = mix(globals.horizon.rgb, globals.zenith.rgb, sqrt(max(height, 0.0)));
+    // Below the horizon the tone of the ground, haze in between.
+    return mix(above, globals.ground.rgb, smoothstep(0.0, 0.35, -height));
+}
+
+struct Surface {
+    point: vec3<f32>,
+    normal: vec3<f32>,
+    color: vec3<f32>,
+    gloss: f32,
+}
+
+fn lit(surface: Surface) -> vec3<f32> {
+    let n = surface.normal;
+    let facing = dot(n, globals.to_sun.xyz);
+    // Off the surface by more than a texel where light grazes, so that it does not shade itself.
+    let slope = sqrt(max(1.0 - facing * facing, 0.0));
+    let off_sun = surface.point + n * globals.to_sun.w * (0.6 + 2.4 * slope);
+    let off_sky = surface.point + n * globals.zenith.w * 2.5;
+    let sunlight = light_through(globals.sun_from_eye * vec4<f32>(off_sun, 1.0), 0, 1.2);
+    let skylight = light_through(globals.sky_from_eye * vec4<f32>(off_sky, 1.0), 1, 5.0);
+
+    let upward = 0.5 + 0.5 * n.y;
+    let from_sky = mix(globals.horizon.rgb, globals.zenith.rgb, 0.5) * (0.45 + 0.55 * skylight);
+    let ambient = mix(globals.ground.rgb * 0.55, from_sky, upward);
+    let direct = globals.sun.rgb * max(facing, 0.0) * sunlight;
+    var color = surface.color * (0.66 * ambient + 0.95 * direct);
+
+    if surface.gloss > 0.0 {
+        let to_eye = -normalize(surface.point);
+        let half_way = normalize(to_eye + globals.to_sun.xyz);
+        let highlight = pow(max(dot(n, half_way), 0.0), 60.0) * sunlight * step(0.0, facing);
+        let grazing = pow(1.0 - max(dot(n, to_eye), 0.0), 4.0);
+        let mirrored = sky(reflect(-to_eye, n));
+        color += surface.gloss * (0.35 * highlight * globals.sun.rgb + 0.28 * grazing * mirrored);
+    }
+    return color;
+}

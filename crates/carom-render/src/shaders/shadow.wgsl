@@ -1,0 +1,58 @@
+// Depth as a light sees it that comes from one direction.
+
+struct Light {
+    map_from_eye: mat4x4<f32>,
+    // Unit vectors: the way light travels, and two across it.
+    ahead: vec4<f32>,
+    right: vec4<f32>,
+    up: vec4<f32>,
+}
+
+@group(0) @binding(0) var<uniform> light: Light;
+
+fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
+    return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
+}
+
+struct SphereVarying {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) corner: vec2<f32>,
+    @location(1) @interpolate(flat) center: vec4<f32>,
+}
+
+@vertex
+fn sphere_vertex(
+    @builtin(vertex_index) index: u32,
+    @location(0) center: vec4<f32>,
+) -> SphereVarying {
+    let corner = vec2<f32>(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;
+    let across = corner.x * light.right.xyz + corner.y * light.up.xyz;
+    var out: SphereVarying;
+    out.clip = light.map_from_eye * vec4<f32>(center.xyz + center.w * across, 1.0);
+    out.corner = corner;
+    out.center = center;
+    return out;
+}
+
+@fragment
+fn sphere_fragment(in: SphereVarying) -> @builtin(frag_depth) f32 {
+    let outside = dot(in.corner, in.corner);
+    if outside > 1.0 {
+        discard;
+    }
+    let across = in.corner.x * light.right.xyz + in.corner.y * light.up.xyz;
+    let normal = across - sqrt(1.0 - outside) * light.ahead.xyz;
+    let map = light.map_from_eye * vec4<f32>(in.center.xyz + in.center.w * normal, 1.0);
+    return clamp(map.z, 0.0, 1.0);
+}
+
+@vertex
+fn surface_vertex(
+    @builtin(vertex_index) index: u32,
+    @location(0) center: vec4<f32>,
+    @location(1) rotation: vec4<f32>,
+    @location(2) extent: vec4<f32>,
+) -> @builtin(position) vec4<f32> {
+    let local = corner_of(index, center.w).place * extent.xyz;
+    return light.map_from_eye * vec4<f32>(center.xyz + rotate(rotation, local), 1.0);
+}

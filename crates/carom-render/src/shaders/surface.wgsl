@@ -1,0 +1,102 @@
+// Rectangles, boxes and half-spaces.
+
+struct Instance {
+    // Relative to the eye; w: kind.
+    @location(0) center: vec4<f32>,
+    @location(1) rotation: vec4<f32>,
+    // Half of the lengths along the local axes; w: distance of the lines of its grid.
+    @location(2) extent: vec4<f32>,
+    // Linear; w: opacity.
+    @location(3) color: vec4<f32>,
+}
+
+struct Varying {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) point: vec3<f32>,
+    // In the local frame.
+    @location(1) local: vec3<f32>,
+    @location(2) @interpolate(flat) normal: vec3<f32>,
+    @location(3) @interpolate(flat) face: vec3<f32>,
+    @location(4) @interpolate(flat) extent: vec4<f32>,
+    @location(5) @interpolate(flat) color: vec4<f32>,
+    @location(6) @interpolate(flat) kind: f32,
+}
+
+const BOX: f32 = 1.0;
+const HALF_SPACE: f32 = 2.0;
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
+    let corner = corner_of(index, instance.center.w);
+    let local = corner.place * instance.extent.xyz;
+    let point = instance.center.xyz + rotate(instance.rotation, local);
+    var out: Varying;
+    out.clip = globals.clip_from_eye * vec4<f32>(point, 1.0);
+    out.point = point;
+    out.local = local;
+    out.normal = rotate(instance.rotation, corner.normal);
+    out.face = corner.normal;
+    out.extent = instance.extent;
+    out.color = instance.color;
+    out.kind = instance.center.w;
+    return out;
+}
+
+@fragment
+fn fragment(in: Varying) -> @location(0) vec4<f32> {
+    let is_front = dot(in.normal, in.point) < 0.0;
+    // The two coordinates on the face, and how far it reaches along them.
+    var place = in.local.xz;
+    var reach = in.extent.xz;
+    if abs(in.face.x) > 0.5 {
+        place = in.local.yz;
+        reach = in.extent.yz;
+    } else if abs(in.face.z) > 0.5 {
+        place = in.local.xy;
+        reach = in.extent.xy;
+    }
+    let pixel = max(fwidth(place), vec2<f32>(1e-6));
+    let distance = length(in.point);
+
+    var color = in.color.rgb;
+    if is_front {
+        if in.kind != BOX {
+            color *= 1.0 - 0.10 * grid(place, in.extent.w, pixel);
+        }
+    } else {
+        color = mix(color * 0.45, vec3<f32>(0.10, 0.11, 0.14), 0.5);
+        color *= 1.0 + 0.5 * stripes(place.x + place.y, in.extent.w * 0.5, pixel.x + pixel.y);
+    }
+    if in.kind != HALF_SPACE {
+        let to_edge = (reach - abs(place)) / pixel;
+        let edge = 1.0 - smoothstep(0.4, 1.6, min(to_edge.x, to_edge.y));
+        color *= 1.0 - 0.35 * edge;
+    }
+
+    var surface: Surface;
+    surface.point = in.point;
+    surface.normal = normalize(select(-in.normal, in.normal, is_front));
+    surface.color = color;
+    surface.gloss = 0.0;
+    var shown = lit(surface);
+    if in.kind == HALF_SPACE {
+        // Fades into the haze before its edge.
+        let haze = smoothstep(0.12, 0.75, distance / in.extent.x);
+        shown = mix(shown, sky(normalize(vec3<f32>(in.point.x, 0.0, in.point.z))), haze);
+    }
+    return vec4<f32>(shown, in.color.w);
+}
+
+// How much of a pixel lies on the lines of a square grid; none where they come too close.
+fn grid(place: vec2<f32>, distance: f32, pixel: vec2<f32>) -> f32 {
+    let cell = abs(fract(place / distance + 0.5) - 0.5) * distance;
+    let line = 1.0 - smoothstep(0.5 * pixel, 1.5 * pixel, cell);
+    let fade = 1.0 - smoothstep(0.1, 0.4, max(pixel.x, pixel.y) / distance);
+    return max(line.x, line.y) * fade;
+}
+
+fn stripes(along: f32, distance: f32, pixel: f32) -> f32 {
+    let wave = abs(fract(along / distance) - 0.5);
+    let soft = clamp(pixel / distance, 0.01, 0.5);
+    return smoothstep(0.25 - soft, 0.25 + soft, wave) * (1.0 - smoothstep(0.2, 0.5, pixel / distance));
+}

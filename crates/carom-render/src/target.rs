@@ -1,0 +1,49 @@
+//! Textures that a picture is drawn into.
+
+/// Format of finished pictures.
+pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Textures of one size: the picture, its depths, and its samples where it has several a pixel.
+#[derive(Debug)]
+pub struct Target {
+    /// The finished picture, [`COLOR_FORMAT`].
+    pub picture: wgpu::Texture,
+    pub(crate) picture_view: wgpu::TextureView,
+    pub(crate) depth: wgpu::TextureView,
+    pub(crate) samples: Option<wgpu::TextureView>,
+}
+
+impl Target {
+    /// Textures of this size in pixels, each edge at least 1, with this many samples a pixel.
+    pub(crate) fn new(device: &wgpu::Device, [width, height]: [u32; 2], samples: u32) -> Self {
+        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+        let texture = |label, format, sample_count, usage| {
+            device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size,
+                mip_level_count: 1,
+                sample_count,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage,
+                view_formats: &[],
+            })
+        };
+        let drawn = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let used = drawn | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let picture = texture("picture", COLOR_FORMAT, 1, used);
+        let view = |texture: wgpu::Texture| texture.create_view(&Default::default());
+        Self {
+            picture_view: picture.create_view(&Default::default()),
+            picture,
+            depth: view(texture("depth", DEPTH_FORMAT, samples, drawn)),
+            samples: (samples > 1).then(|| view(texture("samples", COLOR_FORMAT, samples, drawn))),
+        }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        [self.picture.width(), self.picture.height()]
+    }
+}
