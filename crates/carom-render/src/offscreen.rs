@@ -87,8 +87,6 @@ impl Offscreen {
         }
         drop(bytes);
         self.readback.unmap();
-        // Coverage of the outlines is no opacity of the picture.
-        pixels.iter_mut().skip(3).step_by(4).for_each(|opacity| *opacity = u8::MAX);
         Ok(Picture { width, height, pixels })
     }
 }

@@ -147,7 +147,8 @@ fn picture_pipeline(
     let colors = [Some(wgpu::ColorTargetState {
         format: COLOR_FORMAT,
         blend: None,
-        write_mask: wgpu::ColorWrites::ALL,
+        // Pictures are opaque; what is written beside a colour says what it covers.
+        write_mask: wgpu::ColorWrites::COLOR,
     })];
     pipeline(device, layout, parts, multisample, &colors)
 }

@@ -127,8 +127,8 @@ impl Renderer {
     }
 
     fn draw_picture(&self, encoder: &mut wgpu::CommandEncoder, target: &Target) {
-        let (view, resolve_target) = match &target.samples {
-            Some(samples) => (samples, Some(&target.picture_view)),
+        let (view, resolve_target) = match &target.sampled {
+            Some(sampled) => (sampled, Some(&target.picture_view)),
             None => (&target.picture_view, None),
         };
         let store =

@@ -1,7 +1,8 @@
 //! Textures that a picture is drawn into.
 
-/// Format of finished pictures.
-pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+/// Format of finished pictures. Shaders encode their colours as sRGB themselves: not every device
+/// can show a texture of one format as another.
+pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// Textures of one size: the picture, its depths, and its samples where it has several a pixel.
@@ -11,7 +12,8 @@ pub struct Target {
     pub picture: wgpu::Texture,
     pub(crate) picture_view: wgpu::TextureView,
     pub(crate) depth: wgpu::TextureView,
-    pub(crate) samples: Option<wgpu::TextureView>,
+    pub(crate) sampled: Option<wgpu::TextureView>,
+    samples: u32,
 }
 
 impl Target {
@@ -40,6 +42,11 @@ impl Target {
             depth: view(texture("depth", DEPTH_FORMAT, samples, drawn)),
             samples: (samples > 1).then(|| view(texture("samples", COLOR_FORMAT, samples, drawn))),
         }
+    }
+
+    /// Samples a pixel.
+    pub fn samples(&self) -> u32 {
+        self.samples
     }
 
     /// Width and height in pixels.

@@ -60,5 +60,5 @@ fn vertex(@builtin(vertex_index) index: u32, arrow: Instance) -> Varying {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    return in.color;
+    return vec4<f32>(encoded(in.color.rgb), 1.0);
 }

@@ -64,6 +64,14 @@ fn sky(direction: vec3<f32>) -> vec3<f32> {
     return mix(above, globals.ground.rgb, smoothstep(0.0, 0.35, -height));
 }
 
+// sRGB (IEC 61966-2-1) of a linear colour.
+fn encoded(linear: vec3<f32>) -> vec3<f32> {
+    let color = clamp(linear, vec3<f32>(0.0), vec3<f32>(1.0));
+    let dark = color * 12.92;
+    let light = 1.055 * pow(color, vec3<f32>(1.0 / 2.4)) - 0.055;
+    return select(light, dark, color <= vec3<f32>(0.0031308));
+}
+
 struct Surface {
     point: vec3<f32>,
     normal: vec3<f32>,

@@ -16,5 +16,5 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    return vec4<f32>(sky(normalize(in.direction)), 1.0);
+    return vec4<f32>(encoded(sky(normalize(in.direction))), 1.0);
 }

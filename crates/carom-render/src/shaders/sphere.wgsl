@@ -86,7 +86,8 @@ fn fragment(in: Varying) -> Pixel {
         }
     }
     var out: Pixel;
-    out.color = vec4<f32>(select(lit(surface), in.color.rgb, material == GLOWING), coverage);
+    let shown = select(lit(surface), in.color.rgb, material == GLOWING);
+    out.color = vec4<f32>(encoded(shown), coverage);
     let clip = globals.clip_from_eye * vec4<f32>(point, 1.0);
     out.depth = clamp(clip.z / clip.w, 0.0, 1.0);
     return out;

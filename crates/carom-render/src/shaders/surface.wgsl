@@ -84,7 +84,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
         let haze = smoothstep(0.12, 0.75, distance / in.extent.x);
         shown = mix(shown, sky(normalize(vec3<f32>(in.point.x, 0.0, in.point.z))), haze);
     }
-    return vec4<f32>(shown, in.color.w);
+    return vec4<f32>(encoded(shown), in.color.w);
 }
 
 // How much of a pixel lies on the lines of a square grid; none where they come too close.

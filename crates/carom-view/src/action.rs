@@ -1,0 +1,110 @@
+//! What can be asked for by a key, and by which.
+
+use egui::{Context, Key, KeyboardShortcut, Modifiers};
+
+/// Something a user wants done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)] // Each is explained in the table below, which users read as well.
+pub enum Action {
+    Choose,
+    PlayOrPause,
+    Step,
+    StepBack,
+    Restart,
+    Faster,
+    Slower,
+    SceneCamera,
+    FrontCamera,
+    TopCamera,
+    Follow,
+    Screenshot,
+    Record,
+    Save,
+    Inspector,
+    Plots,
+    Impacts,
+    Velocities,
+    Contacts,
+    Compare,
+    Theme,
+    Help,
+    Close,
+}
+
+/// A key for an action, and what it does.
+#[derive(Debug, Clone, Copy)]
+pub struct Shortcut {
+    /// What is done.
+    pub action: Action,
+    /// Any of these does it.
+    pub keys: &'static [KeyboardShortcut],
+    /// For people.
+    pub text: &'static str,
+}
+
+const fn key(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::NONE, key)
+}
+
+const fn command(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::COMMAND, key)
+}
+
+macro_rules! shortcuts {
+    ($($action:ident: [$($key:expr),*], $text:literal;)*) => {
+        /// All shortcuts, in the order in which the help lists them.
+        pub const SHORTCUTS: &[Shortcut] = &[
+            $(Shortcut { action: Action::$action, keys: &[$($key),*], text: $text },)*
+        ];
+    };
+}
+
+shortcuts! {
+    Choose: [key(Key::Enter)], "choose a scene";
+    PlayOrPause: [key(Key::P)], "play or pause";
+    Step: [key(Key::Period)], "one frame forward";
+    StepBack: [key(Key::Comma)], "one frame back";
+    Restart: [key(Key::Home)], "back to the start";
+    Faster: [key(Key::Plus), key(Key::Equals)], "faster";
+    Slower: [key(Key::Minus)], "slower";
+    Screenshot: [key(Key::Space)], "save a picture with the time on it";
+    Record: [key(Key::R)], "start or stop recording a film";
+    Save: [command(Key::S)], "save the present state as a scene file";
+    SceneCamera: [key(Key::Num1)], "the scene's camera";
+    FrontCamera: [key(Key::Num2)], "camera in front";
+    TopCamera: [key(Key::Num3)], "camera above";
+    Follow: [key(Key::F)], "follow the picked ball, or stop following";
+    Inspector: [key(Key::I)], "show or hide the inspector";
+    Plots: [key(Key::G)], "show or hide the plots";
+    Impacts: [key(Key::L)], "show or hide the list of impacts";
+    Velocities: [key(Key::V)], "show or hide velocities";
+    Contacts: [key(Key::K)], "show or hide contacts";
+    Compare: [key(Key::X)], "the same scene under two rules, side by side";
+    Theme: [key(Key::T)], "light or dark";
+    Help: [key(Key::F1), key(Key::Questionmark)], "this list";
+    Close: [key(Key::Escape)], "close a dialog";
+}
+
+/// What the mouse does in the picture, for the help.
+pub const MOUSE: &[(&str, &str)] = &[
+    ("drag", "turn the camera"),
+    ("right drag, or Shift + drag", "move the camera"),
+    ("wheel", "come nearer or go away"),
+    ("click on a ball", "pick it; beside all balls: pick none"),
+    ("Ctrl + click", "throw a new ball that way"),
+    ("double click", "turn about what was clicked"),
+    ("drop a file", "open it as a scene"),
+];
+
+/// The actions whose keys were pressed; the keys are taken, so that no button sees them. None
+/// while a text is being typed.
+pub fn pressed(context: &Context) -> Vec<Action> {
+    if context.text_edit_focused() {
+        return Vec::new();
+    }
+    let is_pressed = |keys: &[KeyboardShortcut]| {
+        // Logical keys like `?` need modifiers on some keyboards, so those are ignored.
+        context.input_mut(|input| keys.iter().any(|key| input.consume_shortcut(key)))
+    };
+    SHORTCUTS.iter().filter(|it| is_pressed(it.keys)).map(|it| it.action).collect()
+}

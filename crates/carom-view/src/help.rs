@@ -1,0 +1,30 @@
+//! The list of shortcuts.
+
+use egui::{Align2, Context, Grid, RichText, Window};
+
+use crate::action::{MOUSE, SHORTCUTS};
+
+/// Shows every shortcut, and what the mouse does.
+pub fn show(context: &Context, open: &mut bool) {
+    Window::new("Keys and mouse")
+        .open(open)
+        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
+        .collapsible(false)
+        .resizable(false)
+        .show(context, |ui| {
+            Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).striped(true).show(ui, |ui| {
+                for shortcut in SHORTCUTS {
+                    let keys: Vec<String> =
+                        shortcut.keys.iter().map(|key| context.format_shortcut(key)).collect();
+                    ui.label(RichText::new(keys.join("  or  ")).strong());
+                    ui.label(shortcut.text);
+                    ui.end_row();
+                }
+                for (gesture, text) in MOUSE {
+                    ui.label(RichText::new(*gesture).strong());
+                    ui.label(*text);
+                    ui.end_row();
+                }
+            });
+        });
+}

@@ -1,0 +1,44 @@
+//! The last impacts as a table.
+
+use carom::Participants;
+use egui::{Grid, ScrollArea, Ui};
+
+use crate::session::{Command, View};
+
+/// Rows shown: those that can be taken in.
+const ROWS: usize = 60;
+
+/// The last impacts, the newest first; a click on one picks its ball.
+pub fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+    ui.weak("Energy is that of all impacts at the same instant, where the rule keeps account.");
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        Grid::new("impacts").num_columns(5).striped(true).spacing([14.0, 3.0]).show(ui, |ui| {
+            for title in ["Time, s", "Who", "Approach, m/s", "Impulse, N s", "Energy, J"] {
+                ui.strong(title);
+            }
+            ui.end_row();
+            for impact in view.impacts.iter().rev().take(ROWS) {
+                ui.monospace(format!("{:.6}", impact.time));
+                let (text, ball) = match impact.between {
+                    Participants::Spheres(first, second) => (format!("{first} - {second}"), second),
+                    Participants::Collider { collider, sphere } => {
+                        let known = view.setup.colliders.iter().find(|(id, _)| *id == collider);
+                        let name = known.map_or("", |(_, collider)| collider.name.as_str());
+                        let name = if name.is_empty() { "surface" } else { name };
+                        (format!("{name} - {sphere}"), sphere)
+                    }
+                };
+                if ui.link(text).on_hover_text("Pick this ball").clicked() {
+                    commands.push(Command::Pick(Some(ball)));
+                }
+                ui.monospace(format!("{:.4}", impact.approach_speed));
+                ui.monospace(format!("{:.4e}", impact.impulse));
+                match impact.energy_change {
+                    Some(change) => ui.monospace(format!("{change:+.3e}")),
+                    None => ui.weak("-"),
+                };
+                ui.end_row();
+            }
+        });
+    });
+}

@@ -1,0 +1,45 @@
+//! What balls bounce off.
+
+use egui::{Slider, Ui};
+
+use super::value::name;
+use crate::session::{Command, Edit, View};
+
+/// Surfaces that get a slider of their own; more are changed together.
+const LISTED: usize = 24;
+
+pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+    let solid = || view.setup.colliders.iter().filter(|(_, collider)| !collider.trigger);
+    let Some((_, first)) = solid().next() else {
+        ui.weak("none that deflects");
+        return;
+    };
+    if solid().nth(1).is_some() {
+        let mut all = first.restitution;
+        if slider(ui, "all", "Restitution of all surfaces", &mut all) {
+            commands.push(Command::Edit(Edit::AllColliderRestitutions(all)));
+        }
+    }
+    for (i, (id, collider)) in solid().take(LISTED).enumerate() {
+        let title =
+            if collider.name.is_empty() { format!("surface {i}") } else { collider.name.clone() };
+        let mut restitution = collider.restitution;
+        let text = format!("Restitution of {title}");
+        let is_changed =
+            ui.push_id(("collider", *id), |ui| slider(ui, &title, &text, &mut restitution)).inner;
+        if is_changed {
+            commands.push(Command::Edit(Edit::ColliderRestitution(*id, restitution)));
+        }
+    }
+}
+
+fn slider(ui: &mut Ui, title: &str, text: &str, restitution: &mut f64) -> bool {
+    ui.horizontal(|ui| {
+        name(ui, title);
+        let before = *restitution;
+        let response = ui.add(Slider::new(restitution, 0.0..=1.0).max_decimals(3));
+        response.widget_info(|| egui::WidgetInfo::slider(true, *restitution, text));
+        *restitution != before
+    })
+    .inner
+}

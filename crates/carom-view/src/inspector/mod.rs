@@ -1,0 +1,48 @@
+//! Everything that can be read and changed while a scene runs.
+
+mod ball;
+mod collider;
+mod emitter;
+mod force;
+mod simulation;
+mod value;
+
+use egui::{CollapsingHeader, ScrollArea, Ui};
+
+use crate::session::{Command, View};
+
+pub use ball::Throw;
+
+/// The panel beside the picture.
+pub fn show(ui: &mut Ui, view: &View, throw: &mut Throw, commands: &mut Vec<Command>) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        section(ui, "Ball", true, |ui| ball::show(ui, view, commands));
+        section(ui, "Simulation", true, |ui| simulation::show(ui, view, commands));
+        section(ui, "Forces", true, |ui| force::show(ui, view, commands));
+        if !view.setup.colliders.is_empty() {
+            section(ui, "Surfaces", true, |ui| collider::show(ui, view, commands));
+        }
+        if !view.setup.emitters.is_empty() {
+            section(ui, "Emitters", true, |ui| emitter::show(ui, view, commands));
+        }
+        section(ui, "Throw", false, |ui| ball::show_throw(ui, throw));
+        section(ui, "State", false, |ui| state(ui, view, commands));
+    });
+}
+
+fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
+    CollapsingHeader::new(title).default_open(open).show(ui, contents);
+}
+
+/// What there is, and the state as a number to compare with another machine's.
+fn state(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+    ui.label(format!("{} balls, {} impacts", view.spheres.ids.len(), view.now.impacts));
+    ui.label(format!("energy {:.9e} J", view.now.total_energy()));
+    let mut shown = view.playback.state_hash.is_some();
+    if ui.checkbox(&mut shown, "Show the state hash").changed() {
+        commands.push(Command::ShowStateHash(shown));
+    }
+    if let Some(hash) = view.playback.state_hash {
+        ui.monospace(hash.to_string());
+    }
+}

@@ -1,0 +1,56 @@
+//! How a scene is stepped.
+
+use carom_scene::scene::{ImpactLaw, Integrator, RestitutionRule, Rule, Simulation};
+use egui::{ComboBox, Ui};
+
+use super::value::{Field, name, number};
+use crate::session::{Command, Edit, View};
+
+pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+    let mut simulation: Simulation = view.setup.simulation.clone();
+    const RULES: [(Rule, &str); 3] =
+        [(Rule::Exact, "exact"), (Rule::Bisect, "bisect"), (Rule::Discrete, "discrete")];
+    const INTEGRATORS: [(Integrator, &str); 4] = [
+        (Integrator::SemiImplicitEuler, "semi-implicit Euler"),
+        (Integrator::ExplicitEuler, "explicit Euler"),
+        (Integrator::VelocityVerlet, "velocity Verlet"),
+        (Integrator::RungeKutta4, "Runge-Kutta 4"),
+    ];
+    const LAWS: [(ImpactLaw, &str); 3] = [
+        (ImpactLaw::Reflection, "reflection"),
+        (ImpactLaw::Simultaneous, "simultaneous"),
+        (ImpactLaw::Sequential, "sequential"),
+    ];
+    const RESTITUTIONS: [(RestitutionRule, &str); 4] = [
+        (RestitutionRule::Product, "product"),
+        (RestitutionRule::Minimum, "minimum"),
+        (RestitutionRule::Maximum, "maximum"),
+        (RestitutionRule::Average, "average"),
+    ];
+    if view.other.is_none() {
+        choice(ui, "rule", &RULES, &mut simulation.rule);
+    }
+    if simulation.rule == Rule::Exact {
+        choice(ui, "impact law", &LAWS, &mut simulation.impact_law);
+    } else {
+        choice(ui, "integrator", &INTEGRATORS, &mut simulation.integrator);
+    }
+    number(ui, Field::positive("frame time", "s"), &mut simulation.frame_time);
+    choice(ui, "restitution", &RESTITUTIONS, &mut simulation.restitution_rule);
+    ui.checkbox(&mut simulation.spheres_collide, "balls collide with each other");
+    if simulation != view.setup.simulation {
+        commands.push(Command::Edit(Edit::Simulation(Box::new(simulation))));
+    }
+}
+
+fn choice<T: Copy + PartialEq>(ui: &mut Ui, title: &str, all: &[(T, &str)], value: &mut T) {
+    let text = all.iter().find(|(it, _)| it == value).map_or("", |(_, text)| text);
+    ui.horizontal(|ui| {
+        name(ui, title);
+        ComboBox::from_id_salt(title).selected_text(text).show_ui(ui, |ui| {
+            for (it, text) in all {
+                ui.selectable_value(value, *it, *text);
+            }
+        });
+    });
+}

@@ -1,0 +1,64 @@
+//! Numbers that can be dragged and typed.
+
+use egui::{DragValue, Response, RichText, Ui};
+
+/// What numbers may be, and what they are called.
+#[derive(Clone, Copy)]
+pub(super) struct Field<'a> {
+    pub name: &'a str,
+    pub unit: &'a str,
+    pub min: f64,
+    pub max: f64,
+}
+
+impl<'a> Field<'a> {
+    pub fn any(name: &'a str, unit: &'a str) -> Self {
+        Self { name, unit, min: f64::NEG_INFINITY, max: f64::INFINITY }
+    }
+
+    pub fn positive(name: &'a str, unit: &'a str) -> Self {
+        Self { min: f64::MIN_POSITIVE, ..Self::any(name, unit) }
+    }
+
+    pub fn not_negative(name: &'a str, unit: &'a str) -> Self {
+        Self { min: 0.0, ..Self::any(name, unit) }
+    }
+
+    pub fn restitution() -> Self {
+        Self { name: "restitution", unit: "", min: 0.0, max: 1.0 }
+    }
+}
+
+/// A row with a number. Returns whether it was changed.
+pub(super) fn number(ui: &mut Ui, field: Field, value: &mut f64) -> bool {
+    row(ui, field, |ui| drag(ui, field, value))
+}
+
+/// A row with three numbers. Returns whether any was changed.
+pub(super) fn vector(ui: &mut Ui, field: Field, value: &mut [f64; 3]) -> bool {
+    row(ui, field, |ui| value.iter_mut().fold(false, |changed, it| drag(ui, field, it) | changed))
+}
+
+fn row(ui: &mut Ui, field: Field, contents: impl FnOnce(&mut Ui) -> bool) -> bool {
+    ui.horizontal(|ui| {
+        name(ui, field.name);
+        let changed = contents(ui);
+        ui.label(RichText::new(field.unit).weak());
+        changed
+    })
+    .inner
+}
+
+/// The name of a row, as wide as in all others.
+pub(super) fn name(ui: &mut Ui, name: &str) {
+    ui.add_sized([84.0, ui.spacing().interact_size.y], egui::Label::new(name).halign(egui::Align::LEFT));
+}
+
+fn drag(ui: &mut Ui, field: Field, value: &mut f64) -> bool {
+    let before = *value;
+    let speed = (0.01 * value.abs()).max(0.005);
+    let drag = DragValue::new(value).speed(speed).range(field.min..=field.max).max_decimals(6);
+    let response: Response = ui.add(drag);
+    response.widget_info(|| egui::WidgetInfo::drag_value(true, *value));
+    *value != before
+}

@@ -1,0 +1,169 @@
+//! What a session looks like: its view as a drawing.
+
+use carom::{DQuat, DVec3, Shape, SphereId};
+use carom_render::{Arrow, Ball, Drawing, Light, Material};
+use carom_scene::scene::{self, Color};
+
+use crate::session::View;
+
+/// What is drawn besides spheres and surfaces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Marks {
+    /// Velocities as arrows.
+    pub velocities: bool,
+    /// Contacts of the last moments with their normals.
+    pub contacts: bool,
+    /// Simulated time that an arrow is long \[s\].
+    pub velocity_scale: f64,
+}
+
+impl Default for Marks {
+    fn default() -> Self {
+        Self { velocities: false, contacts: false, velocity_scale: 0.2 }
+    }
+}
+
+/// How the picture is made of a view.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Look {
+    /// What is drawn besides.
+    pub marks: Marks,
+    /// Under a dark sky.
+    pub dark: bool,
+    /// Part of the way from the previous positions to the present ones, in \[0, 1\].
+    pub blend: f64,
+}
+
+/// Spheres that have no colour of their own.
+const SPHERE: Color = [0.20, 0.45, 0.80];
+/// Surfaces that have no colour of their own.
+const SURFACE: Color = [0.86, 0.85, 0.82];
+/// Triggers that have no colour of their own.
+const TRIGGER: Color = [0.95, 0.76, 0.20];
+const VELOCITY: Color = [0.13, 0.55, 0.33];
+const CONTACT: Color = [0.93, 0.26, 0.21];
+const PICKED: Color = [1.0, 0.62, 0.10];
+
+/// Length of the normal of a contact, in radii of the sphere.
+const NORMAL_LENGTH: f64 = 1.5;
+
+/// Draws a view anew.
+pub fn draw(view: &View, look: &Look, drawing: &mut Drawing) {
+    drawing.balls.clear();
+    drawing.panels.clear();
+    drawing.arrows.clear();
+    let light = Light::of_scene(&view.scene);
+    drawing.light = if look.dark { light.at_dusk() } else { light };
+    add_colliders(view, drawing);
+    add_spheres(view, look, drawing);
+    if look.marks.contacts {
+        add_contacts(view, drawing);
+    }
+}
+
+/// Where a sphere is shown \[m\].
+pub fn place(view: &View, index: usize, blend: f64) -> DVec3 {
+    let (before, now) = (view.spheres.previous_positions[index], view.spheres.positions[index]);
+    before.lerp(now, blend)
+}
+
+/// The colour of a collider as described in a scene.
+pub fn collider_color(collider: &scene::Collider, colors: Option<&scene::Colors>) -> Color {
+    let default = if collider.trigger { TRIGGER } else { SURFACE };
+    let of_scene = colors.and_then(|colors| colors.colliders).unwrap_or(default);
+    collider.color.unwrap_or(of_scene)
+}
+
+fn add_colliders(view: &View, drawing: &mut Drawing) {
+    let colors = view.scene.colors.as_ref();
+    for ((_, collider), pose) in view.setup.colliders.iter().zip(&view.poses) {
+        if !collider.visible {
+            continue;
+        }
+        let color = collider_color(collider, colors);
+        let opacity = if collider.trigger { 0.45 } else { 1.0 };
+        let before = drawing.balls.len();
+        drawing.add_collider(shape(&collider.shape), *pose, color, opacity);
+        if collider.trigger {
+            drawing.balls[before..].iter_mut().for_each(|ball| ball.material = Material::Plain);
+        }
+    }
+}
+
+fn shape(shape: &scene::Shape) -> Shape {
+    match *shape {
+        scene::Shape::Sphere { radius } => Shape::Sphere { radius },
+        scene::Shape::Rectangle { size_x, size_z } => Shape::Rectangle { size_x, size_z },
+        scene::Shape::HalfSpace => Shape::HalfSpace,
+        scene::Shape::Box { size } => Shape::Box { size: DVec3::from_array(size) },
+    }
+}
+
+fn add_spheres(view: &View, look: &Look, drawing: &mut Drawing) {
+    let spheres = &view.spheres;
+    let common = view.scene.colors.as_ref().and_then(|colors| colors.spheres).unwrap_or(SPHERE);
+    let picked = view.picked.and_then(|id| spheres.index_of(id));
+    for i in 0..spheres.ids.len() {
+        let center = place(view, i, look.blend);
+        let color = spheres.colors[i].unwrap_or(common);
+        let ball = Ball {
+            center,
+            radius: spheres.radii[i],
+            color: if picked == Some(i) { PICKED } else { color },
+            rotation: DQuat::IDENTITY,
+            material: Material::Plain,
+        };
+        drawing.balls.push(ball);
+        if look.marks.velocities {
+            let way = look.marks.velocity_scale * spheres.velocities[i];
+            let Some(ahead) = way.try_normalize() else { continue };
+            let start = center + ahead * spheres.radii[i];
+            drawing.arrows.push(Arrow {
+                start,
+                end: start + way,
+                color: VELOCITY,
+                width: 2.5,
+                head: true,
+            });
+        }
+    }
+}
+
+fn add_contacts(view: &View, drawing: &mut Drawing) {
+    for impact in view.marks() {
+        let radius = radius_of(view, impact.between);
+        let (point, normal) = (impact.point, impact.normal);
+        let end = point + normal * NORMAL_LENGTH * radius;
+        drawing.arrows.push(Arrow { start: point, end, color: CONTACT, width: 2.0, head: true });
+        drawing.balls.push(Ball {
+            center: point,
+            radius: 0.12 * radius,
+            color: CONTACT,
+            rotation: DQuat::IDENTITY,
+            material: Material::Glowing,
+        });
+    }
+}
+
+/// Radius of body 2 of an impact \[m\], 0 if it has gone.
+fn radius_of(view: &View, between: carom::Participants) -> f64 {
+    let sphere: SphereId = match between {
+        carom::Participants::Spheres(_, sphere) => sphere,
+        carom::Participants::Collider { sphere, .. } => sphere,
+    };
+    view.spheres.index_of(sphere).map_or(0.0, |index| view.spheres.radii[index])
+}
+
+/// The sphere first met by a ray from `origin` along `direction` (unit vector), as drawn.
+pub fn sphere_at(view: &View, blend: f64, origin: DVec3, direction: DVec3) -> Option<SphereId> {
+    let mut first = (f64::INFINITY, None);
+    for (i, id) in view.spheres.ids.iter().enumerate() {
+        let to_center = place(view, i, blend) - origin;
+        let along = to_center.dot(direction);
+        let miss = (to_center - along * direction).length();
+        if along > 0.0 && miss < view.spheres.radii[i] && along < first.0 {
+            first = (along, Some(*id));
+        }
+    }
+    first.1
+}

@@ -1,0 +1,99 @@
+//! A camera that is turned, moved and brought nearer by hand.
+
+use carom::{DQuat, DVec3};
+use carom_render::{Bounds, Camera};
+
+/// A camera and what it looks at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Orbit {
+    /// Where from.
+    pub camera: Camera,
+    /// From the camera to the point about which it turns \[m\].
+    pub distance: f64,
+}
+
+/// Places to look from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Preset {
+    /// The scene's own camera; one that shows everything where it has none.
+    Scene,
+    /// From the front, along -z.
+    Front,
+    /// From straight above.
+    Top,
+}
+
+/// From where everything is shown: a little from the right and from above.
+const OBLIQUE: DVec3 = DVec3::new(0.45, 0.5, 1.0);
+
+/// Nearest to straight up or down that a camera is turned \[rad\]: past it, right would be left.
+const NEAREST_TO_POLE: f64 = 0.01;
+
+impl Orbit {
+    /// A camera in this place, turning about the point nearest to what there is to see.
+    pub fn about(camera: Camera, bounds: &Bounds) -> Self {
+        let ahead = (bounds.center() - camera.position).dot(camera.ahead());
+        let distance = if ahead > 0.0 { ahead } else { bounds.radius() };
+        Self { camera, distance: distance.max(1e-6) }
+    }
+
+    /// A preset for what lies in `bounds`, seen in a picture of this width to height.
+    pub fn preset(preset: Preset, of_scene: Option<Camera>, bounds: &Bounds, aspect: f64) -> Self {
+        let fitted = |from| Camera::fitted(bounds, from, aspect);
+        let camera = match (preset, of_scene) {
+            (Preset::Scene, Some(camera)) => camera,
+            (Preset::Scene, None) => fitted(OBLIQUE),
+            (Preset::Front, _) => fitted(DVec3::Z),
+            (Preset::Top, _) => fitted(DVec3::Y),
+        };
+        Self::about(camera, bounds)
+    }
+
+    /// The point about which it turns \[m\].
+    pub fn target(&self) -> DVec3 {
+        self.camera.position + self.distance * self.camera.ahead()
+    }
+
+    /// Turns about the target: to the right and upward as the hand drags what is seen \[rad\].
+    pub fn turn(&mut self, right: f64, up: f64) {
+        let target = self.target();
+        // Angle between the way it looks and straight up.
+        let from_up = self.camera.ahead().angle_between(DVec3::Y);
+        let least = NEAREST_TO_POLE - from_up;
+        let most = std::f64::consts::PI - NEAREST_TO_POLE - from_up;
+        let up = up.clamp(least.min(0.0), most.max(0.0));
+        let pitch = DQuat::from_axis_angle(self.camera.rotation * DVec3::X, -up);
+        let yaw = DQuat::from_rotation_y(-right);
+        self.camera.rotation = (yaw * pitch * self.camera.rotation).normalize();
+        self.camera.position = target - self.distance * self.camera.ahead();
+    }
+
+    /// Moves across the picture, by parts of its height at the target.
+    pub fn pan(&mut self, right: f64, up: f64) {
+        let height = 2.0 * self.distance * (0.5 * self.camera.vertical_fov).tan();
+        let across = DVec3::new(-right, -up, 0.0) * height;
+        self.camera.position += self.camera.rotation * across;
+    }
+
+    /// Comes nearer to the target, for a factor above 1.
+    pub fn zoom(&mut self, factor: f64) {
+        let target = self.target();
+        let distance = self.distance / factor;
+        if distance.is_finite() && distance > 0.0 {
+            self.distance = distance;
+            // Near things stay in sight when it comes close.
+            self.camera.near = self.camera.near.min(1e-2 * distance);
+            self.camera.position = target - distance * self.camera.ahead();
+        }
+    }
+
+    /// Moves along with something that moved by this \[m\].
+    pub fn follow(&mut self, by: DVec3) {
+        self.camera.position += by;
+    }
+
+    /// Looks at a point from the side and distance it has \[m\].
+    pub fn center_on(&mut self, point: DVec3) {
+        self.camera.position = point - self.distance * self.camera.ahead();
+    }
+}

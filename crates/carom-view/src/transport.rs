@@ -1,0 +1,112 @@
+//! Playing, stepping, and going through time.
+
+use egui::{Align, Color32, Layout, RichText, Slider, Ui, Widget};
+
+use crate::action::Action;
+use crate::session::{Command, FASTEST, SLOWEST, View};
+
+/// Speeds that the keys go through.
+const SPEEDS: [f64; 9] = [SLOWEST, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, FASTEST];
+
+/// The bar below the picture. Returns what was asked for by a button.
+pub fn show(ui: &mut Ui, view: &View, is_recording: bool, commands: &mut Vec<Command>) -> Vec<Action> {
+    let mut actions = Vec::new();
+    let mut button = |ui: &mut Ui, symbol: &str, text: &str, action: Action| {
+        let response = ui.button(RichText::new(symbol).size(15.0)).on_hover_text(text);
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, text));
+        if response.clicked() {
+            actions.push(action);
+        }
+    };
+    ui.horizontal(|ui| {
+        let playing = view.playback.playing;
+        button(ui, "⏮", "Restart", Action::Restart);
+        button(ui, "⏴", "Step back", Action::StepBack);
+        let (symbol, text) = if playing { ("⏸", "Pause") } else { ("▶", "Play") };
+        button(ui, symbol, text, Action::PlayOrPause);
+        button(ui, "⏵", "Step", Action::Step);
+        speed(ui, view, commands);
+        ui.separator();
+        ui.monospace(format!("t = {:9.4} s", view.time)).on_hover_text(format!(
+            "frame {} of {} s each",
+            view.frame, view.setup.simulation.frame_time
+        ));
+        if is_recording {
+            ui.colored_label(Color32::from_rgb(214, 40, 40), "⏺ recording");
+        }
+        pace(ui, view);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if view.seeking.is_some() && ui.button("Stop").clicked() {
+                commands.push(Command::StopSeeking);
+            }
+            time_line(ui, view, commands);
+        });
+    });
+    actions
+}
+
+/// The next faster speed, or the next slower one.
+pub fn next_speed(speed: f64, faster: bool) -> f64 {
+    // A step of the list counts as reached within this part of it.
+    const SAME: f64 = 1e-6;
+    let mut found = SPEEDS.iter().copied().filter(|it| {
+        if faster { *it > speed * (1.0 + SAME) } else { *it < speed * (1.0 - SAME) }
+    });
+    let next = if faster { found.next() } else { found.next_back() };
+    next.unwrap_or(speed)
+}
+
+fn speed(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+    let mut speed = view.playback.speed;
+    ui.spacing_mut().slider_width = 90.0;
+    let text = |speed: f64, _| {
+        if speed < 0.995 { format!("1/{:.3}", 1.0 / speed).trim_end_matches('0').trim_end_matches('.').to_owned() + "x" } else { format!("{speed:.1}x") }
+    };
+    let slider = Slider::new(&mut speed, SLOWEST..=FASTEST).logarithmic(true).custom_formatter(text);
+    let response = slider.custom_parser(parse_speed).ui(ui).on_hover_text("Speed");
+    if response.changed() {
+        commands.push(Command::Speed(speed));
+    }
+    if response.double_clicked() {
+        commands.push(Command::Speed(1.0));
+    }
+}
+
+/// Reads `1/20x`, `0.05` or `2x`.
+fn parse_speed(text: &str) -> Option<f64> {
+    let text = text.trim().trim_end_matches('x').trim();
+    match text.split_once('/') {
+        Some((above, below)) => {
+            Some(above.trim().parse::<f64>().ok()? / below.trim().parse::<f64>().ok()?)
+        }
+        None => text.parse().ok(),
+    }
+}
+
+/// Says so when the machine cannot keep up.
+fn pace(ui: &mut Ui, view: &View) {
+    let playback = &view.playback;
+    if playback.playing && !playback.keeps_up {
+        let reached = playback.realtime_factor.unwrap_or_default();
+        let text = format!("slower than asked: {reached:.2}x");
+        ui.colored_label(ui.visuals().warn_fg_color, text)
+            .on_hover_text("This machine cannot keep up. Nothing is left out: time goes slower.");
+    }
+}
+
+fn time_line(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+    let end = view.furthest.max(view.setup.simulation.frame_time);
+    let shown = match view.seeking {
+        Some(frame) => frame as f64 * view.setup.simulation.frame_time,
+        None => view.time,
+    };
+    let mut time = shown.min(end);
+    ui.spacing_mut().slider_width = (ui.available_width() - 90.0).max(60.0);
+    let slider = Slider::new(&mut time, 0.0..=end).show_value(false);
+    ui.label(RichText::new(format!("{end:.1} s")).weak());
+    let response = slider.ui(ui).on_hover_text("Time line: go to another time");
+    response.widget_info(|| egui::WidgetInfo::slider(true, time, "Time line"));
+    if response.changed() {
+        commands.push(Command::Seek(time));
+    }
+}
