@@ -1,1 +1,369 @@
 //! A scene being watched: its world, its past, and what is measured on the way.
+//!
+//! A [`Session`] takes a scene from frame to frame, goes back and forth in time, and is edited on
+//! the way. A [`Comparison`] is two of them in lockstep. A [`Driver`] moves either at the pace of
+//! a clock, in place or on a thread of its own, told what to do by [`Command`]s, and publishes a
+//! [`View`] of it: all that an interface shows.
+//!
+//! Nothing here draws, and only the thread of a driver reads a clock.
+
+mod command;
+mod comparison;
+mod driver;
+mod edit;
+mod error;
+mod history;
+mod impacts;
+mod looks;
+mod pace;
+mod periodic;
+mod player;
+mod previous;
+mod queue;
+mod readings;
+mod series;
+mod setup;
+mod view;
+mod watched;
+#[cfg(not(target_arch = "wasm32"))]
+mod worker;
+
+use std::sync::Arc;
+
+use carom::{DVec3, SphereId, StateHash, World};
+use carom_scene::SceneError;
+use carom_scene::scene::{Color, Scene};
+
+pub use command::Command;
+pub use comparison::{Comparison, Distance};
+pub use driver::Driver;
+pub use edit::{Edit, SphereChange};
+pub use error::SessionError;
+pub use history::{DEFAULT_MEMORY, STRIDE};
+pub use impacts::{ListedImpact, REMEMBERED, energy_change_alone};
+pub use pace::{FASTEST, LONGEST_DELAY, Pace, SLOWEST};
+pub use readings::{PickedReading, RATE_WINDOW, Reading};
+pub use series::MAX_POINTS;
+pub use setup::Setup;
+pub use view::{MARKED, Playback, SphereArrays, View};
+pub use watched::Watched;
+
+use edit::Subjects;
+use history::{Change, History, Moment};
+use looks::Looks;
+use previous::Previous;
+use readings::Readings;
+
+/// A scene being watched.
+///
+/// Time goes in frames. Every frame reached so far can be had again, to the bit, with every change
+/// from outside repeated when its time comes; a new change cuts off what came after it.
+#[derive(Debug)]
+pub struct Session {
+    /// As first opened.
+    scene: Arc<Scene>,
+    setup: Arc<Setup>,
+    world: World,
+    looks: Looks,
+    /// Number of frames taken.
+    frame: u64,
+    /// How many of all changes have been made.
+    changes: usize,
+    history: History,
+    readings: Readings,
+    previous: Previous,
+    /// The frame to go to.
+    target: Option<u64>,
+    /// Counts what may have changed anything of spheres but their motion.
+    stamp: u64,
+}
+
+impl Session {
+    /// Opens a scene.
+    ///
+    /// # Errors
+    /// [`SceneError`] if the scene makes no sense; only one put together in code can.
+    pub fn new(scene: Scene) -> Result<Self, SceneError> {
+        let world = scene.world()?;
+        let setup = Arc::new(Setup::new(&scene, &world));
+        let looks = Looks::new(&scene, &world);
+        let start = Moment::new(0, 0, 0, &world, (&setup, &looks));
+        let history = History::new(start, setup.simulation.frame_time);
+        let mut readings = Readings::default();
+        readings.measure(0, &world);
+        let previous = Previous::new(&world);
+        let scene = Arc::new(scene);
+        let (frame, changes, target, stamp) = (0, 0, None, 0);
+        Ok(Self {
+            scene,
+            setup,
+            world,
+            looks,
+            frame,
+            changes,
+            history,
+            readings,
+            previous,
+            target,
+            stamp,
+        })
+    }
+
+    /// Takes one frame. Gives up going elsewhere.
+    ///
+    /// # Errors
+    /// [`SessionError::World`] if the physics cannot take it; the session stays where it is.
+    pub fn step(&mut self) -> Result<(), SessionError> {
+        self.target = None;
+        self.take_frame()
+    }
+
+    /// Goes back by one frame, if there is one.
+    ///
+    /// # Errors
+    /// None that taking the same frames did not have.
+    pub fn step_back(&mut self) -> Result<(), SessionError> {
+        self.seek(self.frame.saturating_sub(1));
+        self.advance_seek(u64::MAX).map(drop)
+    }
+
+    /// Goes back to the beginning; what came after is not lost.
+    ///
+    /// # Errors
+    /// None that beginning did not have.
+    pub fn restart(&mut self) -> Result<(), SessionError> {
+        self.seek(0);
+        self.advance_seek(u64::MAX).map(drop)
+    }
+
+    /// Goes to the frame nearest to a time \[s\], in one go; to one not reached yet, too.
+    ///
+    /// # Errors
+    /// [`SessionError::Time`] for a time that makes no sense; as [`Self::step`] on new ground.
+    pub fn jump(&mut self, time: f64) -> Result<(), SessionError> {
+        self.seek(self.frame_at(time)?);
+        self.advance_seek(u64::MAX).map(drop)
+    }
+
+    /// The frame nearest to a time \[s\].
+    ///
+    /// # Errors
+    /// [`SessionError::Time`] for a time that is negative or not finite.
+    pub fn frame_at(&self, time: f64) -> Result<u64, SessionError> {
+        if time >= 0.0 && time.is_finite() {
+            Ok(self.history.frame_at(time))
+        } else {
+            Err(SessionError::Time { seconds: time })
+        }
+    }
+
+    /// Sets out for a frame; [`Self::advance_seek`] goes there.
+    pub fn seek(&mut self, frame: u64) {
+        let moment = self.history.before(frame);
+        let is_ahead = self.frame <= frame;
+        if !(is_ahead && moment.frame <= self.frame) {
+            moment.restore(&mut self.world);
+            (self.frame, self.changes) = (moment.frame, moment.changes);
+            (self.setup, self.looks) = (moment.setup.clone(), moment.looks.clone());
+            self.readings.go_to(moment.frame, moment.impacts);
+            self.previous.remember(&self.world);
+            self.stamp += 1;
+            self.repeat_changes();
+        }
+        self.target = Some(frame).filter(|frame| *frame != self.frame);
+    }
+
+    /// The frame it is on the way to.
+    pub fn seeking(&self) -> Option<u64> {
+        self.target
+    }
+
+    /// Gives up going elsewhere: stays where it has come to.
+    pub fn stop_seeking(&mut self) {
+        self.target = None;
+    }
+
+    /// Takes up to `budget` frames of the way to where [`Self::seek`] set out for. Returns whether
+    /// it is there.
+    ///
+    /// # Errors
+    /// As [`Self::step`]; it gives up then.
+    pub fn advance_seek(&mut self, budget: u64) -> Result<bool, SessionError> {
+        for _ in 0..budget {
+            let Some(target) = self.target else { break };
+            if let Err(error) = self.take_frame() {
+                self.target = None;
+                return Err(error);
+            }
+            self.target = Some(target).filter(|target| *target != self.frame);
+        }
+        Ok(self.target.is_none())
+    }
+
+    /// Makes a change, now; what came after the present is cut off.
+    ///
+    /// # Errors
+    /// What is wrong with it; nothing changes then.
+    pub fn edit(&mut self, edit: Edit) -> Result<(), SessionError> {
+        self.apply(&edit)?;
+        self.target = None;
+        self.history.cut(self.frame, self.world.time());
+        self.changes = self.history.note(Change::Edit(edit), self.frame_time());
+        self.readings.cut(self.frame, &self.world);
+        Ok(())
+    }
+
+    /// Whether a change would be refused.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn check(&self, edit: &Edit) -> Result<(), SessionError> {
+        let (mut world, mut setup) = (self.world.clone(), self.setup.clone());
+        let mut looks = self.looks.clone();
+        let subjects = Subjects { world: &mut world, setup: &mut setup, looks: &mut looks };
+        edit::apply(edit, &self.scene, subjects)
+    }
+
+    /// Follows another sphere, or none, from now on.
+    pub fn pick(&mut self, sphere: Option<SphereId>) {
+        self.readings.pick(sphere);
+        self.readings.measure(self.frame, &self.world);
+    }
+
+    /// Bounds the memory that the past may take \[bytes\]: the rest of it is calculated again when
+    /// it is asked for. The beginning is always kept.
+    pub fn set_memory(&mut self, bytes: usize) {
+        self.history.set_memory(bytes, self.frame);
+    }
+
+    /// Memory that the past takes, estimated \[bytes\].
+    pub fn memory(&self) -> usize {
+        self.history.bytes()
+    }
+
+    /// The scene as first opened.
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
+    /// The present as a scene: what was edited, and every sphere as a single one. Opened again it
+    /// is the same world, to the bit, but for its clock, which starts at 0, and its emitters,
+    /// which emit at once; flights begin anew, as after an edit.
+    pub fn scene_now(&self) -> Scene {
+        let mut view = View::default();
+        self.fill(&mut view);
+        view.scene_now()
+    }
+
+    /// What is not spheres, as edited.
+    pub fn setup(&self) -> &Arc<Setup> {
+        &self.setup
+    }
+
+    /// The world at present.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The state of the world as one number.
+    pub fn state_hash(&self) -> StateHash {
+        self.world.state_hash()
+    }
+
+    /// Number of frames taken.
+    pub fn frame(&self) -> u64 {
+        self.frame
+    }
+
+    /// Time of the present \[s\].
+    pub fn time(&self) -> f64 {
+        self.world.time()
+    }
+
+    /// Length of the next frame \[s\].
+    pub fn frame_time(&self) -> f64 {
+        self.setup.simulation.frame_time
+    }
+
+    /// The largest time reached \[s\], that was not cut off.
+    pub fn furthest(&self) -> f64 {
+        self.history.furthest().1
+    }
+
+    /// The last frame reached that was not cut off.
+    pub fn furthest_frame(&self) -> u64 {
+        self.history.furthest().0
+    }
+
+    /// Where the spheres were a frame ago \[m\], in the order of the world's; those that were not
+    /// there, where they are now.
+    pub fn previous_positions(&self) -> &[DVec3] {
+        self.previous.positions()
+    }
+
+    /// Colours of spheres that have one of their own, ascending by id.
+    pub fn colors(&self) -> &[(SphereId, Color)] {
+        self.looks.colors()
+    }
+
+    fn take_frame(&mut self) -> Result<(), SessionError> {
+        let start = self.world.time();
+        self.previous.remember(&self.world);
+        if let Err(error) = self.world.step(self.setup.simulation.frame_time) {
+            self.note_failed_step();
+            return Err(error.into());
+        }
+        self.frame += 1;
+        let report = self.world.report();
+        if !(report.emitted.is_empty() && report.retired.is_empty()) {
+            self.looks.note(report, start, &self.scene, (&self.world, &self.setup));
+            self.stamp += 1;
+        }
+        self.previous.align(&self.world);
+        self.readings.note(self.frame, start, &self.world);
+        self.history.reach(self.frame, self.world.time());
+        self.repeat_changes();
+        if self.history.wants(self.frame, self.target.unwrap_or(self.frame)) {
+            let more = (&self.setup, &self.looks);
+            let impacts = self.readings.impacts;
+            let moment = Moment::new(self.frame, self.changes, impacts, &self.world, more);
+            self.history.keep(moment);
+        }
+        Ok(())
+    }
+
+    /// After a step that failed flights begin anew. That is made part of the past, so that the
+    /// frames that follow it can be had again to the bit.
+    fn note_failed_step(&mut self) {
+        self.begin_flights_anew();
+        if self.frame == self.furthest_frame() && !self.history.ends_with_failed_step() {
+            self.changes = self.history.note(Change::FailedStep, self.frame_time());
+        }
+    }
+
+    fn begin_flights_anew(&mut self) {
+        let settings = *self.world.settings();
+        // Settings that the world has were not refused when it got them.
+        let _ = self.world.set_settings(settings);
+    }
+
+    /// Makes the changes that were made at this frame.
+    fn repeat_changes(&mut self) {
+        while let Some(change) = self.history.change_at(self.frame, self.changes) {
+            match change.clone() {
+                Change::FailedStep => self.begin_flights_anew(),
+                // The world is the one, to the bit, that did not refuse it before.
+                Change::Edit(edit) => drop(self.apply(&edit)),
+            }
+            self.changes += 1;
+        }
+    }
+
+    fn apply(&mut self, edit: &Edit) -> Result<(), SessionError> {
+        let Self { scene, setup, world, looks, .. } = self;
+        edit::apply(edit, scene, Subjects { world, setup, looks })?;
+        self.previous.remember(&self.world);
+        self.stamp += 1;
+        Ok(())
+    }
+}

@@ -1,0 +1,66 @@
+//! What a driver can be told.
+
+use carom::SphereId;
+use carom_scene::scene::{Rule, Scene};
+
+use super::edit::Edit;
+
+/// What a driver can be told. Commands are obeyed in the order in which they are sent; one that
+/// fails says why in the next view, and changes nothing.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Command {
+    /// Let time go on.
+    Play,
+    /// Let time stand still.
+    Pause,
+    /// Stop, and take one frame.
+    Step,
+    /// Stop, and go back by one frame.
+    StepBack,
+    /// Go back to the beginning; time goes on from there, if it did.
+    Restart,
+    /// Go to the frame nearest to this time \[s\]; time goes on from there, if it did. Another
+    /// command that goes elsewhere takes its place; every other one waits until it is there.
+    Seek(f64),
+    /// Give up going elsewhere: stay where it has come to.
+    StopSeeking,
+    /// Simulated seconds per second, between [`SLOWEST`](super::SLOWEST) and
+    /// [`FASTEST`](super::FASTEST).
+    Speed(f64),
+    /// Make a change.
+    Edit(Edit),
+    /// Follow another sphere, or none.
+    Pick(Option<SphereId>),
+    /// Whether views have the state as a number, which takes time to make.
+    ShowStateHash(bool),
+    /// Open another scene; time goes on there, if it did.
+    Open(Box<Scene>),
+    /// Open a scene under two rules side by side.
+    Compare(Box<Scene>, [Rule; 2]),
+}
+
+impl Command {
+    /// Whether it goes elsewhere by itself, so that going elsewhere before it is in vain.
+    pub(crate) fn goes_elsewhere(&self) -> bool {
+        match self {
+            Self::Restart | Self::Seek(_) | Self::StopSeeking => true,
+            Self::Open(_) | Self::Compare(..) => true,
+            Self::Play | Self::Pause | Self::Step | Self::StepBack | Self::Speed(_) => false,
+            Self::Edit(_) | Self::Pick(_) | Self::ShowStateHash(_) => false,
+        }
+    }
+
+    /// One command instead of this one and a `later` one right after it; `None` if it takes both.
+    pub(crate) fn merged(&self, later: &Self) -> Option<Self> {
+        match (self, later) {
+            (Self::Edit(edit), Self::Edit(next)) => edit.merged(next).map(Self::Edit),
+            (Self::Play | Self::Pause, Self::Play | Self::Pause)
+            | (Self::Restart | Self::Seek(_), Self::Restart | Self::Seek(_))
+            | (Self::Speed(_), Self::Speed(_))
+            | (Self::Pick(_), Self::Pick(_))
+            | (Self::ShowStateHash(_), Self::ShowStateHash(_)) => Some(later.clone()),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! One scene under two rules, side by side.
+
+use carom::{Boundary, DVec3, SphereId, World};
+use carom_scene::SceneError;
+use carom_scene::scene::{Rule, Scene};
+
+use super::Session;
+use super::edit::Edit;
+use super::error::SessionError;
+use super::periodic;
+use super::series::Series;
+use super::view::{View, replace};
+
+/// How far apart the spheres are that both worlds have.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Distance {
+    /// \[s\]
+    pub time: f64,
+    /// Largest distance of a sphere from itself in the other world \[m\].
+    pub largest: f64,
+    /// Root of the mean of the squares of these distances \[m\].
+    pub root_mean_square: f64,
+}
+
+impl Distance {
+    /// Between two worlds, of the spheres with the same ids; 0 without any.
+    pub fn between(first: &World, second: &World) -> Self {
+        let size = match first.settings().boundary {
+            Boundary::Open => DVec3::INFINITY,
+            Boundary::Periodic { size } => size,
+        };
+        let (mut count, mut sum, mut largest) = (0_usize, 0.0_f64, 0.0_f64);
+        for (one, other) in common(first, second) {
+            let way = one - other;
+            let squared = (way - periodic::whole_edges(way, size)).length_squared();
+            count += 1;
+            sum += squared;
+            largest = largest.max(squared);
+        }
+        let mean = if count > 0 { sum / count as f64 } else { 0.0 };
+        Self { time: first.time(), largest: largest.sqrt(), root_mean_square: mean.sqrt() }
+    }
+}
+
+/// Positions of the spheres that both worlds have, by the order of ids.
+fn common<'a>(
+    first: &'a World,
+    second: &'a World,
+) -> impl Iterator<Item = (DVec3, DVec3)> + use<'a> {
+    let all = |world: &'a World| {
+        world.spheres().ids().iter().copied().zip(world.spheres().positions().iter().copied())
+    };
+    let mut others = all(second).peekable();
+    all(first).filter_map(move |(id, position): (SphereId, DVec3)| {
+        while others.next_if(|(other, _)| *other < id).is_some() {}
+        others.next_if(|(other, _)| *other == id).map(|(_, other)| (position, other))
+    })
+}
+
+/// Two sessions of one scene under two rules, in lockstep: whatever is done to one is done to both.
+#[derive(Debug)]
+pub struct Comparison {
+    first: Session,
+    second: Session,
+    distances: Series<Distance>,
+}
+
+impl Comparison {
+    /// Opens a scene twice, under two rules.
+    ///
+    /// # Errors
+    /// [`SceneError`] if the scene makes no sense under one of them.
+    pub fn new(scene: &Scene, rules: [Rule; 2]) -> Result<Self, SceneError> {
+        let [first, second] = rules.map(|rule| {
+            let mut scene = scene.clone();
+            scene.simulation.rule = rule;
+            Session::new(scene)
+        });
+        let mut comparison = Self { first: first?, second: second?, distances: Series::default() };
+        comparison.measure();
+        Ok(comparison)
+    }
+
+    /// Under the first rule.
+    pub fn first(&self) -> &Session {
+        &self.first
+    }
+
+    /// Under the second rule.
+    pub fn second(&self) -> &Session {
+        &self.second
+    }
+
+    /// How far apart they are now.
+    pub fn distance(&self) -> Distance {
+        Distance::between(self.first.world(), self.second.world())
+    }
+
+    /// How far apart they were until now.
+    pub fn distances(&self) -> impl Iterator<Item = &Distance> {
+        self.distances.until(self.first.frame()).iter().map(|(_, distance)| distance)
+    }
+
+    /// Takes one frame of each.
+    ///
+    /// # Errors
+    /// As [`Session::step`]; neither has moved then.
+    pub fn step(&mut self) -> Result<(), SessionError> {
+        self.first.step()?;
+        if let Err(error) = self.second.step() {
+            self.first.step_back()?;
+            return Err(error);
+        }
+        self.measure();
+        Ok(())
+    }
+
+    /// Sets out for a frame.
+    pub fn seek(&mut self, frame: u64) {
+        self.first.seek(frame);
+        self.second.seek(frame);
+    }
+
+    /// Takes up to `budget` frames of the way, of both together. Returns whether both are there.
+    ///
+    /// # Errors
+    /// As [`Session::advance_seek`]; both stop at the same frame then.
+    pub fn advance_seek(&mut self, budget: u64) -> Result<bool, SessionError> {
+        for _ in 0..budget {
+            let behind = match (self.first.seeking(), self.second.seeking()) {
+                (None, None) => break,
+                (Some(_), None) => &mut self.first,
+                (None, Some(_)) => &mut self.second,
+                _ if self.first.frame() <= self.second.frame() => &mut self.first,
+                _ => &mut self.second,
+            };
+            if let Err(error) = behind.advance_seek(1) {
+                self.stop_seeking()?;
+                return Err(error);
+            }
+            if self.first.frame() == self.second.frame() {
+                self.measure();
+            }
+        }
+        Ok(self.first.seeking().is_none() && self.second.seeking().is_none())
+    }
+
+    /// Gives up going elsewhere: both stay where the one that is behind has come to.
+    ///
+    /// # Errors
+    /// None that taking the same frames did not have.
+    pub fn stop_seeking(&mut self) -> Result<(), SessionError> {
+        let frame = self.first.frame().min(self.second.frame());
+        for session in [&mut self.first, &mut self.second] {
+            session.seek(frame);
+            session.advance_seek(u64::MAX)?;
+        }
+        Ok(())
+    }
+
+    /// Makes a change to both. Of the simulation, each keeps its own rule.
+    ///
+    /// # Errors
+    /// As [`Session::edit`], if it is refused by one of them; neither changes then.
+    pub fn edit(&mut self, edit: &Edit) -> Result<(), SessionError> {
+        let [first, second] = [&self.first, &self.second].map(|session| own(edit, session));
+        self.second.check(&second)?;
+        self.first.edit(first)?;
+        self.second.edit(second)?;
+        match self.first.frame().checked_sub(1) {
+            Some(before) => self.distances.cut(before),
+            None => self.distances.clear(),
+        }
+        self.measure();
+        Ok(())
+    }
+
+    /// Follows a sphere in both.
+    pub fn pick(&mut self, sphere: Option<SphereId>) {
+        self.first.pick(sphere);
+        self.second.pick(sphere);
+    }
+
+    /// Copies both: the first, and the second as [`View::other`].
+    pub fn fill(&self, view: &mut View) {
+        self.first.fill(view);
+        self.second.fill(view.other.get_or_insert_default());
+        replace(&mut view.distances, self.distances().copied());
+        let now = self.distance();
+        view.distances.pop_if(|last| last.time >= now.time);
+        view.distances.push(now);
+    }
+
+    fn measure(&mut self) {
+        let frame = self.first.frame();
+        if self.distances.wants(frame) {
+            let distance = self.distance();
+            self.distances.push(frame, distance);
+        }
+    }
+}
+
+/// The edit, with the session's own rule.
+fn own(edit: &Edit, session: &Session) -> Edit {
+    match edit {
+        Edit::Simulation(simulation) => {
+            let mut own = simulation.clone();
+            own.rule = session.setup().simulation.rule;
+            Edit::Simulation(own)
+        }
+        other => other.clone(),
+    }
+}

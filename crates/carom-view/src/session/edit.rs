@@ -1,0 +1,271 @@
+//! Everything that can be changed while a scene runs.
+
+use std::sync::Arc;
+
+use carom::{
+    Collider, ColliderId, DVec3, Emitter, EmitterId, Error, ForceId, Mass, SphereId, Subject, World,
+};
+use carom_scene::SceneError;
+use carom_scene::scene::{self, Color, Force, Scene, Simulation};
+
+use super::error::SessionError;
+use super::looks::{self, Looks};
+use super::setup::{Setup, describe_emitter};
+
+/// A change from outside.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Edit {
+    /// How the scene is stepped: rule and parameters, integrator, impact law, the frame time, ...
+    Simulation(Box<Simulation>),
+    /// Length of a frame \[s\], alone.
+    FrameTime(f64),
+    /// Another force in the place of one.
+    Force(ForceId, Force),
+    /// One more force.
+    AddForce(Force),
+    /// A force less.
+    RemoveForce(ForceId),
+    /// Coefficient of restitution of a collider.
+    ColliderRestitution(ColliderId, f64),
+    /// Coefficient of restitution of all colliders.
+    AllColliderRestitutions(f64),
+    /// An emitter. With another period it starts anew, now.
+    Emitter(EmitterId, Box<Emitter>),
+    /// A sphere.
+    Sphere(SphereId, SphereChange),
+    /// A new sphere; it may overlap others.
+    Throw {
+        /// As it starts.
+        sphere: carom::Sphere,
+        /// Its colour; by density or the scene's own without one.
+        color: Option<Color>,
+    },
+    /// A sphere less.
+    RemoveSphere(SphereId),
+}
+
+/// What changes of a sphere; the rest stays as it is when the change comes, so that a sphere which
+/// moves on meanwhile is not set back.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SphereChange {
+    /// Centre \[m\].
+    pub position: Option<DVec3>,
+    /// Velocity \[m/s\].
+    pub velocity: Option<DVec3>,
+    /// Radius \[m\], > 0; the mass stays.
+    pub radius: Option<f64>,
+    /// Mass \[kg\], > 0.
+    pub mass: Option<f64>,
+    /// Coefficient of restitution in \[0, 1\].
+    pub restitution: Option<f64>,
+}
+
+impl SphereChange {
+    /// The sphere, changed.
+    fn of(&self, sphere: carom::Sphere) -> carom::Sphere {
+        carom::Sphere {
+            position: self.position.unwrap_or(sphere.position),
+            velocity: self.velocity.unwrap_or(sphere.velocity),
+            radius: self.radius.unwrap_or(sphere.radius),
+            mass: self.mass.map_or(sphere.mass, Mass::Kilograms),
+            restitution: self.restitution.unwrap_or(sphere.restitution),
+        }
+    }
+
+    /// This change, then a later one.
+    fn then(&self, later: &Self) -> Self {
+        Self {
+            position: later.position.or(self.position),
+            velocity: later.velocity.or(self.velocity),
+            radius: later.radius.or(self.radius),
+            mass: later.mass.or(self.mass),
+            restitution: later.restitution.or(self.restitution),
+        }
+    }
+}
+
+impl Edit {
+    /// One edit instead of this one and a `later` one right after it; `None` if it takes both.
+    pub fn merged(&self, later: &Self) -> Option<Self> {
+        match (self, later) {
+            (Self::Sphere(id, change), Self::Sphere(same, next)) if id == same => {
+                Some(Self::Sphere(*id, change.then(next)))
+            }
+            (Self::Simulation(_), Self::Simulation(_))
+            | (Self::FrameTime(_), Self::FrameTime(_))
+            | (Self::AllColliderRestitutions(_), Self::AllColliderRestitutions(_)) => {
+                Some(later.clone())
+            }
+            (Self::Force(id, _), Self::Force(same, _)) if id == same => Some(later.clone()),
+            (Self::Emitter(id, _), Self::Emitter(same, _)) if id == same => Some(later.clone()),
+            (Self::ColliderRestitution(id, _), Self::ColliderRestitution(same, _))
+                if id == same =>
+            {
+                Some(later.clone())
+            }
+            _ => None,
+        }
+    }
+}
+
+/// All that edits change.
+pub(crate) struct Subjects<'a> {
+    pub world: &'a mut World,
+    pub setup: &'a mut Arc<Setup>,
+    pub looks: &'a mut Looks,
+}
+
+/// Makes a change, in the world and in the description of the scene.
+///
+/// # Errors
+/// [`SessionError`], and nothing is changed: not even do flights begin anew.
+pub(crate) fn apply(edit: &Edit, scene: &Scene, to: Subjects) -> Result<(), SessionError> {
+    let Subjects { world, setup, looks } = to;
+    match edit {
+        Edit::Simulation(simulation) => set_simulation(simulation, scene, world, setup),
+        Edit::FrameTime(frame_time) => {
+            let mut simulation = setup.simulation.clone();
+            simulation.frame_time = *frame_time;
+            set_simulation(&simulation, scene, world, setup)
+        }
+        Edit::Force(id, force) => set_force(*id, force, world, setup),
+        Edit::AddForce(force) => {
+            let id = add_force(force, world)?;
+            Arc::make_mut(setup).forces.push((id, force.clone()));
+            Ok(())
+        }
+        Edit::RemoveForce(id) => remove_force(*id, world, setup),
+        Edit::ColliderRestitution(id, restitution) => {
+            set_restitution(*id, *restitution, world, setup)
+        }
+        Edit::AllColliderRestitutions(restitution) => {
+            // What is refused for one is refused for the first: none is changed then.
+            let ids: Vec<ColliderId> = setup.colliders.iter().map(|(id, _)| *id).collect();
+            ids.into_iter().try_for_each(|id| set_restitution(id, *restitution, world, setup))
+        }
+        Edit::Emitter(id, emitter) => set_emitter(*id, emitter, scene, (world, setup, looks)),
+        Edit::Sphere(id, change) => {
+            let changed = change.of(world.sphere(*id)?);
+            if change.radius.is_some() {
+                check_writable(scene, setup, changed.radius)?;
+            }
+            Ok(world.set_sphere(*id, changed)?)
+        }
+        Edit::Throw { sphere, color } => {
+            check_writable(scene, setup, sphere.radius)?;
+            let id = world.add_sphere(*sphere)?;
+            looks.paint(id, color.or_else(|| looks::color_of(scene, sphere)));
+            Ok(())
+        }
+        Edit::RemoveSphere(id) => Ok(world.remove_sphere(*id).map(drop)?),
+    }
+}
+
+fn set_simulation(
+    simulation: &Simulation,
+    scene: &Scene,
+    world: &mut World,
+    setup: &mut Arc<Setup>,
+) -> Result<(), SessionError> {
+    let changed = Setup { simulation: simulation.clone(), ..(**setup).clone() };
+    let smallest = world.spheres().radii().iter().copied().fold(f64::INFINITY, f64::min);
+    check_writable(scene, &changed, smallest)?;
+    let settings = changed.scene(scene).settings();
+    // Flights begin anew with settings, even with the same ones.
+    if settings != *world.settings() {
+        world.set_settings(settings)?;
+    }
+    *setup = Arc::new(changed);
+    Ok(())
+}
+
+/// Refuses what no scene file could say, with `smallest` for the radius \[m\] of the smallest
+/// sphere; the words are those of scene files.
+fn check_writable(scene: &Scene, setup: &Setup, smallest: f64) -> Result<(), SceneError> {
+    let mut probe = Setup { colliders: Vec::new(), ..setup.clone() }.scene(scene);
+    probe.simulation.allow_overlap = true;
+    // What is wrong with the sphere itself, the world says.
+    if smallest.is_finite() && smallest > 0.0 {
+        probe.spheres.push(scene::Sphere::at([0.0; 3], smallest));
+    }
+    probe.world().map(drop)
+}
+
+fn add_force(force: &Force, world: &mut World) -> Result<ForceId, Error> {
+    match *force {
+        Force::Constant { force } => world.add_force(carom::ConstantForce::new(force.into())),
+        Force::Gravity { acceleration } => {
+            world.add_force(carom::Gravity::new(acceleration.into()))
+        }
+        Force::ViscousDrag { coefficient } => world.add_force(carom::ViscousDrag::new(coefficient)),
+    }
+}
+
+fn set_force(
+    id: ForceId,
+    force: &Force,
+    world: &mut World,
+    setup: &mut Arc<Setup>,
+) -> Result<(), SessionError> {
+    match *force {
+        Force::Constant { force } => world.set_force(id, carom::ConstantForce::new(force.into())),
+        Force::Gravity { acceleration } => {
+            world.set_force(id, carom::Gravity::new(acceleration.into()))
+        }
+        Force::ViscousDrag { coefficient } => {
+            world.set_force(id, carom::ViscousDrag::new(coefficient))
+        }
+    }?;
+    let forces = &mut Arc::make_mut(setup).forces;
+    forces.iter_mut().filter(|it| it.0 == id).for_each(|it| it.1 = force.clone());
+    Ok(())
+}
+
+fn remove_force(
+    id: ForceId,
+    world: &mut World,
+    setup: &mut Arc<Setup>,
+) -> Result<(), SessionError> {
+    // Asked first: a world that does not know the force would let all flights begin anew.
+    if !setup.forces.iter().any(|it| it.0 == id) {
+        return Err(Error::Unknown(Subject::Force(id)).into());
+    }
+    world.remove_force(id)?;
+    Arc::make_mut(setup).forces.retain(|it| it.0 != id);
+    Ok(())
+}
+
+fn set_restitution(
+    id: ColliderId,
+    restitution: f64,
+    world: &mut World,
+    setup: &mut Arc<Setup>,
+) -> Result<(), SessionError> {
+    let collider = Collider { restitution, ..world.collider(id)? };
+    world.set_collider(id, collider)?;
+    let colliders = &mut Arc::make_mut(setup).colliders;
+    colliders.iter_mut().filter(|it| it.0 == id).for_each(|it| it.1.restitution = restitution);
+    Ok(())
+}
+
+fn set_emitter(
+    id: EmitterId,
+    emitter: &Emitter,
+    scene: &Scene,
+    to: (&mut World, &mut Arc<Setup>, &mut Looks),
+) -> Result<(), SessionError> {
+    let (world, setup, looks) = to;
+    let unknown = Error::Unknown(Subject::Emitter(id));
+    let place = setup.emitters.iter().position(|it| it.0 == id).ok_or(unknown)?;
+    let mut changed = (**setup).clone();
+    let is_anew = changed.emitters[place].1.period != emitter.period;
+    describe_emitter(emitter, &mut changed.emitters[place].1);
+    check_writable(scene, &changed, f64::INFINITY)?;
+    world.set_emitter(id, *emitter)?;
+    if is_anew {
+        looks.restart_emitter(id, world.time());
+    }
+    *setup = Arc::new(changed);
+    Ok(())
+}

@@ -1,0 +1,31 @@
+//! What can go wrong with a scene being watched.
+
+use carom_scene::SceneError;
+use thiserror::Error;
+
+/// Why something could not be done. The session is as it was before.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SessionError {
+    /// The physics refuses it.
+    #[error(transparent)]
+    World(#[from] carom::Error),
+    /// It would make a scene that no file could hold.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// No frame is at this time.
+    #[error("cannot go to {seconds} s: the time must be zero or positive, and finite")]
+    Time {
+        /// What was asked for \[s\].
+        seconds: f64,
+    },
+    /// More waits to be done than could be done in seconds.
+    #[error("too much waits to be done already; the last command was not taken")]
+    Busy,
+    /// No thread can be had to move the spheres.
+    #[error("cannot start a thread that moves the spheres: {0}")]
+    Thread(#[from] std::io::Error),
+    /// The thread that moves the spheres is gone.
+    #[error("nothing moves any more: the thread that moves the spheres has ended")]
+    Ended,
+}

@@ -1,0 +1,237 @@
+//! The past of a session, from which every frame of it can be had again, bit for bit.
+
+use std::sync::Arc;
+
+use carom::{Rule, Snapshot, World};
+
+use super::edit::Edit;
+use super::looks::Looks;
+use super::setup::Setup;
+
+/// Memory that the moments kept may take, unless told otherwise \[bytes\].
+pub const DEFAULT_MEMORY: usize = 256 << 20;
+
+/// Frames from one moment kept to the next while time goes on: a step back takes at most so many
+/// frames again, and keeping them costs a small part of taking the frames.
+pub const STRIDE: u64 = 8;
+
+/// Memory per sphere: id, position, velocity, radius, mass, restitution, and the colour \[bytes\].
+const BYTES_PER_SPHERE: usize = 112;
+
+/// Memory per sphere for its flight, neighbours and predictions under the rule `exact` \[bytes\];
+/// measured for gases.
+const BYTES_PER_FLIGHT: usize = 900;
+
+/// Memory per collider with its surfaces \[bytes\]; a box, which has most, measured.
+const BYTES_PER_COLLIDER: usize = 3000;
+
+/// Memory of everything whose amount does not grow \[bytes\], generously.
+const BYTES_PER_MOMENT: usize = 2000;
+
+/// Something that changed the world from outside of a step.
+#[derive(Debug, Clone)]
+pub(crate) enum Change {
+    /// An edit.
+    Edit(Edit),
+    /// A step failed, after which flights begin anew.
+    FailedStep,
+}
+
+/// A session at one moment.
+#[derive(Debug, Clone)]
+pub(crate) struct Moment {
+    /// Number of frames taken.
+    pub frame: u64,
+    /// How many changes came before, of all.
+    pub changes: usize,
+    /// Impacts so far.
+    pub impacts: u64,
+    pub setup: Arc<Setup>,
+    pub looks: Looks,
+    state: Snapshot,
+    bytes: usize,
+}
+
+impl Moment {
+    /// The present of a world.
+    pub fn new(
+        frame: u64,
+        changes: usize,
+        impacts: u64,
+        world: &World,
+        more: (&Arc<Setup>, &Looks),
+    ) -> Self {
+        let (setup, looks) = (more.0.clone(), more.1.clone());
+        let bytes = estimated_bytes(world, frame);
+        Self { frame, changes, impacts, setup, looks, state: world.snapshot(), bytes }
+    }
+
+    /// Puts the world back to this moment.
+    pub fn restore(&self, world: &mut World) {
+        world.restore(&self.state);
+    }
+}
+
+/// Memory that a moment of this world takes \[bytes\].
+fn estimated_bytes(world: &World, frame: u64) -> usize {
+    // Before the first frame, nothing has been predicted.
+    let has_flights = frame > 0 && matches!(world.settings().rule, Rule::Exact(_));
+    let per_sphere = BYTES_PER_SPHERE + if has_flights { BYTES_PER_FLIGHT } else { 0 };
+    BYTES_PER_MOMENT
+        + world.spheres().len() * per_sphere
+        + world.colliders().len() * BYTES_PER_COLLIDER
+}
+
+/// A stretch of frames of one length.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    frame: u64,
+    /// At its first frame \[s\].
+    time: f64,
+    /// \[s\]
+    frame_time: f64,
+}
+
+/// The past of a session: moments, and the changes from outside.
+///
+/// Steps and changes are deterministic, so each frame follows from any moment before it. Changes
+/// are kept all, being small; moments within a bound of memory: dense near the present and thinner
+/// the farther away, so that going back costs time in proportion to how far one goes.
+#[derive(Debug)]
+pub(crate) struct History {
+    /// Ascending by frame; the first is frame 0.
+    moments: Vec<Moment>,
+    /// Ascending by frame.
+    changes: Vec<(u64, Change)>,
+    /// Ascending; never empty.
+    pieces: Vec<Piece>,
+    furthest: (u64, f64),
+    /// Bound on the memory of the moments but the first \[bytes\].
+    memory: usize,
+}
+
+impl History {
+    /// A past that begins with `start`, with frames of `frame_time` \[s\].
+    pub fn new(start: Moment, frame_time: f64) -> Self {
+        Self {
+            moments: vec![start],
+            changes: Vec::new(),
+            pieces: vec![Piece { frame: 0, time: 0.0, frame_time }],
+            furthest: (0, 0.0),
+            memory: DEFAULT_MEMORY,
+        }
+    }
+
+    /// Bounds the memory of the moments \[bytes\]. The first is always kept.
+    pub fn set_memory(&mut self, bytes: usize, present: u64) {
+        self.memory = bytes;
+        self.thin_out(present);
+    }
+
+    /// Estimated memory of all moments \[bytes\].
+    pub fn bytes(&self) -> usize {
+        self.moments.iter().map(|moment| moment.bytes).sum()
+    }
+
+    /// The last frame reached, and its time \[s\].
+    pub fn furthest(&self) -> (u64, f64) {
+        self.furthest
+    }
+
+    /// Notes that a frame was reached, at `time` \[s\].
+    pub fn reach(&mut self, frame: u64, time: f64) {
+        if frame > self.furthest.0 {
+            self.furthest = (frame, time);
+        }
+    }
+
+    /// The change after the first `done`, if it comes at this frame.
+    pub fn change_at(&self, frame: u64, done: usize) -> Option<&Change> {
+        self.changes.get(done).filter(|(at, _)| *at == frame).map(|(_, change)| change)
+    }
+
+    /// Cuts off what comes after this frame, at `time` \[s\].
+    pub fn cut(&mut self, frame: u64, time: f64) {
+        self.moments.retain(|moment| moment.frame <= frame);
+        self.changes.retain(|(at, _)| *at <= frame);
+        self.pieces.retain(|piece| piece.frame <= frame);
+        self.furthest = (frame, time);
+    }
+
+    /// Notes a change at the last frame, after which frames last for `frame_time` \[s\]. Returns
+    /// how many changes there are.
+    pub fn note(&mut self, change: Change, frame_time: f64) -> usize {
+        let (frame, time) = self.furthest;
+        self.changes.push((frame, change));
+        if self.pieces.last().is_none_or(|piece| piece.frame_time != frame_time) {
+            self.pieces.retain(|piece| piece.frame < frame);
+            self.pieces.push(Piece { frame, time, frame_time });
+        }
+        self.changes.len()
+    }
+
+    /// Whether the last change at the last frame was a failed step.
+    pub fn ends_with_failed_step(&self) -> bool {
+        let last = self.changes.last();
+        last.is_some_and(|(at, it)| *at == self.furthest.0 && matches!(it, Change::FailedStep))
+    }
+
+    /// The frame nearest to a time \[s\], which may be one not reached yet.
+    pub fn frame_at(&self, time: f64) -> u64 {
+        let later = self.pieces.partition_point(|piece| piece.time <= time);
+        let piece = self.pieces[later.saturating_sub(1)];
+        let frames = ((time - piece.time) / piece.frame_time).round();
+        let next = self.pieces.get(later).map_or(u64::MAX, |piece| piece.frame);
+        // A cast of a number that is too large gives the largest.
+        piece.frame.saturating_add(frames.max(0.0) as u64).min(next)
+    }
+
+    /// The last moment kept that is not after this frame.
+    pub fn before(&self, frame: u64) -> &Moment {
+        let later = self.moments.partition_point(|moment| moment.frame <= frame);
+        &self.moments[later.saturating_sub(1)]
+    }
+
+    /// Whether the moment at this frame is worth keeping, on the way to frame `target`.
+    pub fn wants(&self, frame: u64, target: u64) -> bool {
+        let since_last = frame - self.before(frame).frame;
+        // Near where someone goes back to, it is likely that they go back further.
+        let stride = if target > frame && target - frame < STRIDE { 1 } else { STRIDE };
+        since_last >= stride
+    }
+
+    /// Keeps a moment, unless its frame is kept already; makes place for it.
+    pub fn keep(&mut self, moment: Moment) {
+        let present = moment.frame;
+        let place = self.moments.partition_point(|it| it.frame < moment.frame);
+        if self.moments.get(place).is_some_and(|it| it.frame == moment.frame) {
+            return;
+        }
+        self.moments.insert(place, moment);
+        self.thin_out(present);
+    }
+
+    /// Drops moments until the rest is within the bound: first those without which the way to a
+    /// frame grows least, compared with how far it is from the present.
+    fn thin_out(&mut self, present: u64) {
+        let first = self.moments.first().map_or(0, |moment| moment.bytes);
+        let mut bytes = self.bytes() - first;
+        while bytes > self.memory && self.moments.len() > 1 {
+            let place = self.least_missed(present);
+            bytes -= self.moments.remove(place).bytes;
+        }
+    }
+
+    /// The place of the moment that is missed least; there are two at least.
+    fn least_missed(&self, present: u64) -> usize {
+        let frame = |place: usize| self.moments.get(place).map(|moment| moment.frame);
+        let loss = |place: &usize| {
+            let here = self.moments[*place].frame;
+            let before = frame(*place - 1).unwrap_or(0);
+            let after = frame(*place + 1).unwrap_or(2 * here - before);
+            (after - before) as f64 / (1 + here.abs_diff(present)) as f64
+        };
+        let last = self.moments.len() - 1;
+        (1..=last).min_by(|a, b| loss(a).total_cmp(&loss(b))).unwrap_or(last)
+    }
+}

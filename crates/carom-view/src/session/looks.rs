@@ -1,0 +1,163 @@
+//! Colours of single spheres, of which a world knows nothing.
+
+use std::sync::Arc;
+
+use carom::{EmitterId, Rule, Sphere, SphereId, StepReport, World};
+use carom_scene::scene::{self, Color, Generator, Scene};
+
+use super::setup::Setup;
+
+/// Spheres whose densities differ by no more than this part are of one density: a mass was made of
+/// it and the volume, with three roundings each way.
+const SAME_DENSITY: f64 = 1e-12;
+
+/// Tolerance of the frame rules for what is due at the start of a frame \[s\]
+/// (`docs/physics.md`, stage 1).
+const DUE_TOLERANCE: f64 = 1e-9;
+
+/// Which spheres have which colour of their own.
+///
+/// A sphere gets its colour when it comes into the world: its own, or that of its density; later
+/// changes of its mass keep it. For emitted spheres, the emitters' schedules are followed, since a
+/// world does not say which of several emitters a sphere came from.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Looks {
+    /// Ascending by id. Spheres that are gone are left out from time to time.
+    colors: Arc<Vec<(SphereId, Color)>>,
+    schedules: Vec<Schedule>,
+}
+
+/// How far an emitter has come: sphere number k is due at `start + k period`.
+#[derive(Debug, Clone, Copy)]
+struct Schedule {
+    id: EmitterId,
+    /// \[s\]
+    start: f64,
+    emitted: u64,
+}
+
+impl Schedule {
+    /// When the next sphere is due \[s\], in the very operations of the physics.
+    fn due(&self, setup: &Setup) -> f64 {
+        let emitter = setup.emitters.iter().find(|(id, _)| *id == self.id);
+        let period = emitter.map_or(f64::INFINITY, |(_, emitter)| emitter.period);
+        self.start + self.emitted as f64 * period
+    }
+}
+
+impl Looks {
+    /// At the start of a scene, of which `world` was made.
+    pub fn new(scene: &Scene, world: &World) -> Self {
+        let single = scene.spheres.iter().map(|sphere| (sphere, 1));
+        let all = single.chain(scene.generators.iter().map(generated));
+        let colors = all.flat_map(|(sphere, count)| {
+            std::iter::repeat_n(sphere.color.or_else(|| color_of_template(scene, sphere)), count)
+        });
+        let ids = world.spheres().ids().iter().copied();
+        let own = ids.zip(colors).filter_map(|(id, color)| Some((id, color?)));
+        let schedules = world.emitters().map(|(id, _)| Schedule { id, start: 0.0, emitted: 0 });
+        Self { colors: Arc::new(own.collect()), schedules: schedules.collect() }
+    }
+
+    /// Colours of single spheres, ascending by id.
+    pub fn colors(&self) -> &[(SphereId, Color)] {
+        &self.colors
+    }
+
+    /// Gives the sphere that was added last a colour.
+    pub fn paint(&mut self, id: SphereId, color: Option<Color>) {
+        if let Some(color) = color {
+            Arc::make_mut(&mut self.colors).push((id, color));
+        }
+    }
+
+    /// An emitter starts anew at `time` \[s\].
+    pub fn restart_emitter(&mut self, id: EmitterId, time: f64) {
+        for schedule in self.schedules.iter_mut().filter(|schedule| schedule.id == id) {
+            (schedule.start, schedule.emitted) = (time, 0);
+        }
+    }
+
+    /// Notes what emitters did in a frame that started at `start` \[s\].
+    pub fn note(
+        &mut self,
+        report: &StepReport,
+        start: f64,
+        scene: &Scene,
+        world: (&World, &Setup),
+    ) {
+        let (world, setup) = world;
+        if report.emitted.is_empty() {
+            return;
+        }
+        let is_exact = matches!(world.settings().rule, Rule::Exact(_));
+        let sources = self.sources(report.emitted.len(), start, is_exact, setup);
+        let template = |id| setup.emitters.iter().find(|it| it.0 == id).map(|it| &it.1.sphere);
+        for (&sphere, emitter) in report.emitted.iter().zip(sources) {
+            let template = template(emitter);
+            let color = template.and_then(|it| it.color.or_else(|| color_of_template(scene, it)));
+            self.paint(sphere, color);
+        }
+        self.forget_the_gone(world);
+    }
+
+    /// The emitters that `count` spheres came from which were emitted in a frame, in their order:
+    /// of what is due at the start emitter by emitter, after that by time.
+    fn sources(&mut self, count: usize, start: f64, exact: bool, setup: &Setup) -> Vec<EmitterId> {
+        let mut sources = Vec::with_capacity(count);
+        let mut until = if exact { start } else { start + DUE_TOLERANCE };
+        while sources.len() < count && until < f64::INFINITY {
+            for schedule in &mut self.schedules {
+                while schedule.due(setup) <= until && sources.len() < count {
+                    sources.push(schedule.id);
+                    schedule.emitted += 1;
+                }
+            }
+            until = self.schedules.iter().map(|it| it.due(setup)).fold(f64::INFINITY, f64::min);
+        }
+        sources
+    }
+
+    /// Forgets spheres that are gone, once they are as many as those that are there: so each costs
+    /// a constant time.
+    fn forget_the_gone(&mut self, world: &World) {
+        if self.colors.len() > 2 * world.spheres().len() {
+            Arc::make_mut(&mut self.colors)
+                .retain(|(id, _)| world.spheres().index_of(*id).is_some());
+        }
+    }
+}
+
+/// What the spheres of a generator have in common, and how many there are.
+fn generated(generator: &Generator) -> (&scene::Sphere, usize) {
+    match generator {
+        Generator::Row { count, sphere, .. } | Generator::Random { count, sphere, .. } => {
+            (sphere, *count as usize)
+        }
+        Generator::Lattice { counts, sphere, .. } => {
+            (sphere, counts.iter().map(|count| *count as usize).product())
+        }
+    }
+}
+
+/// The colour that a scene gives spheres of this description by their density.
+fn color_of_template(scene: &Scene, sphere: &scene::Sphere) -> Option<Color> {
+    let radius = sphere.radius.or(sphere.diameter.map(|diameter| 0.5 * diameter))?;
+    let density =
+        sphere.density.unwrap_or_else(|| sphere.mass.unwrap_or(1.0) / carom::volume(radius));
+    color_of_density(scene, density)
+}
+
+/// The colour that a scene gives a sphere by its density.
+pub(crate) fn color_of(scene: &Scene, sphere: &Sphere) -> Option<Color> {
+    color_of_density(scene, sphere.kilograms() / carom::volume(sphere.radius))
+}
+
+/// The colour that a scene gives spheres of this density \[kg/m³\].
+fn color_of_density(scene: &Scene, density: f64) -> Option<Color> {
+    let colors = scene.colors.as_ref()?;
+    let is_it = |listed: &&scene::DensityColor| {
+        (listed.density - density).abs() <= SAME_DENSITY * listed.density
+    };
+    colors.densities.iter().find(is_it).map(|listed| listed.color)
+}

@@ -1,0 +1,197 @@
+//! Obeys commands and takes the frames that are due, a piece of work at a time.
+
+use std::sync::Arc;
+
+use super::Session;
+use super::command::Command;
+use super::comparison::Comparison;
+use super::error::SessionError;
+use super::pace::Pace;
+use super::queue::Queue;
+use super::view::{Playback, View};
+use super::watched::Watched;
+
+/// What both forms of a driver have in common: it knows neither clock nor thread.
+#[derive(Debug)]
+pub(crate) struct Player {
+    watched: Watched,
+    pace: Pace,
+    pub queue: Queue,
+    shows_state_hash: bool,
+    error: Option<Arc<SessionError>>,
+    /// Whether anything changed since [`Self::fill`].
+    has_news: bool,
+}
+
+impl Player {
+    pub fn new(watched: Watched) -> Self {
+        let (pace, queue) = (Pace::new(), Queue::default());
+        Self { watched, pace, queue, shows_state_hash: false, error: None, has_news: true }
+    }
+
+    /// Obeys what waits and takes the frames that are due now that `wall_seconds` have gone by, at
+    /// least one piece of work, and no more once `time_is_up`.
+    pub fn update(&mut self, wall_seconds: f64, time_is_up: &mut dyn FnMut() -> bool) {
+        // Time that went by at a stop or on the way elsewhere is not to be made up for.
+        let was_playing = self.pace.is_playing() && self.watched.seeking().is_none();
+        let is_done = self.obey(time_is_up);
+        if is_done {
+            let wall_seconds = if was_playing { wall_seconds } else { 0.0 };
+            self.take_due_frames(wall_seconds, time_is_up);
+        }
+    }
+
+    /// Obeys what waits. Returns whether nothing does any more.
+    fn obey(&mut self, time_is_up: &mut dyn FnMut() -> bool) -> bool {
+        loop {
+            let is_on_the_way = self.watched.seeking().is_some();
+            let next = self.queue.pop_if(|it| !is_on_the_way || it.goes_elsewhere());
+            match next {
+                Some(command) => self.execute(command),
+                None if is_on_the_way => {
+                    self.has_news = true;
+                    let advanced = self.watched.advance_seek(1);
+                    self.pace.show_whole_frame();
+                    self.stop_on_error(advanced.map(drop));
+                }
+                None => return true,
+            }
+            if time_is_up() {
+                return self.queue.is_empty() && self.watched.seeking().is_none();
+            }
+        }
+    }
+
+    fn execute(&mut self, command: Command) {
+        self.has_news = true;
+        match command {
+            Command::Play => self.play(true),
+            Command::Pause => self.pace.set_playing(false),
+            Command::Speed(speed) => self.pace.set_speed(speed),
+            Command::Pick(sphere) => self.watched.pick(sphere),
+            Command::ShowStateHash(shows) => self.shows_state_hash = shows,
+            Command::Step => {
+                self.play(false);
+                let stepped = self.watched.step();
+                self.stop_on_error(stepped);
+                self.pace.show_whole_frame();
+            }
+            Command::StepBack => {
+                self.play(false);
+                self.go_to(self.watched.session().frame().saturating_sub(1));
+            }
+            Command::Restart => self.go_to(0),
+            Command::Seek(time) => match self.watched.session().frame_at(time) {
+                Ok(frame) => self.go_to(frame),
+                Err(error) => self.error = Some(Arc::new(error)),
+            },
+            Command::StopSeeking => {
+                let stopped = self.watched.stop_seeking();
+                self.stop_on_error(stopped);
+            }
+            Command::Edit(edit) => {
+                self.error = self.watched.edit(edit).err().map(Arc::new);
+                self.pace.show_whole_frame();
+            }
+            Command::Open(scene) => {
+                let opened = Session::new(*scene).map(Watched::from);
+                self.open(opened.map_err(SessionError::from));
+            }
+            Command::Compare(scene, rules) => {
+                let opened = Comparison::new(&scene, rules).map(Watched::from);
+                self.open(opened.map_err(SessionError::from));
+            }
+        }
+    }
+
+    fn play(&mut self, playing: bool) {
+        self.pace.set_playing(playing);
+        self.error = None;
+    }
+
+    fn go_to(&mut self, frame: u64) {
+        self.error = None;
+        self.watched.seek(frame);
+        self.pace.show_whole_frame();
+    }
+
+    /// What cannot be opened leaves what is open as it is.
+    fn open(&mut self, opened: Result<Watched, SessionError>) {
+        match opened {
+            Ok(watched) => {
+                self.watched = watched;
+                self.error = None;
+                self.pace.show_whole_frame();
+            }
+            Err(error) => self.error = Some(Arc::new(error)),
+        }
+    }
+
+    fn stop_on_error(&mut self, result: Result<(), SessionError>) {
+        if let Err(error) = result {
+            self.pace.set_playing(false);
+            self.error = Some(Arc::new(error));
+        }
+    }
+
+    fn take_due_frames(&mut self, wall_seconds: f64, time_is_up: &mut dyn FnMut() -> bool) {
+        let due = self.pace.frames_due(wall_seconds, self.watched.session().frame_time());
+        for taken in 1..=due {
+            self.has_news = true;
+            if let Err(error) = self.watched.step() {
+                self.stop_on_error(Err(error));
+                self.pace.show_whole_frame();
+                break;
+            }
+            if time_is_up() {
+                self.pace.give_back(due - taken);
+                break;
+            }
+        }
+    }
+
+    /// Whether anything changed since [`Self::fill`].
+    pub fn has_news(&self) -> bool {
+        self.has_news
+    }
+
+    /// Whether it is on the way elsewhere.
+    pub fn is_seeking(&self) -> bool {
+        self.watched.seeking().is_some()
+    }
+
+    /// Seconds until there is work to do, if nobody sends a command; `None` for never.
+    pub fn seconds_to_work(&self) -> Option<f64> {
+        if self.is_seeking() || !self.queue.is_empty() {
+            return Some(0.0);
+        }
+        self.pace.seconds_to_next_frame(self.watched.session().frame_time())
+    }
+
+    /// Copies all that an interface shows.
+    pub fn fill(&mut self, view: &mut View) {
+        self.has_news = false;
+        self.watched.fill(view);
+        view.playback = self.playback();
+        let hashes = self.shows_state_hash.then(|| self.watched.state_hashes());
+        view.playback.state_hash = hashes.map(|(hash, _)| hash);
+        if let Some(other) = &mut view.other {
+            other.playback = view.playback.clone();
+            other.playback.state_hash = hashes.and_then(|(_, hash)| hash);
+        }
+    }
+
+    /// How it is played.
+    pub fn playback(&self) -> Playback {
+        Playback {
+            playing: self.pace.is_playing(),
+            speed: self.pace.speed(),
+            realtime_factor: self.pace.realtime_factor(),
+            keeps_up: self.pace.keeps_up(),
+            blend: self.pace.blend(),
+            blend_rate: self.pace.blend_rate(),
+            error: self.error.clone(),
+            state_hash: None,
+        }
+    }
+}

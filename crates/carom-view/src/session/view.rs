@@ -1,0 +1,247 @@
+//! What an interface shows of a session: a plain copy.
+
+use std::sync::Arc;
+
+use carom::{DVec3, Pose, SphereId, StateHash};
+use carom_scene::scene::{Color, Scene, Sphere};
+
+use super::Session;
+use super::comparison::Distance;
+use super::error::SessionError;
+use super::impacts::ListedImpact;
+use super::readings::{PickedReading, Reading};
+use super::setup::Setup;
+
+/// Time for which the marks of impacts last \[simulated s\].
+pub const MARKED: f64 = 0.1;
+
+/// All that an interface shows of a session, copied at one moment.
+#[derive(Debug, Clone)]
+pub struct View {
+    /// The scene as first opened: names, camera, light, colours.
+    pub scene: Arc<Scene>,
+    /// What is not spheres, as edited.
+    pub setup: Arc<Setup>,
+    /// Number of frames taken.
+    pub frame: u64,
+    /// \[s\]
+    pub time: f64,
+    /// The last frame reached.
+    pub furthest_frame: u64,
+    /// Its time \[s\].
+    pub furthest: f64,
+    /// The frame it is on the way to.
+    pub seeking: Option<u64>,
+    /// All spheres.
+    pub spheres: SphereArrays,
+    /// Where the colliders of [`Setup::colliders`] are now.
+    pub poses: Vec<Pose>,
+    /// What is measured now.
+    pub now: Reading,
+    /// What was measured until now, from the beginning.
+    pub readings: Vec<Reading>,
+    /// The sphere that is followed; it may have gone.
+    pub picked: Option<SphereId>,
+    /// The picked sphere since it was picked.
+    pub picked_readings: Vec<PickedReading>,
+    /// The last impacts, oldest first.
+    pub impacts: Vec<ListedImpact>,
+    /// How it is played.
+    pub playback: Playback,
+    /// The same scene under the other rule, where two are compared.
+    pub other: Option<Box<View>>,
+    /// How far apart the two were until now.
+    pub distances: Vec<Distance>,
+}
+
+/// All spheres, one array per quantity, ascending by id.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SphereArrays {
+    /// Ascending.
+    pub ids: Vec<SphereId>,
+    /// Centres \[m\].
+    pub positions: Vec<DVec3>,
+    /// Centres a frame ago \[m\].
+    pub previous_positions: Vec<DVec3>,
+    /// \[m/s\]
+    pub velocities: Vec<DVec3>,
+    /// \[m\]
+    pub radii: Vec<f64>,
+    /// \[kg\]
+    pub masses: Vec<f64>,
+    /// Coefficients of restitution.
+    pub restitutions: Vec<f64>,
+    /// Colours of their own or of their density.
+    pub colors: Vec<Option<Color>>,
+    /// Another number when anything but the motion may have changed, within one scene.
+    pub stamp: u64,
+}
+
+/// How a session is played.
+#[derive(Debug, Clone)]
+pub struct Playback {
+    /// Whether time goes on.
+    pub playing: bool,
+    /// Wished for: simulated seconds per second.
+    pub speed: f64,
+    /// Reached: simulated seconds per second; `None` before anything was measured.
+    pub realtime_factor: Option<f64>,
+    /// Whether the machine keeps up with the wish.
+    pub keeps_up: bool,
+    /// Part of the frame under way, in \[0, 1\]: a picture shows spheres so far on the way from
+    /// their previous positions to their positions.
+    pub blend: f64,
+    /// How fast that part grows after this view was made \[1/s\].
+    pub blend_rate: f64,
+    /// What went wrong last; gone with the next thing that goes well.
+    pub error: Option<Arc<SessionError>>,
+    /// The state as one number, where it was asked for.
+    pub state_hash: Option<StateHash>,
+}
+
+impl Default for Playback {
+    fn default() -> Self {
+        Self {
+            playing: false,
+            speed: 1.0,
+            realtime_factor: None,
+            keeps_up: true,
+            blend: 1.0,
+            blend_rate: 0.0,
+            error: None,
+            state_hash: None,
+        }
+    }
+}
+
+impl Default for View {
+    /// Of a scene with nothing in it.
+    fn default() -> Self {
+        Self {
+            scene: Arc::new(Scene::new("")),
+            setup: Arc::default(),
+            frame: 0,
+            time: 0.0,
+            furthest_frame: 0,
+            furthest: 0.0,
+            seeking: None,
+            spheres: SphereArrays::default(),
+            poses: Vec::new(),
+            now: Reading::default(),
+            readings: Vec::new(),
+            picked: None,
+            picked_readings: Vec::new(),
+            impacts: Vec::new(),
+            playback: Playback::default(),
+            other: None,
+            distances: Vec::new(),
+        }
+    }
+}
+
+impl View {
+    /// The present as a scene; see [`Session::scene_now`].
+    pub fn scene_now(&self) -> Scene {
+        let mut scene = self.setup.scene(&self.scene);
+        for (collider, pose) in scene.colliders.iter_mut().zip(&self.poses) {
+            collider.position = pose.position.to_array();
+            collider.rotation = pose.rotation.to_array();
+        }
+        scene.spheres.extend((0..self.spheres.ids.len()).map(|i| self.spheres.described(i)));
+        // Rules that find contacts late let spheres overlap; a scene has to admit it.
+        if !scene.simulation.allow_overlap && scene.world().is_err() {
+            scene.simulation.allow_overlap = true;
+        }
+        scene
+    }
+
+    /// The impacts to be marked: those of the last [`MARKED`] seconds, oldest first.
+    pub fn marks(&self) -> &[ListedImpact] {
+        let first = self.impacts.partition_point(|impact| impact.time <= self.time - MARKED);
+        &self.impacts[first..]
+    }
+}
+
+impl SphereArrays {
+    /// Index of a sphere in the arrays.
+    pub fn index_of(&self, id: SphereId) -> Option<usize> {
+        self.ids.binary_search(&id).ok()
+    }
+
+    /// A sphere as scene files write it.
+    fn described(&self, index: usize) -> Sphere {
+        Sphere {
+            position: self.positions[index].to_array(),
+            velocity: self.velocities[index].to_array(),
+            radius: Some(self.radii[index]),
+            diameter: None,
+            mass: Some(self.masses[index]),
+            density: None,
+            restitution: self.restitutions[index],
+            color: self.colors[index],
+        }
+    }
+}
+
+impl Session {
+    /// Copies all that an interface shows of it, without allocating where there is place. How it
+    /// is played is left as it was.
+    pub fn fill(&self, view: &mut View) {
+        let is_same = Arc::ptr_eq(&view.scene, &self.scene);
+        if !(is_same && view.spheres.stamp == self.stamp) {
+            self.fill_properties(&mut view.spheres);
+            view.scene = self.scene.clone();
+        }
+        self.fill_motion(&mut view.spheres);
+        view.setup = self.setup.clone();
+        (view.frame, view.time) = (self.frame, self.time());
+        (view.furthest_frame, view.furthest) = self.history.furthest();
+        view.seeking = self.target;
+        replace(&mut view.poses, self.world.colliders().map(|(_, collider)| collider.pose));
+        self.fill_readings(view);
+    }
+
+    fn fill_properties(&self, arrays: &mut SphereArrays) {
+        let spheres = self.world.spheres();
+        replace(&mut arrays.ids, spheres.ids().iter().copied());
+        replace(&mut arrays.radii, spheres.radii().iter().copied());
+        replace(&mut arrays.masses, spheres.masses().iter().copied());
+        replace(&mut arrays.restitutions, spheres.restitutions().iter().copied());
+        let mut colors = self.looks.colors().iter().peekable();
+        // Both lists are ascending.
+        let color_of = |id: &SphereId| {
+            while colors.next_if(|(of, _)| of < id).is_some() {}
+            colors.next_if(|(of, _)| of == id).map(|(_, color)| *color)
+        };
+        replace(&mut arrays.colors, spheres.ids().iter().map(color_of));
+        arrays.stamp = self.stamp;
+    }
+
+    fn fill_motion(&self, arrays: &mut SphereArrays) {
+        let spheres = self.world.spheres();
+        replace(&mut arrays.positions, spheres.positions().iter().copied());
+        replace(&mut arrays.velocities, spheres.velocities().iter().copied());
+        replace(&mut arrays.previous_positions, self.previous_positions().iter().copied());
+    }
+
+    fn fill_readings(&self, view: &mut View) {
+        let Self { readings, frame, world, .. } = self;
+        view.now = readings.present(*frame, world);
+        replace(&mut view.readings, readings.until(*frame).copied());
+        view.readings.pop_if(|last| last.time >= view.now.time);
+        view.readings.push(view.now);
+        view.picked = readings.picked();
+        replace(&mut view.picked_readings, readings.of_picked_until(*frame).copied());
+        if let Some(now) = readings.present_of_picked(world) {
+            view.picked_readings.pop_if(|last| last.time >= now.time);
+            view.picked_readings.push(now);
+        }
+        replace(&mut view.impacts, readings.last_impacts().copied());
+    }
+}
+
+/// Fills a list anew, in the memory it has.
+pub(crate) fn replace<T>(list: &mut Vec<T>, with: impl Iterator<Item = T>) {
+    list.clear();
+    list.extend(with);
+}

@@ -1,0 +1,133 @@
+//! What a driver drives: one session, or two side by side.
+
+use carom::{SphereId, StateHash};
+
+use super::Session;
+use super::comparison::Comparison;
+use super::edit::Edit;
+use super::error::SessionError;
+use super::view::View;
+
+/// What a driver drives.
+#[derive(Debug)]
+pub enum Watched {
+    /// One session.
+    One(Box<Session>),
+    /// One scene under two rules.
+    Two(Box<Comparison>),
+}
+
+impl From<Session> for Watched {
+    fn from(session: Session) -> Self {
+        Self::One(Box::new(session))
+    }
+}
+
+impl From<Comparison> for Watched {
+    fn from(comparison: Comparison) -> Self {
+        Self::Two(Box::new(comparison))
+    }
+}
+
+impl Watched {
+    /// The session, or the first of two.
+    pub fn session(&self) -> &Session {
+        match self {
+            Self::One(session) => session,
+            Self::Two(comparison) => comparison.first(),
+        }
+    }
+
+    /// See [`Session::step`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn step(&mut self) -> Result<(), SessionError> {
+        match self {
+            Self::One(session) => session.step(),
+            Self::Two(comparison) => comparison.step(),
+        }
+    }
+
+    /// See [`Session::seek`].
+    pub fn seek(&mut self, frame: u64) {
+        match self {
+            Self::One(session) => session.seek(frame),
+            Self::Two(comparison) => comparison.seek(frame),
+        }
+    }
+
+    /// See [`Session::seeking`].
+    pub fn seeking(&self) -> Option<u64> {
+        match self {
+            Self::One(session) => session.seeking(),
+            Self::Two(comparison) => comparison.first().seeking().or(comparison.second().seeking()),
+        }
+    }
+
+    /// See [`Session::advance_seek`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn advance_seek(&mut self, budget: u64) -> Result<bool, SessionError> {
+        match self {
+            Self::One(session) => session.advance_seek(budget),
+            Self::Two(comparison) => comparison.advance_seek(budget),
+        }
+    }
+
+    /// See [`Session::stop_seeking`].
+    ///
+    /// # Errors
+    /// As [`Comparison::stop_seeking`].
+    pub fn stop_seeking(&mut self) -> Result<(), SessionError> {
+        match self {
+            Self::One(session) => {
+                session.stop_seeking();
+                Ok(())
+            }
+            Self::Two(comparison) => comparison.stop_seeking(),
+        }
+    }
+
+    /// See [`Session::edit`] and [`Comparison::edit`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn edit(&mut self, edit: Edit) -> Result<(), SessionError> {
+        match self {
+            Self::One(session) => session.edit(edit),
+            Self::Two(comparison) => comparison.edit(&edit),
+        }
+    }
+
+    /// See [`Session::pick`].
+    pub fn pick(&mut self, sphere: Option<SphereId>) {
+        match self {
+            Self::One(session) => session.pick(sphere),
+            Self::Two(comparison) => comparison.pick(sphere),
+        }
+    }
+
+    /// Copies all that an interface shows of it.
+    pub fn fill(&self, view: &mut View) {
+        match self {
+            Self::One(session) => {
+                session.fill(view);
+                view.other = None;
+                view.distances.clear();
+            }
+            Self::Two(comparison) => comparison.fill(view),
+        }
+    }
+
+    /// States as numbers: of the session, or of both.
+    pub fn state_hashes(&self) -> (StateHash, Option<StateHash>) {
+        match self {
+            Self::One(session) => (session.state_hash(), None),
+            Self::Two(comparison) => {
+                (comparison.first().state_hash(), Some(comparison.second().state_hash()))
+            }
+        }
+    }
+}
