@@ -2,6 +2,10 @@
 
 #![warn(clippy::unwrap_used)]
 
+#[cfg(not(target_arch = "wasm32"))]
+mod new_file;
 mod picture;
+mod stamp;
 
-pub use picture::Picture;
+pub use picture::{Picture, PictureError};
+pub use stamp::stamp;
