@@ -9,23 +9,33 @@
 mod bounds;
 mod camera;
 mod drawing;
+#[cfg(feature = "film")]
+mod film;
 mod gpu;
 mod instances;
+#[cfg(not(target_arch = "wasm32"))]
+mod new_file;
 mod offscreen;
 mod picture;
 mod pipelines;
 mod quality;
 mod renderer;
 mod shadow;
+mod stamp;
 mod target;
+#[cfg(feature = "film")]
+mod yuv;
 
 pub use bounds::Bounds;
 pub use camera::Camera;
 pub use drawing::{Arrow, Ball, Drawing, Light, Material, Panel};
+#[cfg(feature = "film")]
+pub use film::{Film, FilmError, FilmSummary};
 pub use gpu::{Gpu, GpuError};
 pub use offscreen::Offscreen;
-pub use picture::Picture;
+pub use picture::{Picture, PictureError};
 pub use quality::Quality;
 pub use renderer::Renderer;
+pub use stamp::stamp;
 pub use target::{COLOR_FORMAT, Target};
 pub use wgpu;

@@ -3,7 +3,7 @@
 //! A [`Scene`] is what a TOML file says ([`scene`]), checked; [`Scene::world`] makes a
 //! [`carom::World`] of it. A [`Library`] finds scenes by name: built-in ones, those in folders,
 //! and those registered from code. `recording` (feature `recording`) writes trajectories and
-//! impacts.
+//! impacts, and plays trajectories again. A [`Palette`] says in which colours a scene is drawn.
 //!
 //! ```
 //! let (scene, _) = carom_scene::Library::new().find("simtest1", &[])?;
@@ -22,8 +22,10 @@ mod expand;
 mod generate;
 mod library;
 mod load;
+mod origin;
 mod overlap;
 mod overrides;
+mod palette;
 #[cfg(feature = "recording")]
 pub mod recording;
 pub mod scene;
@@ -34,5 +36,6 @@ pub use builtin::FILES as BUILT_IN_FILES;
 pub use error::{Fault, SceneError};
 pub use library::{Entry, Library, Source};
 pub use overrides::Override;
+pub use palette::Palette;
 pub use scene::Scene;
 pub use schema::json_schema;

@@ -1,0 +1,124 @@
+//! Files that bear their name only once they are complete.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Beside one file, so many unfinished ones can wait: those of programs at work at the same time,
+/// and what crashed ones left behind.
+const MOST_UNFINISHED: u32 = 1000;
+
+/// A file under a temporary name in the same folder, until [`Self::complete`]. Dropped before, it
+/// is removed; what bore the name before stays as it was.
+#[derive(Debug)]
+pub(crate) struct NewFile {
+    file: File,
+    path: PathBuf,
+    /// `None` for what is no regular file, like a pipe: it is written to as it is.
+    unfinished: Option<PathBuf>,
+}
+
+impl NewFile {
+    /// Creates the file, and the folders above it that are missing.
+    pub fn create(path: &Path) -> io::Result<Self> {
+        // Through a link, what it points to is replaced, not the link.
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        if fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
+            let file = OpenOptions::new().write(true).open(&path)?;
+            return Ok(Self { file, path, unfinished: None });
+        }
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        let (file, unfinished) = create_beside(&path)?;
+        Ok(Self { file, path, unfinished: Some(unfinished) })
+    }
+
+    /// Gives the file its name, in the place of what bore it before.
+    pub fn complete(mut self) -> io::Result<()> {
+        let Some(unfinished) = &self.unfinished else {
+            return self.file.flush();
+        };
+        // Some file systems tell of a full disk no sooner.
+        self.file.sync_data()?;
+        fs::rename(unfinished, &self.path)?;
+        self.unfinished = None;
+        Ok(())
+    }
+}
+
+/// A new file named after `path`, and its own path.
+fn create_beside(path: &Path) -> io::Result<(File, PathBuf)> {
+    let Some(name) = path.file_name() else {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "this names no file"));
+    };
+    for number in 0..MOST_UNFINISHED {
+        let mut unfinished = name.to_owned();
+        unfinished.push(format!(".{number}.unfinished"));
+        let unfinished = path.with_file_name(unfinished);
+        match OpenOptions::new().write(true).create_new(true).open(&unfinished) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            created => return Ok((created?, unfinished)),
+        }
+    }
+    let text = format!("{MOST_UNFINISHED} unfinished files (*.unfinished) lie beside it");
+    Err(io::Error::new(io::ErrorKind::AlreadyExists, text))
+}
+
+impl Write for NewFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Drop for NewFile {
+    fn drop(&mut self) {
+        if let Some(unfinished) = &self.unfinished {
+            // Nobody is left to tell if that fails.
+            drop(fs::remove_file(unfinished));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_keeps_its_old_content_until_the_new_one_is_complete() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a/b.txt");
+        let write = |text: &str| {
+            let mut file = NewFile::create(&path).unwrap();
+            file.write_all(text.as_bytes()).unwrap();
+            file
+        };
+        write("old").complete().unwrap();
+        let new = write("new");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        drop(new);
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        write("newer").complete().unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "newer");
+        let left = fs::read_dir(path.parent().unwrap()).unwrap().count();
+        assert_eq!(left, 1, "unfinished files are gone");
+    }
+
+    #[test]
+    fn two_at_once_do_not_disturb_each_other() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("b.txt");
+        let mut first = NewFile::create(&path).unwrap();
+        let mut second = NewFile::create(&path).unwrap();
+        first.write_all(b"first").unwrap();
+        second.write_all(b"second").unwrap();
+        first.complete().unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "first");
+        second.complete().unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "second");
+    }
+}

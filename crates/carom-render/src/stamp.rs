@@ -1,0 +1,281 @@
+//! Text on a picture: which scene this is, and when.
+
+use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
+
+use crate::picture::Picture;
+
+/// Height of the text as a part of the picture's height.
+const TEXT_PART: f32 = 1.0 / 28.0;
+/// Text smaller than this cannot be read \[px\].
+const SMALLEST: f32 = 12.0;
+
+/// Longer texts are cut before their width is measured: no picture is wide enough for them.
+const LONGEST: usize = 1000;
+
+// Of the backing, in heights of the text: what looks well.
+const PADDING_X: f32 = 0.55;
+const PADDING_Y: f32 = 0.25;
+const CORNER: f32 = 0.35;
+const MARGIN: f32 = 0.55;
+
+/// White text keeps a contrast of 4.5 : 1 (that of WCAG 2, level AA) on this even before white.
+const BACKING_OPACITY: f32 = 0.62;
+/// How wide the backing's edge fades \[px\].
+const SOFTNESS: f32 = 1.5;
+
+/// Writes a line of text onto the lower left of a picture, like `simtest1  t = 3.200 s`: white on
+/// a dark, translucent backing, so that it can be read on anything.
+///
+/// The size follows the picture's height. Text too wide for the picture becomes smaller, then it
+/// is cut and ends in an ellipsis; what then still has no room is left out.
+pub fn stamp(picture: &mut Picture, text: &str) {
+    let (width, height) = (picture.width as f32, picture.height as f32);
+    // The font is part of the program: it can always be read.
+    let Ok(font) = FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT) else {
+        return;
+    };
+    let text: String = text.chars().filter(|char| !char.is_control()).take(LONGEST).collect();
+    let wished = (height * TEXT_PART).max(SMALLEST);
+    let Some(line) = fit(&font, text.trim(), wished, width) else {
+        return;
+    };
+    let top = height - line.size * (MARGIN + 2.0 * PADDING_Y + 1.0);
+    let backing = Rectangle {
+        x: [line.size * MARGIN, line.size * (MARGIN + 2.0 * PADDING_X) + line.width],
+        y: [top, height - line.size * MARGIN],
+    };
+    darken(picture, &backing, line.size * CORNER);
+    let scaled = font.as_scaled(PxScale::from(line.size));
+    let origin =
+        [backing.x[0] + line.size * PADDING_X, top + line.size * PADDING_Y + scaled.ascent()];
+    for mut glyph in line.glyphs {
+        glyph.position.x += origin[0];
+        glyph.position.y += origin[1];
+        draw(picture, &font, glyph);
+    }
+}
+
+/// A line of text, its base line beginning at the origin.
+struct Line {
+    /// Height of the text \[px\].
+    size: f32,
+    /// In px.
+    width: f32,
+    glyphs: Vec<Glyph>,
+}
+
+/// Sides in px from the upper left of the picture.
+struct Rectangle {
+    x: [f32; 2],
+    y: [f32; 2],
+}
+
+/// The text at the size that was wished for, or made to fit into a picture of this `width` \[px\].
+fn fit(font: &FontRef, text: &str, wished: f32, width: f32) -> Option<Line> {
+    // Both the text and what is around it grow with the size.
+    let around = |size: f32| 2.0 * (MARGIN + PADDING_X) * size;
+    let line = line(font, text, wished);
+    let needed = line.width + around(wished);
+    if line.glyphs.is_empty() {
+        return None;
+    }
+    if needed <= width {
+        return Some(line);
+    }
+    let size = wished * width / needed;
+    if size >= SMALLEST {
+        return Some(self::line(font, text, size));
+    }
+    let mut kept: Vec<char> = text.chars().collect();
+    while kept.pop().is_some() && !kept.is_empty() {
+        let cut = format!("{}…", kept.iter().collect::<String>().trim_end());
+        let line = self::line(font, &cut, SMALLEST);
+        if line.width + around(SMALLEST) <= width {
+            return Some(line);
+        }
+    }
+    None
+}
+
+fn line(font: &FontRef, text: &str, size: f32) -> Line {
+    let scaled = font.as_scaled(PxScale::from(size));
+    let mut line = Line { size, width: 0.0, glyphs: Vec::new() };
+    let mut last = None;
+    for char in text.chars() {
+        let id = scaled.glyph_id(char);
+        line.width += last.map_or(0.0, |last| scaled.kern(last, id));
+        line.glyphs.push(id.with_scale_and_position(size, point(line.width, 0.0)));
+        line.width += scaled.h_advance(id);
+        last = Some(id);
+    }
+    line
+}
+
+/// Lays a dark rectangle with round corners over the picture.
+fn darken(picture: &mut Picture, rectangle: &Rectangle, corner: f32) {
+    let Rectangle { x: [left, right], y: [top, bottom] } = *rectangle;
+    for y in pixels_between(top, bottom, picture.height) {
+        for x in pixels_between(left, right, picture.width) {
+            let (cx, cy) = (x as f32 + 0.5, y as f32 + 0.5);
+            // How far beyond the rectangle inside the corners' centres.
+            let dx = (left + corner - cx).max(cx - right + corner).max(0.0);
+            let dy = (top + corner - cy).max(cy - bottom + corner).max(0.0);
+            let inside = (corner - (dx * dx + dy * dy).sqrt()) / SOFTNESS + 0.5;
+            let opacity = BACKING_OPACITY * inside.clamp(0.0, 1.0);
+            blend(picture, x, y, 0.0, opacity);
+        }
+    }
+}
+
+/// The pixels that lie between two places of a row or column of `count`, and one more on each side.
+fn pixels_between(low: f32, high: f32, count: u32) -> std::ops::Range<u32> {
+    // `as` takes what lies outside to the nearest number.
+    let low = (low.floor() - 1.0) as u32;
+    let high = (high.ceil() + 1.0) as u32;
+    low.min(count)..high.min(count)
+}
+
+fn draw(picture: &mut Picture, font: &FontRef, glyph: Glyph) {
+    let Some(outline) = font.outline_glyph(glyph) else {
+        return;
+    };
+    let corner = outline.px_bounds().min;
+    outline.draw(|x, y, coverage| {
+        let (x, y) = (x as f32 + corner.x, y as f32 + corner.y);
+        if x >= 0.0 && y >= 0.0 {
+            // Coverage to the power of 3/4, which makes up for strokes so thin that they look grey.
+            let root = coverage.clamp(0.0, 1.0).sqrt();
+            blend(picture, x as u32, y as u32, 255.0, root * root.sqrt());
+        }
+    });
+}
+
+/// Lays a grey of this brightness and opacity over a pixel, mixed as sRGB, as browsers do.
+fn blend(picture: &mut Picture, x: u32, y: u32, brightness: f32, opacity: f32) {
+    if x >= picture.width || y >= picture.height {
+        return;
+    }
+    let start = 4 * (y as usize * picture.width as usize + x as usize);
+    let Some([red, green, blue, alpha]) = picture.pixels.get_mut(start..start + 4) else {
+        return;
+    };
+    let below = f32::from(*alpha) / 255.0 * (1.0 - opacity);
+    let whole = opacity + below;
+    if whole > 0.0 {
+        for part in [red, green, blue] {
+            let mixed = (brightness * opacity + f32::from(*part) * below) / whole;
+            *part = mixed.round() as u8;
+        }
+    }
+    *alpha = (255.0 * whole).round() as u8;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "simtest1  t = 3.200 s";
+
+    fn plain(width: u32, height: u32, brightness: u8) -> Picture {
+        let pixel = [brightness, brightness, brightness, 255];
+        Picture { width, height, pixels: pixel.repeat((width * height) as usize) }
+    }
+
+    fn stamped(width: u32, height: u32, brightness: u8, text: &str) -> Picture {
+        let mut picture = plain(width, height, brightness);
+        stamp(&mut picture, text);
+        picture
+    }
+
+    /// Columns and rows that were changed, from first to last.
+    fn changed(picture: &Picture, brightness: u8) -> Option<([u32; 2], [u32; 2])> {
+        let (mut xs, mut ys) = (Vec::new(), Vec::new());
+        for (i, pixel) in picture.pixels.chunks_exact(4).enumerate() {
+            if pixel[..3] != [brightness; 3] {
+                xs.push(i as u32 % picture.width);
+                ys.push(i as u32 / picture.width);
+            }
+        }
+        let bounds = |of: &[u32]| Some([*of.iter().min()?, *of.iter().max()?]);
+        Some((bounds(&xs)?, bounds(&ys)?))
+    }
+
+    #[test]
+    fn the_stamp_is_at_the_lower_left() {
+        let ([left, right], [top, bottom]) = changed(&stamped(640, 480, 128, TEXT), 128).unwrap();
+        assert!(left < 20 && right < 320, "{left} {right}");
+        assert!(top > 440 && bottom > 460 && bottom < 479, "{top} {bottom}");
+    }
+
+    #[test]
+    fn the_stamp_grows_with_the_picture() {
+        let height = |rows: u32| {
+            let (_, [top, bottom]) = changed(&stamped(2 * rows, rows, 128, TEXT), 128).unwrap();
+            bottom - top
+        };
+        let (small, large) = (height(500), height(2000));
+        // Edges are at whole pixels: 2 on each side.
+        assert!(large.abs_diff(4 * small) <= 8, "{small} {large}");
+    }
+
+    /// Contrast of WCAG 2: (L1 + 0.05) / (L2 + 0.05) of relative luminances.
+    fn contrast(light: u8, dark: u8) -> f64 {
+        let luminance = |level: u8| ((f64::from(level) / 255.0 + 0.055) / 1.055).powf(2.4);
+        (luminance(light) + 0.05) / (luminance(dark) + 0.05)
+    }
+
+    #[test]
+    fn the_stamp_stands_out_from_white_grey_and_black() {
+        for brightness in [0, 128, 255] {
+            let picture = stamped(1280, 720, brightness, TEXT);
+            let size = 720.0 * TEXT_PART;
+            // Between the backing's edge and the text.
+            let x = (size * (MARGIN + 0.5 * PADDING_X)) as usize;
+            let y = 719 - (size * (MARGIN + 0.5)) as usize;
+            let backing = picture.pixels[4 * (y * 1280 + x)];
+            // The middle row of the text; the picture's own white lies right of it.
+            let row = 4 * 1280 * (719 - (size * (MARGIN + PADDING_Y + 0.4)) as usize);
+            let text = picture.pixels[row..row + 4 * 200].chunks_exact(4).map(|pixel| pixel[0]);
+            let text = text.skip(x).max().unwrap();
+            assert!(contrast(text, backing) > 4.5, "{brightness}: {text} on {backing}");
+        }
+    }
+
+    #[test]
+    fn text_too_wide_stays_in_the_picture() {
+        for width in [400, 200, 100, 60] {
+            let picture = stamped(width, 300, 128, "a scene with quite a long name  t = 3.200 s");
+            let (columns, _) = changed(&picture, 128).unwrap();
+            assert!(columns[0] > 0 && columns[1] < width - 1, "{width}: {columns:?}");
+        }
+    }
+
+    #[test]
+    fn no_picture_and_no_text_is_too_small_or_too_odd() {
+        for (width, height) in [(0, 0), (1, 1), (5, 300), (300, 5), (16, 16)] {
+            for text in ["", " ", TEXT, "\n\u{1f3b1}\u{301}", &"x".repeat(100_000)] {
+                stamped(width, height, 128, text);
+            }
+        }
+        let mut broken = Picture { width: 640, height: 480, pixels: vec![0; 1000] };
+        stamp(&mut broken, TEXT);
+        assert_eq!(stamped(640, 480, 9, ""), plain(640, 480, 9), "no text, no stamp");
+    }
+
+    #[test]
+    fn a_stamp_on_nothing_is_as_opaque_as_itself() {
+        let mut picture = Picture { width: 640, height: 480, pixels: vec![0; 4 * 640 * 480] };
+        stamp(&mut picture, TEXT);
+        let opacities = picture.pixels.chunks_exact(4).map(|pixel| pixel[3]);
+        let most_common = (255.0 * BACKING_OPACITY).round() as u8;
+        assert!(opacities.filter(|opacity| *opacity == most_common).count() > 500);
+    }
+
+    #[test]
+    fn every_character_of_a_stamp_is_in_the_font() {
+        let font = FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT).unwrap();
+        for char in (' '..='~').chain("äöüÄÖÜßéµ°±×·…²³".chars()) {
+            assert_ne!(font.glyph_id(char).0, 0, "{char}");
+        }
+    }
+}

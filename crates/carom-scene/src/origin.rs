@@ -1,0 +1,192 @@
+//! Which sphere, generator or emitter of a scene the spheres of its world come from.
+
+use carom::{DVec3, World};
+
+use crate::scene::{Generator, Scene};
+
+/// What a sphere comes from: an index into the list of its kind in the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Origin {
+    Sphere(usize),
+    Generator(usize),
+    Emitter(usize),
+}
+
+/// Where the spheres of a scene come from, by number.
+///
+/// Emitted ones are known only once the emitters have been followed to their time. Which emitter
+/// comes first may depend on the frames (under `discrete` and `bisect`): they must be those of the
+/// scene, `simulation.frame_time` long.
+#[derive(Debug, Clone)]
+pub(crate) struct Origins {
+    /// Single spheres.
+    spheres: usize,
+    /// Numbers after the last sphere of each generator.
+    generator_ends: Vec<u64>,
+    emissions: Emissions,
+}
+
+impl Origins {
+    pub fn new(scene: &Scene) -> Result<Self, carom::Error> {
+        let mut end = scene.spheres.len() as u64;
+        let ends = scene.generators.iter().map(|generator| {
+            end = end.saturating_add(count(generator));
+            end
+        });
+        let generator_ends = ends.collect();
+        let emissions = Emissions::new(scene)?;
+        Ok(Self { spheres: scene.spheres.len(), generator_ends, emissions })
+    }
+
+    /// How many spheres there are at the start.
+    pub fn initial(&self) -> u64 {
+        self.generator_ends.last().copied().unwrap_or(self.spheres as u64)
+    }
+
+    /// Follows the emitters until a frame ends at `time` \[s\] or later.
+    pub fn follow(&mut self, time: f64) {
+        self.emissions.follow(time);
+    }
+
+    /// What the sphere of this number comes from; `None` for one that is not known.
+    pub fn of(&self, number: u64) -> Option<Origin> {
+        if number < self.spheres as u64 {
+            return Some(Origin::Sphere(number as usize));
+        }
+        if number < self.initial() {
+            let generator = self.generator_ends.partition_point(|end| *end <= number);
+            return Some(Origin::Generator(generator));
+        }
+        let place = usize::try_from(number - self.initial()).ok()?;
+        self.emissions.emitters.get(place).map(|emitter| Origin::Emitter(*emitter))
+    }
+}
+
+/// Number of spheres that a generator makes.
+fn count(generator: &Generator) -> u64 {
+    match generator {
+        Generator::Row { count, .. } | Generator::Random { count, .. } => (*count).into(),
+        Generator::Lattice { counts, .. } => {
+            counts.iter().fold(1_u64, |total, &n| total.saturating_mul(n.into()))
+        }
+    }
+}
+
+/// The emitters of a scene at work, in a world that has nothing else.
+///
+/// When an emitter emits depends on no sphere; so the order is that of the scene's own world,
+/// under any rule. Emitter i puts its spheres at x = i, by which they are told apart.
+#[derive(Debug, Clone)]
+struct Emissions {
+    world: World,
+    /// In s.
+    frame_time: f64,
+    /// Emitter of each sphere that was emitted.
+    emitters: Vec<usize>,
+}
+
+impl Emissions {
+    fn new(scene: &Scene) -> Result<Self, carom::Error> {
+        let mut settings = scene.settings();
+        settings.boundary = carom::Boundary::Open;
+        let mut world = World::new(settings)?;
+        for (i, emitter) in scene.emitters.iter().enumerate() {
+            let sphere = carom::Sphere::new(DVec3::new(i as f64, 0.0, 0.0), 1.0);
+            world.add_emitter(carom::Emitter {
+                sphere,
+                position: DVec3::ZERO,
+                rotation: carom::DQuat::IDENTITY,
+                period: emitter.period,
+                max_spheres: None,
+            })?;
+        }
+        Ok(Self { world, frame_time: scene.simulation.frame_time, emitters: Vec::new() })
+    }
+
+    fn follow(&mut self, time: f64) {
+        while self.world.time() < time && self.world.emitters().len() > 0 {
+            // The scene's own world refuses the same step: nothing more is ever emitted.
+            let Ok(report) = self.world.step(self.frame_time) else {
+                return;
+            };
+            for id in report.emitted.clone() {
+                if let Ok(sphere) = self.world.remove_sphere(id) {
+                    self.emitters.push(sphere.position.x as usize);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Emitter, Rule, Sphere};
+
+    fn emitter(x: f64, period: f64, mass: f64) -> Emitter {
+        let sphere = Sphere { mass: Some(mass), ..Sphere::at([0.0; 3], 0.1) };
+        Emitter {
+            name: String::new(),
+            position: [x, 0.0, 0.0],
+            rotation: [0.0, 0.0, 0.0, 1.0],
+            period,
+            max_spheres: None,
+            sphere,
+        }
+    }
+
+    #[test]
+    fn generators_follow_single_spheres() {
+        let mut scene = Scene::new("mixed");
+        scene.spheres = vec![Sphere::at([0.0; 3], 0.1)];
+        let row = |y: f64| Generator::Row {
+            count: 2,
+            start: [0.0, y, 0.0],
+            step: [1.0, 0.0, 0.0],
+            sphere: Sphere::at([0.0; 3], 0.1),
+        };
+        let lattice = Generator::Lattice {
+            counts: [2, 1, 3],
+            start: [0.0, 5.0, 0.0],
+            spacing: [1.0; 3],
+            sphere: Sphere::at([0.0; 3], 0.1),
+        };
+        scene.generators = vec![row(1.0), lattice, row(2.0)];
+        let origins = Origins::new(&scene).unwrap();
+        assert_eq!(origins.initial(), scene.world().unwrap().spheres().len() as u64);
+        let expected = [0, 0, 1, 1, 1, 1, 1, 1, 2, 2].map(Origin::Generator);
+        assert_eq!(origins.of(0), Some(Origin::Sphere(0)));
+        for (number, origin) in (1..).zip(expected) {
+            assert_eq!(origins.of(number), Some(origin), "{number}");
+        }
+        assert_eq!(origins.of(11), None);
+    }
+
+    /// Emitters whose turns fall together in various ways, known apart by mass in the scene's own
+    /// world.
+    #[test]
+    fn emission_is_followed_under_every_rule() {
+        for rule in [Rule::Exact, Rule::Discrete, Rule::Bisect] {
+            let mut scene = Scene::new("fountains");
+            scene.simulation.rule = rule;
+            scene.simulation.frame_time = 0.1;
+            scene.simulation.spheres_collide = false;
+            scene.simulation.allow_overlap = true;
+            scene.emitters =
+                vec![emitter(0.0, 0.5, 1.0), emitter(5.0, 0.03, 2.0), emitter(9.0, 0.25, 3.0)];
+            scene.emitters[1].max_spheres = Some(3);
+            let mut world = scene.world().unwrap();
+            let mut origins = Origins::new(&scene).unwrap();
+            for _ in 0..20 {
+                world.step(0.1).unwrap();
+                origins.follow(world.time());
+                for (id, mass) in world.spheres().ids().iter().zip(world.spheres().masses()) {
+                    let emitter = *mass as usize - 1;
+                    assert_eq!(origins.of(id.number()), Some(Origin::Emitter(emitter)), "{rule:?}");
+                }
+                let last = world.spheres().ids().last().unwrap().number();
+                assert_eq!(origins.of(last + 1), None, "followed too far");
+            }
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! Colours of spheres and colliders, for whoever draws them.
+
+use carom::volume;
+
+use crate::error::SceneError;
+use crate::generate;
+use crate::origin::{Origin, Origins};
+use crate::scene::{Color, Colors, Scene, Sphere};
+
+/// A gentle blue, for spheres of scenes that say nothing about colours.
+const SPHERE: Color = [0.36, 0.56, 0.82];
+/// A warm grey, for colliders of such scenes.
+const COLLIDER: Color = [0.76, 0.73, 0.69];
+
+/// A density counts as listed if it differs by this part at most: mass / volume is off by a few
+/// roundings (1e-15), densities that somebody lists differ by far more.
+const SAME_DENSITY: f64 = 1e-9;
+
+/// The colours in which a scene is drawn.
+///
+/// ```
+/// use carom_scene::{Library, Palette};
+///
+/// let (scene, _) = Library::new().find("tutorial1", &[])?;
+/// let world = scene.world()?;
+/// let palette = Palette::new(&scene)?;
+/// let spheres = world.spheres();
+/// let color = palette.sphere(spheres.ids()[0].number(), spheres.radii()[0], spheres.masses()[0]);
+/// assert!(color.iter().all(|part| (0.0..=1.0).contains(part)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Palette {
+    origins: Origins,
+    /// Own colours of single spheres, generators and emitters.
+    spheres: Vec<Option<Color>>,
+    generators: Vec<Option<Color>>,
+    emitters: Vec<Option<Color>>,
+    colliders: Vec<Option<Color>>,
+    colors: Colors,
+}
+
+impl Palette {
+    /// The colours of a scene at its start.
+    ///
+    /// # Errors
+    /// For settings or emitters that make no sense, as [`Scene::world`].
+    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
+        let origins = origins(scene)?;
+        let color = |sphere: &Sphere| sphere.color;
+        Ok(Self {
+            origins,
+            spheres: scene.spheres.iter().map(color).collect(),
+            generators: scene.generators.iter().map(generate::template).map(color).collect(),
+            emitters: scene.emitters.iter().map(|emitter| emitter.sphere.color).collect(),
+            colliders: scene.colliders.iter().map(|collider| collider.color).collect(),
+            colors: scene.colors.clone().unwrap_or_default(),
+        })
+    }
+
+    /// Makes known which emitters the spheres come from that are emitted until `time` \[s\]: to be
+    /// called with the world's time before its spheres are drawn.
+    ///
+    /// That assumes the scene's own emitters and frames. In a world whose emitters were changed, or
+    /// which is stepped by other frames under `discrete` or `bisect`, spheres may get the colour of
+    /// another emitter.
+    pub fn follow(&mut self, time: f64) {
+        if !self.emitters_agree() {
+            self.origins.follow(time);
+        }
+    }
+
+    /// The colour of the sphere of this number, radius \[m\] and mass \[kg\]: its own (or that of
+    /// its generator or emitter), else that of its density, else that of the scene's spheres, else
+    /// a blue.
+    pub fn sphere(&self, number: u64, radius: f64, mass: f64) -> Color {
+        let own = self.own_color(number);
+        let colors = &self.colors;
+        own.or_else(|| density_color(colors, mass / volume(radius)))
+            .or(colors.spheres)
+            .unwrap_or(SPHERE)
+    }
+
+    /// The colour of the collider at this index: its own, else that of the scene's colliders, else
+    /// a warm grey.
+    pub fn collider(&self, index: usize) -> Color {
+        let own = self.colliders.get(index).copied().flatten();
+        own.or(self.colors.colliders).unwrap_or(COLLIDER)
+    }
+
+    fn own_color(&self, number: u64) -> Option<Color> {
+        match self.origins.of(number) {
+            Some(Origin::Sphere(index)) => self.spheres[index],
+            Some(Origin::Generator(index)) => self.generators[index],
+            Some(Origin::Emitter(index)) => self.emitters[index],
+            None if self.emitters_agree() => self.emitters.first().copied().flatten(),
+            None => None,
+        }
+    }
+
+    /// Whether all emitters emit spheres of one colour, so that who emitted a sphere is no matter.
+    fn emitters_agree(&self) -> bool {
+        self.emitters.windows(2).all(|pair| pair[0] == pair[1])
+    }
+}
+
+/// Where the spheres of a scene come from.
+pub(crate) fn origins(scene: &Scene) -> Result<Origins, SceneError> {
+    Origins::new(scene).map_err(|error| {
+        // The world of the scene is refused for the same reason, and names the field.
+        let text = error.to_string();
+        let own = scene.world().err();
+        own.unwrap_or_else(|| crate::error::Problem::new("", text).in_code(&scene.name).into())
+    })
+}
+
+fn density_color(colors: &Colors, density: f64) -> Option<Color> {
+    let is_same = |listed: f64| (density - listed).abs() <= SAME_DENSITY * listed;
+    colors.densities.iter().find(|listed| is_same(listed.density)).map(|listed| listed.color)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Collider, DensityColor, Emitter, Generator, Shape};
+
+    const RED: Color = [1.0, 0.0, 0.0];
+    const GREEN: Color = [0.0, 1.0, 0.0];
+    const WHITE: Color = [1.0, 1.0, 1.0];
+
+    fn sphere(color: Option<Color>) -> Sphere {
+        Sphere { color, ..Sphere::at([0.0; 3], 0.1) }
+    }
+
+    fn emitter(period: f64, color: Option<Color>) -> Emitter {
+        Emitter {
+            name: String::new(),
+            position: [0.0; 3],
+            rotation: [0.0, 0.0, 0.0, 1.0],
+            period,
+            max_spheres: None,
+            sphere: sphere(color),
+        }
+    }
+
+    #[test]
+    fn a_colour_of_its_own_comes_before_density_before_the_scenes() {
+        let mut scene = Scene::new("colours");
+        scene.spheres = vec![sphere(Some(RED)), sphere(None)];
+        let row = Generator::Row {
+            count: 2,
+            start: [1.0; 3],
+            step: [1.0; 3],
+            sphere: sphere(Some(GREEN)),
+        };
+        scene.generators = vec![row];
+        let densities = vec![DensityColor { density: 700.0, color: WHITE }];
+        scene.colors = Some(Colors { densities, spheres: Some([0.5; 3]), ..Colors::default() });
+        let palette = Palette::new(&scene).unwrap();
+        let radius = 0.37;
+        let mass = 700.0 * volume(radius);
+        assert_eq!(palette.sphere(0, radius, mass), RED);
+        assert_eq!(palette.sphere(1, radius, mass), WHITE);
+        assert_eq!(palette.sphere(1, radius, 1.001 * mass), [0.5; 3]);
+        assert_eq!([2, 3].map(|number| palette.sphere(number, radius, mass)), [GREEN; 2]);
+        assert_eq!(palette.sphere(4, radius, mass), WHITE, "nobody knows where it comes from");
+        let plain = Palette::new(&Scene::new("plain")).unwrap();
+        assert_eq!(plain.sphere(0, radius, mass), SPHERE);
+        assert_eq!(plain.collider(0), COLLIDER);
+    }
+
+    #[test]
+    fn every_listed_density_is_found_again_in_a_world() {
+        for name in ["tutorial1", "tutorial2", "tutorial3", "tutorial4"] {
+            let (scene, _) = crate::Library::new().find(name, &[]).unwrap();
+            let palette = Palette::new(&scene).unwrap();
+            let listed = scene.colors.as_ref().unwrap().densities.iter();
+            let listed: Vec<Color> = listed.map(|density| density.color).collect();
+            let world = scene.world().unwrap();
+            let spheres = world.spheres();
+            for (i, id) in spheres.ids().iter().enumerate() {
+                let color = palette.sphere(id.number(), spheres.radii()[i], spheres.masses()[i]);
+                assert!(listed.contains(&color), "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn spheres_of_emitters_are_told_apart_though_they_are_alike() {
+        let mut scene = Scene::new("fountains");
+        scene.simulation.frame_time = 0.1;
+        scene.simulation.spheres_collide = false;
+        scene.spheres = vec![sphere(None)];
+        scene.emitters = vec![emitter(0.25, Some(RED)), emitter(0.5, Some(GREEN))];
+        let mut palette = Palette::new(&scene).unwrap();
+        palette.follow(0.6);
+        // At 0 both, at 0.25 the first, at 0.5 both.
+        let colors = [1, 2, 3, 4, 5].map(|number| palette.sphere(number, 0.1, 1.0));
+        assert_eq!(colors, [RED, GREEN, RED, RED, GREEN]);
+    }
+
+    #[test]
+    fn emitters_of_one_colour_need_not_be_followed() {
+        let mut scene = Scene::new("fountain");
+        scene.emitters = vec![emitter(0.25, Some(RED))];
+        assert_eq!(Palette::new(&scene).unwrap().sphere(1_000_000, 0.1, 1.0), RED);
+    }
+
+    #[test]
+    fn a_collider_has_its_own_colour_before_the_scenes() {
+        let mut scene = Scene::new("colliders");
+        let collider = |color| Collider {
+            name: String::new(),
+            shape: Shape::HalfSpace,
+            position: [0.0; 3],
+            rotation: [0.0, 0.0, 0.0, 1.0],
+            velocity: [0.0; 3],
+            angular_velocity: [0.0; 3],
+            restitution: 1.0,
+            trigger: false,
+            visible: true,
+            color,
+        };
+        scene.colliders = vec![collider(Some(RED)), collider(None)];
+        scene.colors = Some(Colors { colliders: Some(GREEN), ..Colors::default() });
+        let palette = Palette::new(&scene).unwrap();
+        assert_eq!([palette.collider(0), palette.collider(1)], [RED, GREEN]);
+    }
+
+    #[test]
+    fn a_scene_that_makes_no_sense_is_refused_by_the_name_of_its_field() {
+        let mut scene = Scene::new("broken");
+        scene.emitters = vec![emitter(-1.0, None)];
+        let error = Palette::new(&scene).unwrap_err().to_string();
+        assert!(error.contains("emitters[0]"), "{error}");
+    }
+}
