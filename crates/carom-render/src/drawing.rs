@@ -5,6 +5,9 @@ use carom_scene::scene::{Color, Sun};
 
 use crate::bounds::Bounds;
 
+/// How much triggers hide of what is behind them: they let spheres through.
+const TRIGGER_OPACITY: f64 = 0.45;
+
 /// Everything in a picture.
 #[derive(Debug, Clone, Default)]
 pub struct Drawing {
@@ -164,17 +167,27 @@ impl Drawing {
         Bounds::around(balls.chain(self.panels.iter().filter_map(Panel::bounds)))
     }
 
-    /// Adds a collider: a fixed ball, or a panel.
-    pub fn add_collider(&mut self, shape: Shape, pose: Pose, color: Color, opacity: f64) {
+    /// Takes out all there is; the light stays.
+    pub fn clear(&mut self) {
+        self.balls.clear();
+        self.panels.clear();
+        self.arrows.clear();
+    }
+
+    /// Adds a collider: a ball or a panel. Triggers do not look as if they were solid.
+    pub fn add_collider(&mut self, shape: Shape, pose: Pose, color: Color, trigger: bool) {
         match shape {
             Shape::Sphere { radius } => self.balls.push(Ball {
                 center: pose.position,
                 radius,
                 color,
                 rotation: pose.rotation.normalize(),
-                material: Material::Fixed,
+                material: if trigger { Material::Plain } else { Material::Fixed },
             }),
-            _ => self.panels.push(Panel { shape, pose, color, opacity }),
+            _ => {
+                let opacity = if trigger { TRIGGER_OPACITY } else { 1.0 };
+                self.panels.push(Panel { shape, pose, color, opacity });
+            }
         }
     }
 }

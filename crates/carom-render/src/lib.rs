@@ -13,6 +13,7 @@ mod drawing;
 mod film;
 mod gpu;
 mod instances;
+mod look;
 #[cfg(not(target_arch = "wasm32"))]
 mod new_file;
 mod offscreen;
@@ -32,6 +33,7 @@ pub use drawing::{Arrow, Ball, Drawing, Light, Material, Panel};
 #[cfg(feature = "film")]
 pub use film::{Film, FilmError, FilmSummary};
 pub use gpu::{Gpu, GpuError};
+pub use look::{Roll, draw_world};
 pub use offscreen::Offscreen;
 pub use picture::{Picture, PictureError};
 pub use quality::Quality;

@@ -53,6 +53,20 @@ pub struct Picture {
 }
 
 impl Picture {
+    /// Pictures of one height, from left to right; as much of their heights as all have.
+    pub fn side_by_side(pictures: &[Self]) -> Self {
+        let height = pictures.iter().map(|picture| picture.height).min().unwrap_or_default();
+        let width = pictures.iter().map(|picture| picture.width).sum();
+        let mut pixels = Vec::with_capacity(4 * width as usize * height as usize);
+        for row in 0..height as usize {
+            for picture in pictures {
+                let line = 4 * picture.width as usize;
+                pixels.extend(picture.pixels.iter().skip(row * line).take(line));
+            }
+        }
+        Self { width, height, pixels }
+    }
+
     /// The picture as the content of a PNG file, marked as sRGB.
     ///
     /// # Errors

@@ -40,7 +40,8 @@ impl Target {
             picture_view: picture.create_view(&Default::default()),
             picture,
             depth: view(texture("depth", DEPTH_FORMAT, samples, drawn)),
-            samples: (samples > 1).then(|| view(texture("samples", COLOR_FORMAT, samples, drawn))),
+            samples,
+            sampled: (samples > 1).then(|| view(texture("samples", COLOR_FORMAT, samples, drawn))),
         }
     }
 

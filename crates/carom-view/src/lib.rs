@@ -1,5 +1,38 @@
 //! The interface of Carom, one for desktop window and browser.
+//!
+//! [`App`] is the interface: hosted by a window ([`window::open`]), a page or a test. It shows a
+//! scene being watched - whose physics is in [`session`] - or a maze being played. A key or a
+//! button asks for an [`Action`]; every panel reads the session's view and answers with commands.
 
 #![warn(clippy::unwrap_used)]
 
+mod action;
+mod app;
+mod chooser;
+#[cfg(feature = "gamepad")]
+mod gamepad;
+mod help;
+mod impact_list;
+mod inspector;
+mod look;
+mod maze_screen;
+mod notices;
+mod orbit;
+pub mod picture_files;
+mod plots;
+#[cfg(feature = "film")]
+mod recorder;
 pub mod session;
+mod studio;
+mod transport;
+#[cfg(not(target_arch = "wasm32"))]
+mod watched_file;
+mod watching;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod window;
+
+pub use action::{Action, SHORTCUTS, Shortcut};
+pub use app::{App, Setup, Start};
+pub use maze_screen::MazeScreen;
+pub use notices::Notices;
+pub use watching::Watching;

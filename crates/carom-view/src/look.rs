@@ -49,9 +49,7 @@ const NORMAL_LENGTH: f64 = 1.5;
 
 /// Draws a view anew.
 pub fn draw(view: &View, look: &Look, drawing: &mut Drawing) {
-    drawing.balls.clear();
-    drawing.panels.clear();
-    drawing.arrows.clear();
+    drawing.clear();
     let light = Light::of_scene(&view.scene);
     drawing.light = if look.dark { light.at_dusk() } else { light };
     add_colliders(view, drawing);
@@ -81,12 +79,7 @@ fn add_colliders(view: &View, drawing: &mut Drawing) {
             continue;
         }
         let color = collider_color(collider, colors);
-        let opacity = if collider.trigger { 0.45 } else { 1.0 };
-        let before = drawing.balls.len();
-        drawing.add_collider(shape(&collider.shape), *pose, color, opacity);
-        if collider.trigger {
-            drawing.balls[before..].iter_mut().for_each(|ball| ball.material = Material::Plain);
-        }
+        drawing.add_collider(shape(&collider.shape), *pose, color, collider.trigger);
     }
 }
 

@@ -59,7 +59,7 @@ impl Notices {
             ui.ctx().request_repaint_after_secs(0.5);
         }
         let mut closed = None;
-        Area::new(Id::new("notices")).anchor(Align2::CENTER_TOP, [0.0, 44.0]).show(
+        Area::new(Id::unique("notices")).anchor(Align2::CENTER_TOP, [0.0, 44.0]).show(
             ui.ctx(),
             |ui| {
                 for (i, notice) in self.list.iter().enumerate() {

@@ -9,11 +9,16 @@ use crate::session::{Command, FASTEST, SLOWEST, View};
 const SPEEDS: [f64; 9] = [SLOWEST, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, FASTEST];
 
 /// The bar below the picture. Returns what was asked for by a button.
-pub fn show(ui: &mut Ui, view: &View, is_recording: bool, commands: &mut Vec<Command>) -> Vec<Action> {
+pub fn show(
+    ui: &mut Ui,
+    view: &View,
+    is_recording: bool,
+    commands: &mut Vec<Command>,
+) -> Vec<Action> {
     let mut actions = Vec::new();
     let mut button = |ui: &mut Ui, symbol: &str, text: &str, action: Action| {
         let response = ui.button(RichText::new(symbol).size(15.0)).on_hover_text(text);
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, text));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));
         if response.clicked() {
             actions.push(action);
         }
@@ -49,9 +54,10 @@ pub fn show(ui: &mut Ui, view: &View, is_recording: bool, commands: &mut Vec<Com
 pub fn next_speed(speed: f64, faster: bool) -> f64 {
     // A step of the list counts as reached within this part of it.
     const SAME: f64 = 1e-6;
-    let mut found = SPEEDS.iter().copied().filter(|it| {
-        if faster { *it > speed * (1.0 + SAME) } else { *it < speed * (1.0 - SAME) }
-    });
+    let mut found = SPEEDS
+        .iter()
+        .copied()
+        .filter(|it| if faster { *it > speed * (1.0 + SAME) } else { *it < speed * (1.0 - SAME) });
     let next = if faster { found.next() } else { found.next_back() };
     next.unwrap_or(speed)
 }
@@ -60,9 +66,15 @@ fn speed(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     let mut speed = view.playback.speed;
     ui.spacing_mut().slider_width = 90.0;
     let text = |speed: f64, _| {
-        if speed < 0.995 { format!("1/{:.3}", 1.0 / speed).trim_end_matches('0').trim_end_matches('.').to_owned() + "x" } else { format!("{speed:.1}x") }
+        if speed < 0.995 {
+            format!("1/{:.3}", 1.0 / speed).trim_end_matches('0').trim_end_matches('.').to_owned()
+                + "x"
+        } else {
+            format!("{speed:.1}x")
+        }
     };
-    let slider = Slider::new(&mut speed, SLOWEST..=FASTEST).logarithmic(true).custom_formatter(text);
+    let slider =
+        Slider::new(&mut speed, SLOWEST..=FASTEST).logarithmic(true).custom_formatter(text);
     let response = slider.custom_parser(parse_speed).ui(ui).on_hover_text("Speed");
     if response.changed() {
         commands.push(Command::Speed(speed));

@@ -1,0 +1,54 @@
+//! What a world looks like: its spheres and colliders in the colours of its scene.
+
+use carom::{DQuat, DVec3, World};
+use carom_scene::{Palette, Scene};
+
+use crate::drawing::{Ball, Drawing, Light, Material};
+
+/// Draws a world that was made of this scene, or that has the same colliders in the same order,
+/// with every ball turned as `rotation` says of its number where it has a pattern.
+pub fn draw_world(
+    scene: &Scene,
+    world: &World,
+    palette: &Palette,
+    rotation: impl Fn(u64) -> Option<DQuat>,
+    drawing: &mut Drawing,
+) {
+    drawing.clear();
+    drawing.light = Light::of_scene(scene);
+    for (i, (collider, (_, now))) in scene.colliders.iter().zip(world.colliders()).enumerate() {
+        if collider.visible {
+            drawing.add_collider(now.shape, now.pose, palette.collider(i), now.trigger);
+        }
+    }
+    let spheres = world.spheres();
+    for (i, id) in spheres.ids().iter().enumerate() {
+        let rotation = rotation(id.number());
+        drawing.balls.push(Ball {
+            center: spheres.positions()[i],
+            radius: spheres.radii()[i],
+            color: palette.sphere(id.number(), spheres.radii()[i], spheres.masses()[i]),
+            rotation: rotation.unwrap_or(DQuat::IDENTITY),
+            material: if rotation.is_some() { Material::Patterned } else { Material::Plain },
+        });
+    }
+}
+
+/// How a ball is turned that rolls without slipping: the physics knows no spin, so this is for the
+/// eye alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Roll {
+    /// From the ball's frame to the world.
+    pub rotation: DQuat,
+}
+
+impl Roll {
+    /// A ball that has not rolled yet.
+    pub const START: Self = Self { rotation: DQuat::IDENTITY };
+
+    /// Rolls on by `way` \[m\] over a floor with the unit normal `up`, with this radius \[m\].
+    pub fn on(&mut self, way: DVec3, up: DVec3, radius: f64) {
+        let turn = up.cross(way) / radius;
+        self.rotation = (DQuat::from_scaled_axis(turn) * self.rotation).normalize();
+    }
+}

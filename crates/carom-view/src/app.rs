@@ -1,0 +1,470 @@
+//! The interface as a whole.
+
+use std::path::{Path, PathBuf};
+
+use carom_maze::Maze;
+use carom_render::{Picture, Quality, stamp};
+use carom_scene::scene::Scene;
+use carom_scene::{Library, Source};
+use eframe::CreationContext;
+use egui::{Context, Theme, Ui};
+
+use crate::action::{self, Action};
+use crate::chooser::{Choice, Chooser};
+use crate::maze_screen::{MazeScreen, Wish};
+use crate::notices::Notices;
+use crate::orbit::Preset;
+use crate::studio::Studio;
+use crate::watching::{Manner, Watching};
+use crate::{help, picture_files};
+
+/// What the interface starts with.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// All scenes that can be chosen.
+    pub library: Library,
+    /// What is open at the start; the chooser without it.
+    pub start: Option<Start>,
+    /// Where pictures and films go.
+    pub folder: PathBuf,
+    /// How much work goes into the pictures on the screen.
+    pub quality: Quality,
+    /// Whether the physics has a thread of its own.
+    pub threaded: bool,
+}
+
+/// What is open at the start.
+#[derive(Debug, Clone)]
+pub enum Start {
+    /// A scene to watch.
+    Scene(Box<Scene>, Source),
+    /// A maze to play.
+    Maze(Box<Maze>),
+}
+
+/// The interface: hosted by a window, a page or a test.
+pub struct App {
+    library: Library,
+    folder: PathBuf,
+    threaded: bool,
+    studio: Studio,
+    screen: Screen,
+    chooser: Chooser,
+    notices: Notices,
+    help: bool,
+    #[cfg(feature = "film")]
+    recorder: Option<crate::recorder::Recorder>,
+    #[cfg(not(target_arch = "wasm32"))]
+    watched_file: crate::watched_file::WatchedFile,
+    #[cfg(feature = "gamepad")]
+    gamepad: crate::gamepad::Gamepad,
+}
+
+/// What fills the window.
+enum Screen {
+    Empty,
+    Watching(Box<Watching>),
+    Maze(Box<MazeScreen>),
+}
+
+/// Smallest picture that is saved \[pixels\].
+const SMALLEST_PICTURE: [u32; 2] = [1280, 720];
+
+impl App {
+    /// The interface, on the graphics device of its host.
+    ///
+    /// # Errors
+    /// A message for people if the host draws without wgpu.
+    pub fn new(host: &CreationContext, setup: Setup) -> Result<Self, String> {
+        let state = host.wgpu_render_state.clone();
+        let state = state.ok_or("the interface needs a host that draws with wgpu")?;
+        let mut app = Self {
+            library: setup.library,
+            folder: setup.folder,
+            threaded: setup.threaded,
+            studio: Studio::new(state, setup.quality),
+            screen: Screen::Empty,
+            chooser: Chooser::default(),
+            notices: Notices::default(),
+            help: false,
+            #[cfg(feature = "film")]
+            recorder: None,
+            #[cfg(not(target_arch = "wasm32"))]
+            watched_file: Default::default(),
+            #[cfg(feature = "gamepad")]
+            gamepad: Default::default(),
+        };
+        match setup.start {
+            Some(Start::Scene(scene, source)) => app.watch(*scene, source, &host.egui_ctx),
+            Some(Start::Maze(maze)) => app.play(*maze),
+            None => app.open_chooser(),
+        }
+        Ok(app)
+    }
+
+    /// Watches a scene from now on; says so where it cannot be.
+    pub fn watch(&mut self, scene: Scene, source: Source, context: &Context) {
+        match Watching::new(scene, source, self.threaded, context) {
+            Ok(watching) => {
+                #[cfg(not(target_arch = "wasm32"))]
+                self.watched_file.watch(&watching.source);
+                self.screen = Screen::Watching(Box::new(watching));
+                self.notices.clear();
+            }
+            Err(error) => self.notices.complain(error),
+        }
+    }
+
+    /// Plays a maze from now on.
+    pub fn play(&mut self, maze: Maze) {
+        match MazeScreen::new(maze) {
+            Ok(screen) => {
+                self.screen = Screen::Maze(Box::new(screen));
+                self.notices.clear();
+            }
+            Err(error) => self.notices.complain(error),
+        }
+    }
+
+    /// The scene being watched, if any is.
+    pub fn watching(&self) -> Option<&Watching> {
+        match &self.screen {
+            Screen::Watching(watching) => Some(watching),
+            _ => None,
+        }
+    }
+
+    /// The maze being played, if any is.
+    pub fn maze(&self) -> Option<&MazeScreen> {
+        match &self.screen {
+            Screen::Maze(screen) => Some(screen),
+            _ => None,
+        }
+    }
+
+    /// What it tells the user.
+    pub fn notices(&self) -> &Notices {
+        &self.notices
+    }
+
+    fn open_chooser(&mut self) {
+        if let Err(error) = self.chooser.open(&self.library) {
+            self.notices.complain(error);
+        }
+    }
+
+    /// Opens a scene file that was dropped on the window: a scene, or a maze drawn with characters.
+    fn open_dropped(&mut self, context: &Context) {
+        let files = context.input(|input| input.raw.dropped_files.clone());
+        for file in files {
+            let path = file.path().to_owned();
+            let text = file.bytes().map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+            match text {
+                Ok(text) => self.open_text(&text, &path, context),
+                Err(error) => {
+                    self.notices.complain(format!("cannot read {}: {error}", path.display()));
+                }
+            }
+        }
+    }
+
+    /// Opens the text of a file.
+    fn open_text(&mut self, text: &str, path: &Path, context: &Context) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if path.extension().is_some_and(|ending| ending == "txt") {
+            let name = name.trim_end_matches(".txt");
+            match Maze::from_text(text, name) {
+                Ok(maze) => self.play(maze),
+                Err(error) => self.notices.complain(format!("{}: {error}", path.display())),
+            }
+            return;
+        }
+        match Scene::from_toml(text, &name) {
+            Ok(scene) => {
+                self.chooser.close();
+                self.watch(scene, Source::File(path.to_owned()), context);
+            }
+            Err(error) => self.notices.complain(error),
+        }
+    }
+
+    /// Reads a scene file anew that was changed on the disk.
+    #[cfg(not(target_arch = "wasm32"))]
+    fn reload_changed(&mut self, context: &Context) {
+        let now = context.input(|input| input.time);
+        let Screen::Watching(watching) = &mut self.screen else { return };
+        context.request_repaint_after_secs(crate::watched_file::INTERVAL as f32);
+        let Some(path) = self.watched_file.changed(now) else { return };
+        let reloaded = Scene::from_file(&path, &[]).and_then(|scene| watching.reload(scene));
+        match reloaded {
+            Ok(()) => {
+                self.notices.clear();
+                self.notices.tell(format!("{} was changed, and read anew", path.display()));
+            }
+            Err(error) => self.notices.complain(error),
+        }
+    }
+
+    /// Does what was asked for by a key or button.
+    fn act(&mut self, action: Action, context: &Context) {
+        match action {
+            Action::Choose => self.open_chooser(),
+            Action::Help => self.help ^= true,
+            Action::Theme => {
+                let dark = context.theme() == Theme::Dark;
+                context.set_theme(if dark { Theme::Light } else { Theme::Dark });
+            }
+            Action::Close => {
+                self.help = false;
+                self.chooser.close();
+            }
+            Action::Screenshot => self.screenshot(context),
+            Action::Record => self.record(context),
+            Action::Save => self.save(),
+            _ => match &mut self.screen {
+                Screen::Watching(watching) => watching.act(action),
+                Screen::Maze(screen) => act_in_maze(screen, action),
+                Screen::Empty => {}
+            },
+        }
+    }
+
+    /// How the interface works now.
+    fn manner(&self, context: &Context) -> Manner {
+        #[cfg(feature = "film")]
+        let recording = self.recorder.is_some();
+        #[cfg(not(feature = "film"))]
+        let recording = false;
+        Manner { threaded: self.threaded, dark: context.theme() == Theme::Dark, recording }
+    }
+
+    /// Name and time of what is shown \[s\].
+    fn shown(&self) -> Option<(String, f64)> {
+        match &self.screen {
+            Screen::Watching(watching) => {
+                Some((watching.view().scene.name.clone(), watching.view().time))
+            }
+            Screen::Maze(screen) => {
+                Some((screen.game().scene().name.clone(), screen.game().elapsed()))
+            }
+            Screen::Empty => None,
+        }
+    }
+
+    fn snapshot(&mut self, size: [u32; 2], context: &Context) -> Option<Picture> {
+        let manner = self.manner(context);
+        let drawn = match &mut self.screen {
+            Screen::Watching(watching) => watching.snapshot(&mut self.studio, manner, size),
+            Screen::Maze(screen) => screen.snapshot(&mut self.studio, size),
+            Screen::Empty => return None,
+        };
+        drawn.map_err(|error| self.notices.complain(error)).ok()
+    }
+
+    /// Saves a picture with the simulation time on it, of the size of the window at least.
+    fn screenshot(&mut self, context: &Context) {
+        let Some((name, time)) = self.shown() else { return };
+        let window = context.content_rect().size() * context.pixels_per_point();
+        let [width, height] = SMALLEST_PICTURE;
+        let size = [width.max(window.x as u32), height.max(window.y as u32)];
+        let Some(mut picture) = self.snapshot(size, context) else { return };
+        stamp(&mut picture, &picture_files::stamp_text(&name, time));
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            let path = picture_files::new_name(&self.folder, &name, time, "png");
+            match picture.save_png(&path) {
+                Ok(()) => self.notices.tell(format!("saved {}", path.display())),
+                Err(error) => self.notices.complain(error),
+            }
+        }
+    }
+
+    /// Saves the present state as a scene file.
+    fn save(&mut self) {
+        let Screen::Watching(watching) = &self.screen else { return };
+        let view = watching.view();
+        let path = picture_files::new_name(&self.folder, &view.scene.name, view.time, "toml");
+        let text = view.scene_now().to_toml();
+        let saved =
+            std::fs::create_dir_all(&self.folder).and_then(|()| std::fs::write(&path, text));
+        match saved {
+            Ok(()) => self.notices.tell(format!("saved {}", path.display())),
+            Err(error) => {
+                self.notices.complain(format!("cannot write {}: {error}", path.display()));
+            }
+        }
+    }
+
+    #[cfg(not(feature = "film"))]
+    fn record(&mut self, _context: &Context) {
+        self.notices.complain("this build of Carom makes no films");
+    }
+
+    #[cfg(feature = "film")]
+    fn record(&mut self, context: &Context) {
+        use crate::recorder::Recorder;
+        if let Some(recorder) = self.recorder.take() {
+            match recorder.finish() {
+                Ok(text) => self.notices.tell(text),
+                Err(error) => self.notices.complain(error),
+            }
+            return;
+        }
+        let Some((name, time)) = self.shown() else { return };
+        let path = picture_files::new_name(&self.folder, &name, time, "mp4");
+        match Recorder::begin(path, SMALLEST_PICTURE, time) {
+            Ok(recorder) => self.recorder = Some(recorder),
+            Err(error) => self.notices.complain(error),
+        }
+        context.request_repaint();
+    }
+
+    /// Adds the frames of the film that are due at the time shown.
+    #[cfg(feature = "film")]
+    fn film(&mut self, context: &Context) {
+        let Some(mut recorder) = self.recorder.take() else { return };
+        let Some((_, time)) = self.shown() else { return };
+        let added = recorder.add_due(time, |size| self.snapshot(size, context));
+        match added {
+            Ok(()) => self.recorder = Some(recorder),
+            Err(error) => {
+                self.notices.complain(error);
+                // What was recorded until then is kept.
+                recorder.finish().ok();
+            }
+        }
+    }
+
+    /// Says what went wrong in the physics.
+    fn complain_of_session(&mut self) {
+        if let Screen::Watching(watching) = &self.screen
+            && let Some(error) = &watching.view().playback.error
+        {
+            self.notices.complain(error);
+        }
+    }
+
+    fn bar(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let mut actions = Vec::new();
+        ui.horizontal_wrapped(|ui| {
+            if ui.button("Scenes").on_hover_text("Enter").clicked() {
+                actions.push(Action::Choose);
+            }
+            if let Some((name, _)) = self.shown() {
+                ui.strong(name);
+                ui.separator();
+            }
+            if let Screen::Watching(watching) = &self.screen {
+                actions.extend(watching.switches(ui));
+                ui.separator();
+            }
+            for (text, action) in [
+                ("Picture", Action::Screenshot),
+                ("Film", Action::Record),
+                ("Light/dark", Action::Theme),
+                ("Keys", Action::Help),
+            ] {
+                if ui.button(text).clicked() {
+                    actions.push(action);
+                }
+            }
+        });
+        actions
+    }
+
+    fn screen(&mut self, ui: &mut Ui) {
+        let manner = self.manner(ui.ctx());
+        let margin = egui::Frame::NONE;
+        let mut wish = None;
+        match &mut self.screen {
+            Screen::Empty => {
+                egui::CentralPanel::default().show(ui, |ui| {
+                    ui.centered_and_justified(|ui| ui.weak("Press Enter to choose a scene."));
+                });
+            }
+            Screen::Watching(watching) => {
+                for action in watching.panels(ui, manner) {
+                    watching.act(action);
+                }
+                let studio = &mut self.studio;
+                egui::CentralPanel::default()
+                    .frame(margin)
+                    .show(ui, |ui| watching.picture(ui, studio, manner));
+            }
+            Screen::Maze(screen) => {
+                let studio = &mut self.studio;
+                wish = egui::CentralPanel::default()
+                    .frame(margin)
+                    .show(ui, |ui| screen.picture(ui, studio, manner.dark))
+                    .inner;
+            }
+        }
+        if wish == Some(Wish::Watch)
+            && let Screen::Maze(screen) = &self.screen
+        {
+            let scene = screen.game().maze().scene().clone();
+            self.watch(scene, Source::Registered, &ui.ctx().clone());
+        }
+    }
+
+    fn advance(&mut self, ui: &Ui) {
+        match &mut self.screen {
+            Screen::Empty => {}
+            Screen::Watching(watching) => watching.advance(ui),
+            Screen::Maze(screen) => {
+                #[cfg(feature = "gamepad")]
+                {
+                    screen.stick = self.gamepad.stick();
+                }
+                let steering = screen.steering(ui);
+                if let Err(error) = screen.advance(ui, steering) {
+                    self.notices.complain(error);
+                }
+            }
+        }
+    }
+}
+
+fn act_in_maze(screen: &mut MazeScreen, action: Action) {
+    match action {
+        Action::Restart => screen.play_again(),
+        Action::SceneCamera => screen.look_from(Preset::Scene),
+        Action::FrontCamera => screen.look_from(Preset::Front),
+        Action::TopCamera => screen.look_from(Preset::Top),
+        _ => {}
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let context = ui.ctx().clone();
+        // A dialog has the keys for itself; on the win screen Enter plays again.
+        let is_won = self.maze().is_some_and(MazeScreen::is_won);
+        if !self.chooser.is_open() && !is_won {
+            for action in action::pressed(&context) {
+                self.act(action, &context);
+            }
+        }
+        self.open_dropped(&context);
+        #[cfg(not(target_arch = "wasm32"))]
+        self.reload_changed(&context);
+        if !self.chooser.is_open() {
+            self.advance(ui);
+            #[cfg(feature = "film")]
+            self.film(&context);
+        }
+        self.complain_of_session();
+        let asked = egui::Panel::top("bar").show(ui, |ui| self.bar(ui)).inner;
+        self.screen(ui);
+        for action in asked {
+            self.act(action, &context);
+        }
+        match self.chooser.show(&context, &mut self.studio) {
+            Some(Choice::Watch(scene, source)) => self.watch(*scene, source, &context),
+            Some(Choice::Play(maze)) => self.play(*maze),
+            None => {}
+        }
+        help::show(&context, &mut self.help);
+        self.notices.show(ui);
+    }
+}

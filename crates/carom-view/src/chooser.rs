@@ -1,0 +1,285 @@
+//! The dialog in which a scene is chosen.
+
+use carom_maze::Maze;
+use carom_render::{Camera, Drawing};
+use carom_scene::scene::Scene;
+use carom_scene::{Entry, Library, Source};
+use egui::{
+    Align, Context, Id, Image, Key, Layout, Modal, Modifiers, RichText, ScrollArea, Sense,
+    TextEdit, Ui, Vec2,
+};
+
+use crate::look::{self, Look, Marks};
+use crate::orbit::{Orbit, Preset};
+use crate::session::{Session, View};
+use crate::studio::{Canvas, Studio};
+
+/// What was chosen.
+#[derive(Debug)]
+pub enum Choice {
+    /// A scene to watch.
+    Watch(Box<Scene>, Source),
+    /// A maze to play.
+    Play(Box<Maze>),
+}
+
+/// The dialog; scenes are read anew each time it opens.
+#[derive(Default)]
+pub struct Chooser {
+    open: bool,
+    just_opened: bool,
+    filter: String,
+    selected: usize,
+    cards: Vec<Card>,
+}
+
+/// A scene in the list.
+struct Card {
+    entry: Entry,
+    thumbnail: Thumbnail,
+}
+
+enum Thumbnail {
+    Missing,
+    Drawn(Box<Canvas>),
+    /// A scene that cannot be read has none.
+    Impossible,
+}
+
+/// In points.
+const THUMBNAIL: Vec2 = Vec2::new(176.0, 99.0);
+
+/// Thumbnails show the scene at this part of its duration, at most so late \[s\], ...
+const THUMBNAIL_PART: f64 = 0.25;
+const LATEST: f64 = 3.0;
+/// ... and at the beginning where that would take more than so many frames times spheres.
+const MOST_WORK: f64 = 40_000.0;
+
+impl Chooser {
+    /// Opens the dialog with all scenes there are now.
+    ///
+    /// # Errors
+    /// If a folder of scenes has become unreadable; the list is as before then.
+    pub fn open(&mut self, library: &Library) -> Result<(), carom_scene::SceneError> {
+        self.open = true;
+        self.just_opened = true;
+        self.filter.clear();
+        self.selected = 0;
+        let card = |entry: Entry| {
+            let thumbnail =
+                if entry.scene.is_ok() { Thumbnail::Missing } else { Thumbnail::Impossible };
+            Card { entry, thumbnail }
+        };
+        self.cards = library.entries()?.into_iter().map(card).collect();
+        Ok(())
+    }
+
+    /// Whether it is open.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Closes the dialog without a choice.
+    pub fn close(&mut self) {
+        self.open = false;
+    }
+
+    /// Shows the dialog while it is open. Returns what was chosen, which closes it.
+    pub fn show(&mut self, context: &Context, studio: &mut Studio) -> Option<Choice> {
+        if !self.open {
+            return None;
+        }
+        self.draw_a_thumbnail(context, studio);
+        let found = self.found();
+        let mut chosen = self.keys(context, &found);
+        let modal = Modal::new(Id::unique("scenes")).show(context, |ui| {
+            let size = ui.ctx().content_rect().size();
+            ui.set_width((size.x - 80.0).clamp(240.0, 880.0));
+            ui.horizontal(|ui| {
+                ui.heading("Choose a scene");
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let edit = TextEdit::singleline(&mut self.filter).hint_text("type to filter");
+                    let response = ui.add(edit.desired_width(220.0));
+                    if self.just_opened {
+                        response.request_focus();
+                    }
+                    if response.changed() {
+                        self.selected = 0;
+                    }
+                });
+            });
+            ui.separator();
+            let height = (size.y - 160.0).clamp(120.0, 620.0);
+            ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
+                if found.is_empty() {
+                    ui.weak("No scene has this in its name or description.");
+                }
+                for (place, &index) in found.iter().enumerate() {
+                    if self.card(ui, index, place == self.selected) {
+                        chosen = Some(index);
+                    }
+                }
+            });
+            ui.separator();
+            ui.weak(
+                "Arrow keys and Enter, or a click. Drop a scene file on the window to open it.",
+            );
+        });
+        self.just_opened = false;
+        if modal.should_close() {
+            self.open = false;
+        }
+        chosen.and_then(|index| self.choose(index))
+    }
+
+    /// The cards that the filter leaves.
+    fn found(&self) -> Vec<usize> {
+        let wanted = self.filter.to_lowercase();
+        let words: Vec<&str> = wanted.split_whitespace().collect();
+        let is_found = |card: &Card| {
+            let text = match &card.entry.scene {
+                Ok(scene) => format!("{} {} {}", scene.name, scene.title, scene.description),
+                Err(error) => format!("{} {error}", card.entry.name),
+            };
+            let text = text.to_lowercase();
+            words.iter().all(|word| text.contains(word))
+        };
+        (0..self.cards.len()).filter(|&index| is_found(&self.cards[index])).collect()
+    }
+
+    /// Arrow keys and Enter, while a text is being typed as well.
+    fn keys(&mut self, context: &Context, found: &[usize]) -> Option<usize> {
+        let mut chosen = None;
+        context.input_mut(|input| {
+            if input.consume_key(Modifiers::NONE, Key::ArrowDown) {
+                self.selected += 1;
+            }
+            if input.consume_key(Modifiers::NONE, Key::ArrowUp) {
+                self.selected = self.selected.saturating_sub(1);
+            }
+            self.selected = self.selected.min(found.len().saturating_sub(1));
+            if !self.just_opened && input.consume_key(Modifiers::NONE, Key::Enter) {
+                chosen = found.get(self.selected).copied();
+            }
+        });
+        chosen
+    }
+
+    /// Shows a scene; returns whether it was clicked.
+    fn card(&mut self, ui: &mut Ui, index: usize, is_selected: bool) -> bool {
+        let card = &self.cards[index];
+        let fill = if is_selected {
+            ui.visuals().selection.bg_fill.gamma_multiply(0.45)
+        } else {
+            ui.visuals().faint_bg_color
+        };
+        let frame = egui::Frame::group(ui.style()).fill(fill);
+        let shown = frame.show(ui, |ui| {
+            ui.horizontal(|ui| {
+                picture(ui, &card.thumbnail);
+                ui.vertical(|ui| {
+                    ui.set_width(ui.available_width());
+                    ui.add_space(4.0);
+                    match &card.entry.scene {
+                        Ok(scene) => about(ui, scene, &card.entry.source),
+                        Err(error) => {
+                            ui.strong(&card.entry.name);
+                            ui.colored_label(ui.visuals().error_fg_color, error.to_string());
+                        }
+                    }
+                });
+            });
+        });
+        let response = shown.response.interact(Sense::click());
+        let name = &card.entry.name;
+        response.widget_info(|| {
+            egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, name)
+        });
+        if is_selected
+            && (self.just_opened
+                || ui.input(|input| {
+                    input.key_pressed(Key::ArrowDown) || input.key_pressed(Key::ArrowUp)
+                }))
+        {
+            response.scroll_to_me(None);
+        }
+        response.clicked()
+    }
+
+    /// Closes with a scene. One that cannot be read is shown with what is wrong, and stays.
+    fn choose(&mut self, index: usize) -> Option<Choice> {
+        let entry = &self.cards.get(index)?.entry;
+        let scene = entry.scene.as_ref().ok()?.clone();
+        self.open = false;
+        Some(match Maze::from_scene(&scene) {
+            Ok(maze) => Choice::Play(Box::new(maze)),
+            Err(_) => Choice::Watch(Box::new(scene), entry.source.clone()),
+        })
+    }
+
+    /// Draws one of the missing thumbnails: one a picture, so that the dialog is there at once.
+    fn draw_a_thumbnail(&mut self, context: &Context, studio: &mut Studio) {
+        let missing =
+            self.cards.iter_mut().find(|card| matches!(card.thumbnail, Thumbnail::Missing));
+        let Some(card) = missing else { return };
+        let scene = card.entry.scene.as_ref().ok();
+        let drawn = scene.and_then(|scene| drawing_of(scene));
+        card.thumbnail = match drawn {
+            Some((drawing, camera)) => {
+                let mut canvas = Canvas::default();
+                let size = THUMBNAIL * context.pixels_per_point();
+                studio.draw(&mut canvas, size, &drawing, &camera);
+                Thumbnail::Drawn(Box::new(canvas))
+            }
+            None => Thumbnail::Impossible,
+        };
+        context.request_repaint();
+    }
+}
+
+fn picture(ui: &mut Ui, thumbnail: &Thumbnail) {
+    match thumbnail {
+        Thumbnail::Drawn(canvas) if canvas.texture().is_some() => {
+            if let Some(texture) = canvas.texture() {
+                ui.add(Image::new((texture, THUMBNAIL)).corner_radius(4));
+            }
+        }
+        _ => {
+            ui.allocate_space(THUMBNAIL);
+        }
+    }
+}
+
+fn about(ui: &mut Ui, scene: &Scene, source: &Source) {
+    let title = if scene.title.is_empty() { &scene.name } else { &scene.title };
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(title).strong().size(15.0));
+        if *title != scene.name {
+            ui.weak(&scene.name);
+        }
+    });
+    ui.label(&scene.description);
+    if let Source::File(path) = source {
+        ui.weak(path.display().to_string());
+    }
+}
+
+/// A scene a little after its beginning, from its own camera.
+fn drawing_of(scene: &Scene) -> Option<(Drawing, Camera)> {
+    let mut session = Session::new(scene.clone()).ok()?;
+    let time = (THUMBNAIL_PART * scene.simulation.duration).min(LATEST);
+    let frames = (time / scene.simulation.frame_time).floor();
+    if frames * session.world().spheres().len().max(1) as f64 <= MOST_WORK {
+        // What fails later is shown as far as it came.
+        (0..frames as u64).try_for_each(|_| session.step()).ok();
+    }
+    let mut view = View::default();
+    session.fill(&mut view);
+    let mut drawing = Drawing::default();
+    let look = Look { marks: Marks::default(), dark: false, blend: 1.0 };
+    look::draw(&view, &look, &mut drawing);
+    let bounds = drawing.bounds()?;
+    let aspect = f64::from(THUMBNAIL.x / THUMBNAIL.y);
+    let orbit = Orbit::preset(Preset::Scene, Camera::of_scene(scene), &bounds, aspect);
+    Some((drawing, orbit.camera))
+}

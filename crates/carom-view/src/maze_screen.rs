@@ -1,0 +1,294 @@
+//! The maze game on the screen: keys and mouse to tilt, the game's picture, counts and times.
+
+use carom::DVec3;
+use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Steering, Tilt};
+use carom_render::{Camera, Drawing, GpuError, Picture, Roll, draw_world};
+use carom_scene::Palette;
+use egui::{Align2, Area, Frame, Id, Image, Key, Pos2, RichText, Sense, Ui, Vec2};
+
+use crate::orbit::{Orbit, Preset};
+use crate::session::Pace;
+use crate::studio::{Canvas, Studio};
+
+/// A game being played.
+pub struct MazeScreen {
+    game: Game,
+    pace: Pace,
+    palette: Palette,
+    roll: Roll,
+    orbit: Option<Orbit>,
+    canvas: Canvas,
+    drawing: Drawing,
+    /// Tilt by a gamepad or a tilted device, each part in \[-1, 1\].
+    pub stick: Option<Vec2>,
+    /// How long to say what happened last, by the clock of the interface \[s\].
+    message: Option<(String, f64)>,
+}
+
+/// What the player wants besides tilting.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wish {
+    /// Look at the maze as a scene, with all its values.
+    Watch,
+}
+
+/// Keys that let the ball roll to +x and +z, by part of the full speed.
+const KEYS: [(Key, f64, f64); 8] = [
+    (Key::ArrowRight, 1.0, 0.0),
+    (Key::ArrowLeft, -1.0, 0.0),
+    (Key::ArrowDown, 0.0, 1.0),
+    (Key::ArrowUp, 0.0, -1.0),
+    (Key::D, 1.0, 0.0),
+    (Key::A, -1.0, 0.0),
+    (Key::S, 0.0, 1.0),
+    (Key::W, 0.0, -1.0),
+];
+
+impl MazeScreen {
+    /// A new game.
+    ///
+    /// # Errors
+    /// If the maze cannot be played.
+    pub fn new(maze: Maze) -> Result<Self, GameError> {
+        let game = Game::new(maze, Options::default())?;
+        let palette = Palette::new(game.scene())?;
+        let mut pace = Pace::new();
+        pace.set_playing(true);
+        Ok(Self {
+            game,
+            pace,
+            palette,
+            roll: Roll::START,
+            orbit: None,
+            canvas: Canvas::default(),
+            drawing: Drawing::default(),
+            stick: None,
+            message: None,
+        })
+    }
+
+    /// Whether the win screen is shown.
+    pub fn is_won(&self) -> bool {
+        matches!(self.game.state(), GameState::Won { .. })
+    }
+
+    /// The game.
+    pub fn game(&self) -> &Game {
+        &self.game
+    }
+
+    /// Plays on by the time since the last picture.
+    ///
+    /// # Errors
+    /// If the physics refuses a frame; the game is as it was before.
+    pub fn advance(&mut self, ui: &Ui, steering: Steering) -> Result<(), GameError> {
+        let wall_seconds = ui.input(|input| f64::from(input.unstable_dt));
+        let now = ui.input(|input| input.time);
+        for _ in 0..self.pace.frames_due(wall_seconds, self.game.frame_time()) {
+            let before = self.game.ball_in_maze().0;
+            let events = self.game.step(steering)?.to_vec();
+            for event in events {
+                self.note(event, now);
+            }
+            let way = self.game.ball_in_maze().0 - before;
+            // Starting again is no rolling.
+            let radius = self.game.maze().ball_radius();
+            if way.length() < radius {
+                self.roll.on(way, DVec3::Y, radius);
+            }
+        }
+        ui.ctx().request_repaint();
+        Ok(())
+    }
+
+    fn note(&mut self, event: GameEvent, now: f64) {
+        let of = self.game.maze().collectibles().count();
+        let text = match event {
+            GameEvent::Collected { count, .. } => format!("{count} of {of}"),
+            GameEvent::Fell => "Off the edge - once more from the start".to_owned(),
+            GameEvent::Won { .. } => return,
+        };
+        self.message = Some((text, now + 2.0));
+    }
+
+    /// The tilt that keys, mouse or gamepad ask for.
+    pub fn steering(&self, ui: &Ui) -> Steering {
+        let most = self.game.options().max_tilt_degrees.to_radians();
+        let towards =
+            |x: f64, z: f64| Steering::Towards(Tilt { about_x: z * most, about_z: -x * most });
+        if let Some(stick) = self.stick.filter(|stick| stick.length() > 0.12) {
+            return towards(f64::from(stick.x), f64::from(stick.y));
+        }
+        let by_mouse = ui.input(|input| {
+            let press = input.pointer.press_origin().filter(|_| input.pointer.secondary_down());
+            press.zip(input.pointer.latest_pos())
+        });
+        if let Some((from, to)) = by_mouse {
+            // A fifth of the picture is a full tilt.
+            let full = 0.2 * ui.available_height().max(100.0);
+            let way = ((to - from) / full).clamp(Vec2::splat(-1.0), Vec2::splat(1.0));
+            return towards(f64::from(way.x), f64::from(way.y));
+        }
+        let held = ui.input(|input| {
+            KEYS.iter()
+                .filter(|(key, ..)| input.key_down(*key))
+                .fold([0.0, 0.0], |sum, key| [sum[0] + key.1, sum[1] + key.2])
+        });
+        Steering::roll(held[0].clamp(-1.0, 1.0), held[1].clamp(-1.0, 1.0))
+    }
+
+    /// Starts again, the best time kept.
+    pub fn play_again(&mut self) {
+        self.game.play_again();
+        self.roll = Roll::START;
+        self.message = None;
+    }
+
+    /// Looks from a preset.
+    pub fn look_from(&mut self, preset: Preset) {
+        let aspect = self.orbit.map_or(16.0 / 9.0, |_| 16.0 / 9.0);
+        self.orbit = Some(self.preset(preset, aspect));
+    }
+
+    fn preset(&mut self, preset: Preset, aspect: f64) -> Orbit {
+        self.draw();
+        let sphere = carom_render::Bounds::of_sphere(DVec3::ZERO, 5.0);
+        let bounds = self.drawing.bounds().unwrap_or(sphere);
+        Orbit::preset(preset, Camera::of_scene(self.game.scene()), &bounds, aspect)
+    }
+
+    fn draw(&mut self) {
+        // The pattern shows the rolling along the maze, whichever way the maze is tilted.
+        let rotation = self.game.tilt() * self.roll.rotation;
+        let Self { game, palette, drawing, .. } = self;
+        draw_world(game.scene(), game.world(), palette, |_| Some(rotation), drawing);
+    }
+
+    /// The game's picture with its counts. Returns what the player wants.
+    pub fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, dark: bool) -> Option<Wish> {
+        let rect = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Maze"));
+        let size = rect.size() * ui.ctx().pixels_per_point();
+        if size.x < 1.0 || size.y < 1.0 {
+            return None;
+        }
+        let aspect = f64::from(size.x / size.y);
+        let mut orbit = match self.orbit {
+            Some(orbit) => orbit,
+            None => self.preset(Preset::Scene, aspect),
+        };
+        if response.hovered() {
+            let (scrolled, pinched) =
+                ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+            orbit.zoom(f64::from(pinched) * (f64::from(scrolled) / 300.0).exp());
+        }
+        if response.dragged_by(egui::PointerButton::Primary) {
+            let drag = response.drag_delta() / rect.height().max(1.0);
+            let [right, up] = [drag.x, -drag.y].map(|it| std::f64::consts::PI * f64::from(it));
+            orbit.turn(right, up);
+        }
+        self.orbit = Some(orbit);
+        self.draw();
+        if dark {
+            self.drawing.light = self.drawing.light.at_dusk();
+        }
+        studio.draw(&mut self.canvas, size, &self.drawing, &orbit.camera);
+        if let Some(texture) = self.canvas.texture() {
+            Image::new((texture, rect.size())).paint_at(ui, rect);
+        }
+        self.counts(ui, rect.left_top());
+        self.messages(ui, rect.center_top());
+        self.won(ui)
+    }
+
+    /// Collectibles and times, at the upper left.
+    fn counts(&self, ui: &Ui, corner: Pos2) {
+        let of = self.game.maze().collectibles().count();
+        let mut lines = vec![
+            format!("Collected  {} of {of}", self.game.collected()),
+            format!("Time  {:.1} s", self.game.elapsed()),
+        ];
+        lines.extend(self.game.best().map(|best| format!("Best  {best:.1} s")));
+        Area::new(Id::unique("counts")).fixed_pos(corner + Vec2::splat(14.0)).show(
+            ui.ctx(),
+            |ui| {
+                Frame::popup(ui.style()).show(ui, |ui| {
+                    for line in lines {
+                        ui.label(RichText::new(line).size(17.0));
+                    }
+                    ui.weak("Arrow keys or WASD tilt the maze; so does the right mouse button.");
+                });
+            },
+        );
+    }
+
+    fn messages(&self, ui: &Ui, top: Pos2) {
+        let now = ui.input(|input| input.time);
+        if let Some((text, _)) = self.message.as_ref().filter(|(_, until)| now < *until) {
+            let painter = ui.painter();
+            let place = top + Vec2::new(0.0, 24.0);
+            let font = egui::FontId::proportional(30.0);
+            let text_color = egui::Color32::from_rgb(214, 120, 20);
+            painter.text(place, Align2::CENTER_TOP, text, font, text_color);
+        }
+    }
+
+    /// The win text, and what comes next.
+    fn won(&mut self, ui: &Ui) -> Option<Wish> {
+        let GameState::Won { time } = self.game.state() else { return None };
+        let is_best = self.game.best().is_some_and(|best| time <= best);
+        let mut again = false;
+        let mut wish = None;
+        Area::new(Id::unique("won")).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(
+            ui.ctx(),
+            |ui| {
+                Frame::window(ui.style()).inner_margin(28.0).show(ui, |ui| {
+                    ui.vertical_centered(|ui| {
+                        ui.label(RichText::new("You win!").size(44.0).strong());
+                        let of = self.game.maze().collectibles().count();
+                        let collected = self.game.collected();
+                        ui.label(
+                            RichText::new(format!("{time:.1} s, {collected} of {of} collected"))
+                                .size(18.0),
+                        );
+                        ui.label(match self.game.best() {
+                            _ if is_best => "The best time so far.".to_owned(),
+                            Some(best) => format!("Best time {best:.1} s."),
+                            None => String::new(),
+                        });
+                        ui.add_space(12.0);
+                        again = ui.button(RichText::new("Play again").size(18.0)).clicked();
+                        if ui.button("Watch it as a scene").clicked() {
+                            wish = Some(Wish::Watch);
+                        }
+                    });
+                });
+            },
+        );
+        // Enter plays again, as on every win screen.
+        again |= ui.input(|input| input.key_pressed(Key::Enter)) && wish.is_none();
+        if again {
+            self.play_again();
+        }
+        wish
+    }
+
+    /// A picture of what is shown now, of this size in pixels.
+    ///
+    /// # Errors
+    /// [`GpuError`]
+    pub fn snapshot(
+        &mut self,
+        studio: &mut Studio,
+        [width, height]: [u32; 2],
+    ) -> Result<Picture, GpuError> {
+        self.draw();
+        let aspect = f64::from(width) / f64::from(height);
+        let orbit = match self.orbit {
+            Some(orbit) => orbit,
+            None => self.preset(Preset::Scene, aspect),
+        };
+        studio.picture([width, height], &self.drawing, &orbit.camera)
+    }
+}

@@ -1,0 +1,47 @@
+//! A scene file that is edited while it is watched.
+
+use std::path::PathBuf;
+use std::time::SystemTime;
+
+use carom_scene::Source;
+
+/// How often the file is looked at \[s\].
+pub const INTERVAL: f64 = 0.5;
+
+/// The file of the scene that is watched.
+#[derive(Debug, Default)]
+pub struct WatchedFile {
+    file: Option<(PathBuf, Option<SystemTime>)>,
+    /// When it was looked at last, by the clock of the interface \[s\].
+    looked: f64,
+}
+
+impl WatchedFile {
+    /// Watches the file of a scene; none for a scene that comes from elsewhere.
+    pub fn watch(&mut self, source: &Source) {
+        self.file = match source {
+            Source::File(path) => Some((path.clone(), changed(path))),
+            _ => None,
+        };
+    }
+
+    /// The file, once, if it was changed since it was looked at last.
+    pub fn changed(&mut self, now: f64) -> Option<PathBuf> {
+        if now - self.looked < INTERVAL {
+            return None;
+        }
+        self.looked = now;
+        let (path, last) = self.file.as_mut()?;
+        let changed = changed(path);
+        // While an editor writes it anew, a file may be missing for a moment.
+        if changed.is_none() || changed == *last {
+            return None;
+        }
+        *last = changed;
+        Some(path.clone())
+    }
+}
+
+fn changed(path: &PathBuf) -> Option<SystemTime> {
+    std::fs::metadata(path).and_then(|about| about.modified()).ok()
+}

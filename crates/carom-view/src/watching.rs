@@ -1,0 +1,436 @@
+//! A scene being watched: its picture, and what is done with it by hand.
+
+use carom::{DVec3, Mass, Sphere};
+use carom_render::{Camera, Drawing, GpuError, Picture};
+use carom_scene::scene::{Rule, Scene};
+use carom_scene::{SceneError, Source};
+use egui::{Image, Modifiers, PointerButton, Pos2, Rect, Response, Sense, Ui, Vec2};
+
+use crate::action::Action;
+use crate::inspector::{self, Throw};
+use crate::look::{self, Look, Marks};
+use crate::orbit::{Orbit, Preset};
+use crate::plots;
+use crate::session::{Command, Driver, Edit, Session, SessionError, View, Watched};
+use crate::studio::{Canvas, Studio};
+use crate::{impact_list, transport};
+
+/// A scene being watched.
+pub struct Watching {
+    driver: Driver,
+    /// Where the scene comes from.
+    pub source: Source,
+    /// Commands of this picture, sent at its end.
+    pub commands: Vec<Command>,
+    /// `None` until there is a picture to fit the scene into.
+    orbit: Option<Orbit>,
+    /// Where the followed ball was in the last picture \[m\].
+    followed: Option<DVec3>,
+    marks: Marks,
+    panels: Panels,
+    plots: plots::Shown,
+    throw: Throw,
+    /// The picture, and beside it that of the other rule.
+    canvases: [Canvas; 2],
+    drawing: Drawing,
+    drawn: [Option<Drawn>; 2],
+    news: u64,
+}
+
+/// Which panels are open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Panels {
+    inspector: bool,
+    plots: bool,
+    impacts: bool,
+}
+
+/// All that a picture depends on: another one is drawn when this changes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Drawn {
+    news: u64,
+    camera: Camera,
+    look: Look,
+    size: Vec2,
+}
+
+/// How the interface works, whatever scene is watched.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Manner {
+    /// Whether the physics has a thread of its own.
+    pub threaded: bool,
+    /// Dark surroundings.
+    pub dark: bool,
+    /// Whether a film is being recorded.
+    pub recording: bool,
+}
+
+/// Longest time for frames before a picture, where both share a thread \[s\].
+const INLINE_BUDGET: f64 = 0.02;
+
+impl Watching {
+    /// Begins to watch a scene.
+    ///
+    /// # Errors
+    /// If the scene makes no sense, or no thread can be had.
+    pub fn new(
+        scene: Scene,
+        source: Source,
+        threaded: bool,
+        context: &egui::Context,
+    ) -> Result<Self, SessionError> {
+        let session = Session::new(scene)?;
+        Ok(Self {
+            driver: driver(session.into(), threaded, context)?,
+            source,
+            commands: Vec::new(),
+            orbit: None,
+            followed: None,
+            marks: Marks::default(),
+            panels: Panels { inspector: true, plots: false, impacts: false },
+            plots: plots::Shown::default(),
+            throw: Throw::default(),
+            canvases: Default::default(),
+            drawing: Drawing::default(),
+            drawn: [None; 2],
+            news: 0,
+        })
+    }
+
+    /// What there is to see.
+    pub fn view(&self) -> &View {
+        self.driver.view()
+    }
+
+    /// Opens another scene, or the same one as it is now, without losing camera and panels.
+    pub fn reload(&mut self, scene: Scene) -> Result<(), SceneError> {
+        scene.world()?;
+        self.commands.push(Command::Open(Box::new(scene)));
+        Ok(())
+    }
+
+    /// Lets the physics go on by the time since the last picture.
+    pub fn advance(&mut self, ui: &Ui) {
+        let wall_seconds = ui.input(|input| f64::from(input.unstable_dt));
+        #[cfg(not(target_arch = "wasm32"))]
+        let time_is_up = {
+            let began = std::time::Instant::now();
+            move || began.elapsed().as_secs_f64() > INLINE_BUDGET
+        };
+        // Without a clock, one piece of work a picture.
+        #[cfg(target_arch = "wasm32")]
+        let time_is_up = || true;
+        if self.driver.update(wall_seconds, time_is_up) {
+            self.news += 1;
+        }
+        let playback = &self.view().playback;
+        if playback.playing || self.view().seeking.is_some() || playback.blend < 1.0 {
+            ui.ctx().request_repaint();
+        }
+    }
+
+    /// Does what was asked for by a key or button, if it is about this scene. Errors are those of
+    /// the comparison of rules.
+    pub fn act(&mut self, action: Action) {
+        let view = self.driver.view();
+        let speed = view.playback.speed;
+        match action {
+            Action::PlayOrPause if view.playback.playing => self.commands.push(Command::Pause),
+            Action::PlayOrPause => self.commands.push(Command::Play),
+            Action::Step => self.commands.push(Command::Step),
+            Action::StepBack => self.commands.push(Command::StepBack),
+            Action::Restart => self.commands.push(Command::Restart),
+            Action::Faster | Action::Slower => {
+                let next = transport::next_speed(speed, action == Action::Faster);
+                self.commands.push(Command::Speed(next));
+            }
+            Action::SceneCamera => self.look_from(Preset::Scene),
+            Action::FrontCamera => self.look_from(Preset::Front),
+            Action::TopCamera => self.look_from(Preset::Top),
+            Action::Follow => {
+                self.followed = match self.followed {
+                    Some(_) => None,
+                    None => self.picked_place(),
+                };
+            }
+            Action::Inspector => self.panels.inspector ^= true,
+            Action::Plots => self.panels.plots ^= true,
+            Action::Impacts => self.panels.impacts ^= true,
+            Action::Velocities => self.marks.velocities ^= true,
+            Action::Contacts => self.marks.contacts ^= true,
+            Action::Compare => self.compare(),
+            _ => {}
+        }
+    }
+
+    /// The same scene under two rules, from the start; or again under its own.
+    fn compare(&mut self) {
+        let view = self.driver.view();
+        let mut scene = (*view.scene).clone();
+        scene.simulation = view.setup.simulation.clone();
+        self.commands.push(if view.other.is_some() {
+            Command::Open(Box::new(scene))
+        } else {
+            let own = scene.simulation.rule;
+            let other = if own == Rule::Exact { Rule::Discrete } else { Rule::Exact };
+            Command::Compare(Box::new(scene), [own, other])
+        });
+    }
+
+    fn look_from(&mut self, preset: Preset) {
+        let aspect = self.drawn[0].map_or(16.0 / 9.0, |drawn| drawn.size.x / drawn.size.y);
+        self.orbit = self.preset(preset, f64::from(aspect));
+        self.followed = None;
+    }
+
+    fn preset(&self, preset: Preset, aspect: f64) -> Option<Orbit> {
+        let mut drawing = Drawing::default();
+        let look = Look { marks: Marks::default(), dark: false, blend: 1.0 };
+        look::draw(self.view(), &look, &mut drawing);
+        let bounds = drawing.bounds().unwrap_or(carom_render::Bounds::of_sphere(DVec3::ZERO, 1.0));
+        Some(Orbit::preset(preset, Camera::of_scene(&self.view().scene), &bounds, aspect))
+    }
+
+    fn picked_place(&self) -> Option<DVec3> {
+        let view = self.view();
+        let index = view.spheres.index_of(view.picked?)?;
+        Some(look::place(view, index, self.driver.blend()))
+    }
+
+    /// The panels around the picture. Returns what their buttons ask for.
+    pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
+        let Self { driver, commands, panels, plots, throw, .. } = self;
+        let view = driver.view();
+        let transport = egui::Panel::bottom("transport").show(ui, |ui| {
+            ui.add_space(3.0);
+            let actions = transport::show(ui, view, manner.recording, commands);
+            ui.add_space(3.0);
+            actions
+        });
+        if panels.inspector {
+            egui::Panel::right("inspector")
+                .default_size(290.0)
+                .size_range(240.0..=460.0)
+                .show(ui, |ui| inspector::show(ui, view, throw, commands));
+        }
+        if panels.plots {
+            egui::Panel::left("plots")
+                .default_size(330.0)
+                .size_range(220.0..=700.0)
+                .show(ui, |ui| plots::show(ui, view, plots));
+        }
+        if panels.impacts {
+            egui::Panel::bottom("impacts")
+                .resizable(true)
+                .default_size(170.0)
+                .show(ui, |ui| impact_list::show(ui, view, commands));
+        }
+        transport.inner
+    }
+
+    /// Buttons for what is shown, for the bar at the upper edge.
+    pub fn switches(&self, ui: &mut Ui) -> Vec<Action> {
+        let mut actions = Vec::new();
+        let Panels { inspector, plots, impacts } = self.panels;
+        let Marks { velocities, contacts, .. } = self.marks;
+        let switches = [
+            ("Inspector", inspector, Action::Inspector),
+            ("Plots", plots, Action::Plots),
+            ("Impacts", impacts, Action::Impacts),
+            ("Velocities", velocities, Action::Velocities),
+            ("Contacts", contacts, Action::Contacts),
+            ("Two rules", self.view().other.is_some(), Action::Compare),
+            ("Follow", self.followed.is_some(), Action::Follow),
+        ];
+        for (text, is_on, action) in switches {
+            if ui.selectable_label(is_on, text).clicked() {
+                actions.push(action);
+            }
+        }
+        ui.separator();
+        for (text, action) in [
+            ("Scene", Action::SceneCamera),
+            ("Front", Action::FrontCamera),
+            ("Top", Action::TopCamera),
+        ] {
+            if ui.button(text).on_hover_text("camera").clicked() {
+                actions.push(action);
+            }
+        }
+        actions
+    }
+
+    /// The picture, or two side by side.
+    pub fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, manner: Manner) {
+        let whole = ui.available_rect_before_wrap();
+        let count = if self.view().other.is_some() { 2 } else { 1 };
+        let width = whole.width() / count as f32;
+        for side in 0..count {
+            let left = whole.left() + side as f32 * width;
+            let rect =
+                Rect::from_min_size(Pos2::new(left, whole.top()), Vec2::new(width, whole.height()));
+            let response = ui.allocate_rect(rect, Sense::click_and_drag());
+            self.hand(ui, &response);
+            self.draw(ui, studio, manner, side, rect);
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Picture"));
+        }
+        self.send();
+    }
+
+    fn look(&self, manner: Manner) -> Look {
+        Look { marks: self.marks, dark: manner.dark, blend: self.driver.blend() }
+    }
+
+    /// Draws the picture of one of the rules, where anything in it has changed.
+    fn draw(&mut self, ui: &mut Ui, studio: &mut Studio, manner: Manner, side: usize, rect: Rect) {
+        let size = rect.size() * ui.ctx().pixels_per_point();
+        if size.x < 1.0 || size.y < 1.0 {
+            return;
+        }
+        let aspect = f64::from(size.x / size.y);
+        if self.orbit.is_none() {
+            self.orbit = self.preset(Preset::Scene, aspect);
+        }
+        if let (Some(before), Some(now)) = (self.followed, self.picked_place())
+            && let Some(orbit) = &mut self.orbit
+        {
+            orbit.follow(now - before);
+            self.followed = Some(now);
+        }
+        let Some(orbit) = self.orbit else { return };
+        let look = self.look(manner);
+        let drawn = Drawn { news: self.news, camera: orbit.camera, look, size };
+        if self.drawn[side] != Some(drawn) {
+            let view = self.driver.view();
+            let view = if side == 0 { view } else { view.other.as_deref().unwrap_or(view) };
+            look::draw(view, &look, &mut self.drawing);
+            studio.draw(&mut self.canvases[side], size, &self.drawing, &orbit.camera);
+            self.drawn[side] = Some(drawn);
+        }
+        if let Some(texture) = self.canvases[side].texture() {
+            Image::new((texture, rect.size())).paint_at(ui, rect);
+        }
+        if let Some(other) = &self.view().other {
+            let view = if side == 0 { self.view() } else { other };
+            let rule = format!("{:?}", view.setup.simulation.rule).to_lowercase();
+            let painter = ui.painter_at(rect);
+            let place = rect.left_top() + Vec2::new(12.0, 10.0);
+            let font = egui::FontId::proportional(20.0);
+            let color =
+                if manner.dark { egui::Color32::WHITE } else { egui::Color32::from_gray(30) };
+            painter.text(place, egui::Align2::LEFT_TOP, rule, font, color);
+            if side == 1 {
+                painter.vline(
+                    rect.left(),
+                    rect.y_range(),
+                    egui::Stroke::new(2.0, egui::Color32::GRAY),
+                );
+            }
+        }
+    }
+
+    /// What the mouse or a finger does.
+    fn hand(&mut self, ui: &Ui, response: &Response) {
+        let Some(orbit) = &mut self.orbit else { return };
+        let height = f64::from(response.rect.height().max(1.0));
+        let drag = response.drag_delta();
+        let (right, down) = (f64::from(drag.x) / height, f64::from(drag.y) / height);
+        let modifiers = ui.input(|input| input.modifiers);
+        if response.dragged_by(PointerButton::Primary) && !modifiers.shift {
+            orbit.turn(std::f64::consts::PI * right, -std::f64::consts::PI * down);
+        } else if response.dragged() {
+            orbit.pan(right, -down);
+        }
+        if response.hovered() {
+            let (scrolled, pinched) =
+                ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+            orbit.zoom(f64::from(pinched) * (f64::from(scrolled) / 300.0).exp());
+        }
+        if let Some(pointer) = response.interact_pointer_pos()
+            && response.clicked()
+        {
+            self.click(response, pointer, modifiers);
+        }
+    }
+
+    fn click(&mut self, response: &Response, pointer: Pos2, modifiers: Modifiers) {
+        let Some(orbit) = &mut self.orbit else { return };
+        let rect = response.rect;
+        let place = (pointer - rect.center()) / (0.5 * rect.size());
+        let aspect = f64::from(rect.width() / rect.height());
+        let direction = orbit.camera.ray(glam::Vec2::new(place.x, -place.y), aspect);
+        let origin = orbit.camera.position;
+        if modifiers.command {
+            let Throw { radius, mass, speed, restitution } = self.throw;
+            let sphere = Sphere {
+                // Before the eye, so that it is seen as it flies away.
+                position: origin + direction * (orbit.camera.near + 3.0 * radius),
+                velocity: direction * speed,
+                radius,
+                mass: Mass::Kilograms(mass),
+                restitution,
+            };
+            self.commands.push(Command::Edit(Edit::Throw { sphere, color: None }));
+            return;
+        }
+        let blend = self.driver.blend();
+        let picked = look::sphere_at(self.driver.view(), blend, origin, direction);
+        if response.double_clicked() {
+            let view = self.driver.view();
+            if let Some(index) = picked.and_then(|id| view.spheres.index_of(id)) {
+                orbit.center_on(look::place(view, index, blend));
+            }
+        }
+        self.followed = None;
+        self.commands.push(Command::Pick(picked));
+    }
+
+    /// Sends what was asked for since the last picture.
+    fn send(&mut self) {
+        for command in self.commands.drain(..) {
+            // Only a driver that has ended or is swamped refuses; its view says why.
+            self.driver.send(command).ok();
+        }
+    }
+
+    /// A picture of what is shown now, of this size in pixels.
+    ///
+    /// # Errors
+    /// [`GpuError`]
+    pub fn snapshot(
+        &mut self,
+        studio: &mut Studio,
+        manner: Manner,
+        [width, height]: [u32; 2],
+    ) -> Result<Picture, GpuError> {
+        if self.orbit.is_none() {
+            self.orbit = self.preset(Preset::Scene, f64::from(width) / f64::from(height));
+        }
+        let look = self.look(manner);
+        let Self { driver, drawing, orbit, .. } = self;
+        let Some(orbit) = orbit else { return Err(GpuError::Lost("nothing to see".into())) };
+        let view = driver.view();
+        let sides: Vec<&View> = [Some(view), view.other.as_deref()].into_iter().flatten().collect();
+        let size = [width / sides.len() as u32, height];
+        let mut pictures = Vec::new();
+        for side in sides {
+            look::draw(side, &look, drawing);
+            pictures.push(studio.picture(size, drawing, &orbit.camera)?);
+        }
+        Ok(Picture::side_by_side(&pictures))
+    }
+}
+
+fn driver(
+    watched: Watched,
+    threaded: bool,
+    context: &egui::Context,
+) -> Result<Driver, SessionError> {
+    #[cfg(not(target_arch = "wasm32"))]
+    if threaded {
+        let context = context.clone();
+        return Driver::threaded(watched, Box::new(move || context.request_repaint()));
+    }
+    let _ = (threaded, context);
+    Ok(Driver::inline(watched))
+}
