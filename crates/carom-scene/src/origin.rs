@@ -48,8 +48,9 @@ impl Origins {
         self.emissions.follow(time, usize::MAX);
     }
 
-    /// Follows the emitters until the sphere of this number is known, or a frame ends at `time` \[s\]
-    /// or later. Numbers and times that make no sense take no longer than others.
+    /// Follows the emitters until the sphere of this number is known, or a frame ends at `time`
+    /// \[s\] or later. Numbers and times that make no sense take no longer than others.
+    #[cfg(feature = "recording")]
     pub fn follow_to(&mut self, number: u64, time: f64) {
         let Some(place) = number.checked_sub(self.initial()) else {
             return;
@@ -117,6 +118,7 @@ impl Emissions {
     }
 
     /// No more than this many spheres are emitted until `time` \[s\].
+    #[cfg(feature = "recording")]
     fn most_until(&self, time: f64) -> f64 {
         // One at 0, one for rounding.
         self.world.emitters().map(|(_, emitter)| time / emitter.period + 2.0).sum()

@@ -4,14 +4,15 @@ use carom::{Boundary, DVec3};
 
 use super::replay::{Replay, ReplayBall, ReplayError, ReplayFrame};
 
-/// A recorded frame counts as that of a time if it is no farther away than this \[s\]: sums of frame
-/// times and k / rate differ by rounding only, frames by far more.
+/// A recorded frame counts as that of a time if it is no farther away than this \[s\]: sums of
+/// frame times and k / rate differ by rounding only, frames by far more.
 const SAME_TIME: f64 = 1e-9;
 
 /// Plays a recording at times that go on and on, like those of the frames of a film.
 ///
-/// At the time of a recorded frame (give or take a nanosecond), balls are exactly as recorded; before the first one, between
-/// the start of the scene and that. In between, each ball follows the cubic Hermite curve
+/// At the time of a recorded frame (give or take a nanosecond), balls are exactly as recorded; at 0
+/// and up to the first one, the scene's start counts as a frame. In between, each ball follows the
+/// cubic Hermite curve
 ///
 /// ```text
 /// x(t) = (2s³ - 3s² + 1) x1 + (s³ - 2s² + s) h v1 + (3s² - 2s³) x2 + (s³ - s²) h v2,
@@ -45,8 +46,8 @@ impl Playback {
         Ok(Self { replay, boundary, before, after })
     }
 
-    /// The balls at this time \[s\], not before the time asked for last (which it is otherwise taken
-    /// for); `None` once the recording is over.
+    /// The balls at this time \[s\], or at the last frame before the time asked for last if that is
+    /// later; `None` once the recording is over.
     ///
     /// # Errors
     /// As [`Replay::next_frame`].
