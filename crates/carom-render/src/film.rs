@@ -27,12 +27,14 @@ const SHORTER_SIDE: u32 = 2160;
 const MOST_BYTES: u64 = 4_000_000_000;
 /// Time from one frame that stands for itself to the next \[s\]: players seek to these.
 const SECONDS_BETWEEN_KEYFRAMES: u32 = 2;
-/// Quantization parameter of all frames: at 18 of 51 a film is hard to tell from its pictures (values
-/// of plain areas are off by half a level), and not large.
+/// Quantization parameter of all frames, of 0 to 51: at this one a film is hard to tell from its
+/// pictures (values of plain areas are off by half a level), and not large.
 const QUANTIZATION: u8 = 18;
 /// Most bits per pixel and frame that a player should be prepared for; what is used follows from
 /// the quantization alone.
 const BITS_PER_PIXEL: f64 = 0.5;
+/// What the encoder can be told at least and at most \[bit/s\]: H.264 knows at most 240 Mbit/s.
+const BITS_PER_SECOND: [f64; 2] = [1e5, 2e8];
 
 /// Why a film failed.
 #[derive(Debug, Error)]
@@ -108,11 +110,12 @@ pub struct FilmSummary {
     pub bytes: u64,
 }
 
-/// A film in the making: H.264 (BT.709 colours, 4:2:0) in an mp4 file that can be watched while it
-/// is loaded. Every frame lasts equally long.
+/// A film in the making: H.264 (BT.709 colours, 4:2:0) in an mp4 file that can be watched while
+/// it is loaded. Every frame lasts equally long.
 ///
 /// Quality is the same throughout, so the size follows from what is to be seen. Frames wait in
-/// memory, compressed, until [`Self::finish`] writes them: a few MB per minute of a calm scene.
+/// memory, compressed, until [`Self::finish`] writes them: some 10 MB for each minute of a few
+/// balls at 1280 x 720 pixels and 30 frames per second. So a full disk shows only then.
 ///
 /// The file gets its name once it is complete. A film that is dropped is finished as it is, unless
 /// it has no frames; whoever wants to know whether that went well calls [`Self::finish`].
@@ -251,7 +254,9 @@ fn check_size(width: u32, height: u32) -> Result<(), FilmError> {
 
 fn encoder_config(width: u32, height: u32, frames_per_second: u32) -> EncoderConfig {
     let rate = f64::from(frames_per_second);
+    let [least, most] = BITS_PER_SECOND;
     let bits_per_second = BITS_PER_PIXEL * f64::from(width) * f64::from(height) * rate;
+    let bits_per_second = bits_per_second.clamp(least, most);
     EncoderConfig::new()
         .profile(Profile::High)
         // Between these bounds, this mode of control has nothing left to control.

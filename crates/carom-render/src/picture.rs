@@ -84,7 +84,8 @@ impl Picture {
         Ok(file)
     }
 
-    /// A picture from the content of a PNG file. One without opacity is opaque; 16 bits are cut to 8.
+    /// A picture from the content of a PNG file. One without opacity is opaque; of 16 bits, 8 are
+    /// kept.
     ///
     /// # Errors
     /// For what is no PNG, breaks off, or would take too much memory.

@@ -199,11 +199,11 @@ fn a_film_without_frames_leaves_what_was_there() {
 }
 
 #[test]
-fn smallest_and_upright_films_can_be_watched() {
+fn the_smallest_and_largest_films_can_be_watched() {
     let folder = tempfile::tempdir().unwrap();
-    for (width, height) in [(16, 16), (18, 34), (2160, 3840)] {
-        let path = folder.path().join("small.mp4");
-        let mut film = Film::create(&path, width, height, 30).unwrap();
+    for (width, height, rate) in [(16, 16, 1), (18, 34, 30), (2160, 3840, 240)] {
+        let path = folder.path().join("film.mp4");
+        let mut film = Film::create(&path, width, height, rate).unwrap();
         let pixels = [10, 200, 90, 255].repeat((width * height) as usize);
         film.add(&Picture { width, height, pixels }).unwrap();
         film.finish().unwrap();

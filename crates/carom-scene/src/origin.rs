@@ -45,7 +45,20 @@ impl Origins {
 
     /// Follows the emitters until a frame ends at `time` \[s\] or later.
     pub fn follow(&mut self, time: f64) {
-        self.emissions.follow(time);
+        self.emissions.follow(time, usize::MAX);
+    }
+
+    /// Follows the emitters until the sphere of this number is known, or a frame ends at `time`
+    /// \[s\] or later. Numbers and times that make no sense take no longer than others.
+    #[cfg(feature = "recording")]
+    pub fn follow_to(&mut self, number: u64, time: f64) {
+        let Some(place) = number.checked_sub(self.initial()) else {
+            return;
+        };
+        let is_possible = (place as f64) < self.emissions.most_until(time);
+        if let (true, Ok(place)) = (is_possible, usize::try_from(place)) {
+            self.emissions.follow(time, place.saturating_add(1));
+        }
     }
 
     /// What the sphere of this number comes from; `None` for one that is not known.
@@ -89,6 +102,7 @@ impl Emissions {
     fn new(scene: &Scene) -> Result<Self, carom::Error> {
         let mut settings = scene.settings();
         settings.boundary = carom::Boundary::Open;
+        settings.spheres_collide = false;
         let mut world = World::new(settings)?;
         for (i, emitter) in scene.emitters.iter().enumerate() {
             let sphere = carom::Sphere::new(DVec3::new(i as f64, 0.0, 0.0), 1.0);
@@ -103,8 +117,17 @@ impl Emissions {
         Ok(Self { world, frame_time: scene.simulation.frame_time, emitters: Vec::new() })
     }
 
-    fn follow(&mut self, time: f64) {
-        while self.world.time() < time && self.world.emitters().len() > 0 {
+    /// No more than this many spheres are emitted until `time` \[s\].
+    #[cfg(feature = "recording")]
+    fn most_until(&self, time: f64) -> f64 {
+        // One at 0, one for rounding.
+        self.world.emitters().map(|(_, emitter)| time / emitter.period + 2.0).sum()
+    }
+
+    /// Goes on until a frame ends at `time` \[s\] or later, or this many are emitted.
+    fn follow(&mut self, time: f64, count: usize) {
+        let has_emitters = self.world.emitters().len() > 0;
+        while has_emitters && self.world.time() < time && self.emitters.len() < count {
             // The scene's own world refuses the same step: nothing more is ever emitted.
             let Ok(report) = self.world.step(self.frame_time) else {
                 return;

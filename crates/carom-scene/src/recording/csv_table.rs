@@ -10,7 +10,7 @@ use super::{Format, csv_file, digits};
 
 /// Columns: time at the end of the frame \[s\], number of the sphere in order of appearance,
 /// position \[m\], velocity \[m/s\].
-const HEADER: [&str; 8] = ["t", "ball", "x", "y", "z", "vx", "vy", "vz"];
+pub(super) const HEADER: [&str; 8] = ["t", "ball", "x", "y", "z", "vx", "vy", "vz"];
 
 pub(super) struct CsvTable(csv::Writer<File>);
 

@@ -1,9 +1,12 @@
-//! Recordings on disk: trajectories as CSV, NPZ or VTK, impacts as CSV.
+//! Recordings on disk: trajectories as CSV, NPZ or VTK, impacts as CSV. Trajectories in CSV can be
+//! played again.
 
 mod csv_table;
 mod impacts;
 mod ledger;
 mod npz;
+mod playback;
+mod replay;
 mod vtk;
 
 use std::fs::File;
@@ -15,6 +18,8 @@ use thiserror::Error;
 
 pub use impacts::ImpactTable;
 pub use ledger::LedgerTable;
+pub use playback::Playback;
+pub use replay::{LineProblem, Replay, ReplayBall, ReplayError, ReplayFrame};
 
 /// Why a recording failed.
 #[derive(Debug, Error)]

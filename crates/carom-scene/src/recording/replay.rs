@@ -1,0 +1,347 @@
+//! Trajectories in CSV files, read again frame by frame.
+
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use carom::{Boundary, DVec3, World};
+use thiserror::Error;
+
+use super::csv_table::HEADER;
+use crate::error::SceneError;
+use crate::generate;
+use crate::origin::{Origin, Origins};
+use crate::palette;
+use crate::scene::{Color, Scene};
+
+/// Why a recording cannot be played.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ReplayError {
+    /// The file cannot be read.
+    #[error("cannot read {path}: {source}")]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The first line does not name a column.
+    #[error("{path}: there is no column \"{column}\"; is it a table of `carom run --out`?")]
+    MissingColumn {
+        /// The file.
+        path: PathBuf,
+        /// Its name.
+        column: &'static str,
+    },
+    /// A line makes no sense.
+    #[error("{path}:{line}: {problem}")]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// From 1; the names of the columns are a line, too.
+        line: u64,
+        /// What is wrong.
+        problem: LineProblem,
+    },
+    /// The scene makes no sense.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+/// What is wrong with a line of a recording.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LineProblem {
+    /// A field is no number, or not a finite one.
+    #[error("{column} must be a number, not \"{text}\"")]
+    NotANumber {
+        /// Its column.
+        column: &'static str,
+        /// The field.
+        text: String,
+    },
+    /// A line has more or fewer fields than the first one.
+    #[error("{fields} fields where the first line has {expected}")]
+    Fields {
+        /// How many it has.
+        fields: u64,
+        /// How many it should have.
+        expected: u64,
+    },
+    /// What is there is not text.
+    #[error("not text in UTF-8")]
+    NotText,
+    /// Times go back.
+    #[error("the time {time} s comes after {last} s")]
+    TimeGoesBack {
+        /// Time of the line \[s\].
+        time: f64,
+        /// Time of the line before \[s\].
+        last: f64,
+    },
+    /// Within a frame, balls do not come in order of their numbers.
+    #[error("ball {ball} comes after ball {last} of the same time")]
+    Order {
+        /// Ball of the line.
+        ball: u64,
+        /// Ball of the line before.
+        last: u64,
+    },
+    /// The scene has no such ball at that time.
+    #[error("the scene has no ball {ball} at {time} s; is it another scene, or changed?")]
+    UnknownBall {
+        /// Its number.
+        ball: u64,
+        /// Time of the line \[s\].
+        time: f64,
+    },
+}
+
+/// The spheres at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReplayFrame {
+    /// In s.
+    pub time: f64,
+    /// In order of their numbers.
+    pub balls: Vec<ReplayBall>,
+}
+
+/// A sphere at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReplayBall {
+    /// Place in the order of appearance, from 0.
+    pub number: u64,
+    /// Centre \[m\].
+    pub position: DVec3,
+    /// Velocity \[m/s\].
+    pub velocity: DVec3,
+    /// In m.
+    pub radius: f64,
+    /// In kg.
+    pub mass: f64,
+    /// Its own colour, or that of its generator or emitter; see [`crate::Palette`] for others.
+    pub color: Option<Color>,
+}
+
+/// Reads a trajectory that [`super::Trajectory`] wrote as CSV, one frame after the other: the file
+/// may be longer than the memory.
+///
+/// The file says where balls are; how large and heavy they are says the scene, by their numbers:
+/// it must be the scene of the run, overrides included. Emitters are followed as in the run, frame
+/// by frame. Times without any ball leave no trace in a table, so they are no frames.
+#[derive(Debug)]
+pub struct Replay {
+    path: PathBuf,
+    reader: csv::Reader<File>,
+    /// Where the columns of [`HEADER`] are.
+    columns: [usize; 8],
+    balls: Balls,
+    /// The first row of the next frame.
+    next: Option<Row>,
+    has_begun: bool,
+    /// The scene at its start, which is not in the file.
+    start: ReplayFrame,
+    boundary: Boundary,
+}
+
+/// A row of the table, and its line.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    line: u64,
+    time: f64,
+    number: u64,
+    position: DVec3,
+    velocity: DVec3,
+}
+
+impl Replay {
+    /// Opens a recording of this scene.
+    ///
+    /// # Errors
+    /// [`ReplayError::Unreadable`] and [`ReplayError::MissingColumn`] for what is no recording,
+    /// [`ReplayError::Scene`] for a scene that makes no sense.
+    pub fn open(path: &Path, scene: &Scene) -> Result<Self, ReplayError> {
+        let unreadable = |source| ReplayError::Unreadable { path: path.to_owned(), source };
+        let mut reader = csv::Reader::from_reader(File::open(path).map_err(unreadable)?);
+        let header = reader.headers().map_err(|error| broken(path, error))?.clone();
+        let mut columns = [0; 8];
+        for (place, column) in columns.iter_mut().zip(HEADER) {
+            let found = header.iter().position(|name| name.trim() == column);
+            let missing = || ReplayError::MissingColumn { path: path.to_owned(), column };
+            *place = found.ok_or_else(missing)?;
+        }
+        let world = scene.world()?;
+        let balls = Balls::new(scene, &world)?;
+        let start = ReplayFrame { time: world.time(), balls: balls.at_start(&world) };
+        let boundary = world.settings().boundary;
+        let path = path.to_owned();
+        Ok(Self { path, reader, columns, balls, next: None, has_begun: false, start, boundary })
+    }
+
+    /// The scene at its start, at time 0: before the first recorded frame.
+    pub fn start(&self) -> &ReplayFrame {
+        &self.start
+    }
+
+    /// What is around the balls.
+    pub(super) fn boundary(&self) -> Boundary {
+        self.boundary
+    }
+
+    /// The next frame; `None` after the last one.
+    ///
+    /// # Errors
+    /// [`ReplayError::Line`] for a line that makes no sense, or a ball that is not in the scene;
+    /// [`ReplayError::Unreadable`] if the disk is gone.
+    pub fn next_frame(&mut self) -> Result<Option<ReplayFrame>, ReplayError> {
+        if !self.has_begun {
+            self.has_begun = true;
+            self.next = self.read_row()?;
+        }
+        let Some(mut last) = self.next.take() else {
+            return Ok(None);
+        };
+        let mut frame = ReplayFrame { time: last.time, balls: vec![self.ball(&last)?] };
+        while let Some(row) = self.read_row()? {
+            if row.time < last.time {
+                let problem = LineProblem::TimeGoesBack { time: row.time, last: last.time };
+                return Err(self.line(row.line, problem));
+            }
+            if row.time > last.time {
+                self.next = Some(row);
+                break;
+            }
+            if row.number <= last.number {
+                let problem = LineProblem::Order { ball: row.number, last: last.number };
+                return Err(self.line(row.line, problem));
+            }
+            frame.balls.push(self.ball(&row)?);
+            last = row;
+        }
+        Ok(Some(frame))
+    }
+
+    fn read_row(&mut self) -> Result<Option<Row>, ReplayError> {
+        let mut record = csv::StringRecord::new();
+        let read = self.reader.read_record(&mut record);
+        if !read.map_err(|error| broken(&self.path, error))? {
+            return Ok(None);
+        }
+        let line = record.position().map_or(0, csv::Position::line);
+        let row = parse(&record, &self.columns);
+        row.map(|row| Some(Row { line, ..row })).map_err(|problem| self.line(line, problem))
+    }
+
+    fn ball(&mut self, row: &Row) -> Result<ReplayBall, ReplayError> {
+        let Row { line, time, number, position, velocity } = *row;
+        let kind = self.balls.kind(number, time);
+        let unknown = || self.line(line, LineProblem::UnknownBall { ball: number, time });
+        let Kind { radius, mass, color } = kind.ok_or_else(unknown)?;
+        Ok(ReplayBall { number, position, velocity, radius, mass, color })
+    }
+
+    fn line(&self, line: u64, problem: LineProblem) -> ReplayError {
+        ReplayError::Line { path: self.path.clone(), line, problem }
+    }
+}
+
+/// The row that a record stands for; its line is not known here.
+fn parse(record: &csv::StringRecord, columns: &[usize; 8]) -> Result<Row, LineProblem> {
+    let field = |column: usize| record.get(columns[column]).unwrap_or_default().trim();
+    let wrong = |column: usize| {
+        let text = field(column).to_owned();
+        LineProblem::NotANumber { column: HEADER[column], text }
+    };
+    let mut values = [0.0; 8];
+    for (column, value) in values.iter_mut().enumerate() {
+        let parsed = field(column).parse().ok().filter(|value: &f64| value.is_finite());
+        *value = parsed.ok_or_else(|| wrong(column))?;
+    }
+    let number = field(1).parse().map_err(|_| wrong(1))?;
+    let [time, _, x, y, z, vx, vy, vz] = values;
+    let (position, velocity) = (DVec3::new(x, y, z), DVec3::new(vx, vy, vz));
+    Ok(Row { line: 0, time, number, position, velocity })
+}
+
+/// What went wrong with reading a table.
+fn broken(path: &Path, error: csv::Error) -> ReplayError {
+    let path = path.to_owned();
+    let line = error.position().map_or(0, csv::Position::line);
+    let problem = match error.kind() {
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            LineProblem::Fields { fields: *len, expected: *expected_len }
+        }
+        csv::ErrorKind::Utf8 { .. } => LineProblem::NotText,
+        _ => return ReplayError::Unreadable { path, source: error.into() },
+    };
+    ReplayError::Line { path, line, problem }
+}
+
+/// What a ball is, whatever its place.
+#[derive(Debug, Clone, Copy)]
+struct Kind {
+    radius: f64,
+    mass: f64,
+    color: Option<Color>,
+}
+
+/// What the balls of a scene are, by number.
+#[derive(Debug)]
+struct Balls {
+    origins: Origins,
+    initial: Vec<Kind>,
+    /// One for each emitter.
+    emitted: Vec<Kind>,
+}
+
+impl Balls {
+    /// Those of a scene, and of its world at the start.
+    fn new(scene: &Scene, world: &World) -> Result<Self, SceneError> {
+        let origins = palette::origins(scene)?;
+        let color = |number| match origins.of(number)? {
+            Origin::Sphere(index) => scene.spheres[index].color,
+            Origin::Generator(index) => generate::template(&scene.generators[index]).color,
+            Origin::Emitter(_) => None,
+        };
+        let spheres = world.spheres();
+        let sizes = spheres.radii().iter().zip(spheres.masses());
+        let initial = (0..).zip(sizes).map(|(number, (&radius, &mass))| Kind {
+            radius,
+            mass,
+            color: color(number),
+        });
+        let initial = initial.collect();
+        let emitted = world.emitters().zip(&scene.emitters).map(|((_, emitter), written)| {
+            let carom::Emitter { sphere, .. } = emitter;
+            Kind { radius: sphere.radius, mass: sphere.kilograms(), color: written.sphere.color }
+        });
+        let emitted = emitted.collect();
+        Ok(Self { origins, initial, emitted })
+    }
+
+    /// The balls of the world at its start.
+    fn at_start(&self, world: &World) -> Vec<ReplayBall> {
+        let spheres = world.spheres();
+        let states = spheres.positions().iter().zip(spheres.velocities());
+        let balls = (0..).zip(states.zip(&self.initial));
+        let ball = |(number, ((&position, &velocity), kind)): (u64, ((&DVec3, &DVec3), &Kind))| {
+            let Kind { radius, mass, color } = *kind;
+            ReplayBall { number, position, velocity, radius, mass, color }
+        };
+        balls.map(ball).collect()
+    }
+
+    /// What the ball of this number is, if it is in the scene at this time \[s\].
+    fn kind(&mut self, number: u64, time: f64) -> Option<Kind> {
+        let index = usize::try_from(number).ok()?;
+        if let Some(kind) = self.initial.get(index) {
+            return Some(*kind);
+        }
+        self.origins.follow_to(number, time);
+        match self.origins.of(number)? {
+            Origin::Emitter(emitter) => self.emitted.get(emitter).copied(),
+            Origin::Sphere(_) | Origin::Generator(_) => None,
+        }
+    }
+}

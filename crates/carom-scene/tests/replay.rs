@@ -1,0 +1,209 @@
+//! Recordings are played as they were run, and broken ones are refused by the line.
+#![cfg(feature = "recording")]
+#![allow(missing_docs)]
+
+use std::path::Path;
+
+use carom::World;
+use carom_scene::recording::{LineProblem, Playback, Replay, ReplayError, ReplayFrame, Trajectory};
+use carom_scene::scene::{Rule, Sphere};
+use carom_scene::{Library, Scene};
+
+const FILE: &str = "t.csv";
+
+fn scene(name: &str, rule: Rule) -> Scene {
+    let (mut scene, _) = Library::new().find(name, &[]).unwrap();
+    scene.simulation.rule = rule;
+    scene
+}
+
+/// Runs a scene and records every `every`-th of its frames; the world after each frame.
+fn record(scene: &Scene, frames: usize, every: usize, path: &Path) -> Vec<World> {
+    let mut table = Trajectory::create(path).unwrap();
+    let mut world = scene.world().unwrap();
+    let mut worlds = Vec::new();
+    for frame in 1..=frames {
+        world.step(scene.simulation.frame_time).unwrap();
+        if frame.is_multiple_of(every) {
+            table.write(&world).unwrap();
+        }
+        worlds.push(world.clone());
+    }
+    table.finish().unwrap();
+    worlds
+}
+
+#[track_caller]
+fn assert_same(frame: &ReplayFrame, world: &World) {
+    assert_eq!(frame.time, world.time());
+    let spheres = world.spheres();
+    assert_eq!(frame.balls.len(), spheres.len());
+    for (i, ball) in frame.balls.iter().enumerate() {
+        assert_eq!(ball.number, spheres.ids()[i].number());
+        assert_eq!(ball.position, spheres.positions()[i]);
+        assert_eq!(ball.velocity, spheres.velocities()[i]);
+        assert_eq!(ball.radius, spheres.radii()[i]);
+        assert_eq!(ball.mass, spheres.masses()[i]);
+    }
+}
+
+#[test]
+fn a_replay_has_the_same_bits_as_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, rule) in [
+        ("simtest1", Rule::Exact),
+        ("simtest1", Rule::Discrete),
+        ("simtest6", Rule::Exact),
+        ("tutorial1", Rule::Bisect),
+    ] {
+        let path = folder.path().join(FILE);
+        let scene = scene(name, rule);
+        let worlds = record(&scene, 150, 1, &path);
+        let mut replay = Replay::open(&path, &scene).unwrap();
+        for world in &worlds {
+            assert_same(&replay.next_frame().unwrap().unwrap(), world);
+        }
+        assert_eq!(replay.next_frame().unwrap(), None);
+    }
+}
+
+/// Emitters of different spheres, whose turns fall together now and then.
+#[test]
+fn every_ball_is_that_of_its_emitter() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(FILE);
+    for rule in [Rule::Exact, Rule::Discrete, Rule::Bisect] {
+        let mut scene = scene("simtest1", rule);
+        scene.spheres = vec![Sphere::at([90.0, 90.0, 0.0], 0.5)];
+        let first = scene.emitters[0].clone();
+        for (i, period) in [(1, 0.011), (2, 0.1), (3, 0.25)] {
+            let mut emitter = first.clone();
+            emitter.position[0] += 20.0 * f64::from(i);
+            emitter.period = period;
+            emitter.max_spheres = Some(4);
+            emitter.sphere.diameter = None;
+            emitter.sphere.radius = Some(0.1 + 0.01 * f64::from(i));
+            emitter.sphere.color = Some([0.1 * f64::from(i); 3]);
+            scene.emitters.push(emitter);
+        }
+        let worlds = record(&scene, 60, 7, &path);
+        let mut replay = Replay::open(&path, &scene).unwrap();
+        for world in worlds.iter().skip(6).step_by(7) {
+            let frame = replay.next_frame().unwrap().unwrap();
+            assert_same(&frame, world);
+            for ball in &frame.balls {
+                let emitter =
+                    scene.emitters[1..].iter().find(|it| it.sphere.radius == Some(ball.radius));
+                let color = emitter.and_then(|emitter| emitter.sphere.color);
+                assert_eq!(ball.color, color.or(first.sphere.color).filter(|_| ball.number > 0));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_film_at_the_rate_of_the_recording_shows_its_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(FILE);
+    let scene = scene("simtest1", Rule::Exact);
+    let worlds = record(&scene, 200, 1, &path);
+    // simtest1 has 50 frames per second: a film of 25 shows every other one.
+    let rate = (1.0 / scene.simulation.frame_time).round();
+    let mut playback = Playback::new(Replay::open(&path, &scene).unwrap()).unwrap();
+    assert_same(&playback.at(0.0).unwrap().unwrap(), &scene.world().unwrap());
+    for frame in (2..=200).step_by(2) {
+        let found = playback.at(frame as f64 / rate).unwrap().unwrap();
+        assert_same(&found, &worlds[frame - 1]);
+    }
+    assert_eq!(playback.at(201.0 / rate).unwrap(), None);
+}
+
+#[test]
+fn between_frames_balls_fly_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(FILE);
+    let mut scene = scene("simtest1", Rule::Exact);
+    scene.colliders.clear();
+    let worlds = record(&scene, 120, 6, &path);
+    let mut playback = Playback::new(Replay::open(&path, &scene).unwrap()).unwrap();
+    for world in &worlds[6..] {
+        let frame = playback.at(world.time()).unwrap().unwrap();
+        let spheres = world.spheres();
+        for ball in &frame.balls {
+            let index = spheres.ids().iter().position(|id| id.number() == ball.number).unwrap();
+            // Nothing but gravity: the curve is the flight. Roundings at 10 m, over a frame.
+            let error = ball.position.distance(spheres.positions()[index]);
+            assert!(error < 1e-12, "{error} at {}", world.time());
+        }
+    }
+}
+
+/// The error that a table with these rows ends in.
+fn refusal(header: &str, rows: &[&str]) -> ReplayError {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(FILE);
+    std::fs::write(&path, format!("{header}\n{}\n", rows.join("\n"))).unwrap();
+    let (scene, _) = Library::new().find("simtest1", &[]).unwrap();
+    let mut replay = match Replay::open(&path, &scene) {
+        Ok(replay) => replay,
+        Err(error) => return error,
+    };
+    loop {
+        match replay.next_frame() {
+            Ok(Some(_)) => {}
+            Ok(None) => panic!("nothing was refused"),
+            Err(error) => return error,
+        }
+    }
+}
+
+#[test]
+fn broken_tables_are_refused_by_the_line() {
+    const HEADER: &str = "t,ball,x,y,z,vx,vy,vz";
+    const GOOD: &str = "0.02,0,1,2,3,4,5,6";
+    let problem = |rows: &[&str], line: u64| match refusal(HEADER, rows) {
+        ReplayError::Line { line: found, problem, .. } => {
+            assert_eq!(found, line, "{problem}");
+            problem
+        }
+        error => panic!("{error}"),
+    };
+    let found = problem(&[GOOD, "0.04,0,1,two,3,4,5,6"], 3);
+    assert!(matches!(found, LineProblem::NotANumber { column: "y", text } if text == "two"));
+    let found = problem(&["0.02,0,1,2,3,4,5,NaN"], 2);
+    assert!(matches!(found, LineProblem::NotANumber { column: "vz", .. }));
+    let found = problem(&["0.02,-1,1,2,3,4,5,6"], 2);
+    assert!(matches!(found, LineProblem::NotANumber { column: "ball", .. }));
+    let found = problem(&[GOOD, "0.04,0,1,2,3"], 3);
+    assert!(matches!(found, LineProblem::Fields { fields: 5, expected: 8 }));
+    let found = problem(&["0.04,0,1,2,3,4,5,6", GOOD], 3);
+    assert!(matches!(found, LineProblem::TimeGoesBack { time: 0.02, last: 0.04 }));
+    let found = problem(&[GOOD, GOOD], 3);
+    assert!(matches!(found, LineProblem::Order { ball: 0, last: 0 }));
+    for ball in ["7", "12345678901234", "18446744073709551615"] {
+        let found = problem(&[GOOD, &format!("0.04,{ball},1,2,3,4,5,6")], 3);
+        assert!(matches!(found, LineProblem::UnknownBall { time: 0.04, .. }), "{found}");
+    }
+    // Neither does a time beyond reason take forever.
+    assert!(matches!(problem(&["1e300,0,1,2,3,4,5,6", GOOD], 3), LineProblem::TimeGoesBack { .. }));
+    let found = refusal("t,ball,x,y,z,vx,vy", &["0.02,0,1,2,3,4,5"]);
+    assert!(matches!(found, ReplayError::MissingColumn { column: "vz", .. }));
+}
+
+#[test]
+fn a_file_that_is_not_there_is_named() {
+    let (scene, _) = Library::new().find("simtest1", &[]).unwrap();
+    let error = Replay::open(Path::new("no/such.csv"), &scene).unwrap_err().to_string();
+    assert!(error.starts_with("cannot read no/such.csv: "), "{error}");
+}
+
+#[test]
+fn columns_may_stand_in_any_order_beside_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(FILE);
+    std::fs::write(&path, "note,vz,vy,vx,z,y,x,ball,t\r\nhello,6,5,4,3,2,1,0,0.02\r\n").unwrap();
+    let (scene, _) = Library::new().find("simtest1", &[]).unwrap();
+    let frame = Replay::open(&path, &scene).unwrap().next_frame().unwrap().unwrap();
+    assert_eq!(frame.balls[0].position.to_array(), [1.0, 2.0, 3.0]);
+    assert_eq!(frame.balls[0].velocity.to_array(), [4.0, 5.0, 6.0]);
+}
