@@ -146,18 +146,42 @@ impl Game {
         Ok(&self.events)
     }
 
-    /// Steps the world by a frame in which the maze turns to `tilt`.
+    /// Steps the world by a frame in which the maze turns to `tilt`: by the rule `exact`, and where
+    /// that fails by the rule `discrete`. The ball never gets lost.
     fn step_world(&mut self, tilt: Tilt) -> Result<(), GameError> {
+        let before = self.world.snapshot();
+        if self.world.overlaps(SUNK).is_empty() {
+            let reach = self.reach(tilt);
+            let place = self.world.spheres().positions()[0];
+            self.move_maze(self.tilt, tilt)?;
+            match self.world.step(self.options.frame_time).map(drop) {
+                Ok(()) if self.is_lawful(place, reach) => return Ok(()),
+                Ok(()) | Err(Error::TooManyImpacts { .. }) => self.world.restore(&before),
+                Err(error) => return Err(error.into()),
+            }
+        }
+        let stepped = self.step_roughly(tilt);
+        if stepped.is_err() {
+            self.world.restore(&before);
+        }
+        stepped
+    }
+
+    /// How far the ball can get \[m\] while the maze turns to `tilt`: by its own speed, by what
+    /// gravity adds, and by twice the speed of walls, which an elastic one gives it.
+    fn reach(&self, tilt: Tilt) -> f64 {
         let h = self.options.frame_time;
-        if !self.world.overlaps(SUNK).is_empty() {
-            return self.step_roughly(tilt);
-        }
-        self.move_maze(self.tilt, tilt)?;
-        match self.world.step(h) {
-            Ok(_) => Ok(()),
-            Err(Error::TooManyImpacts { .. }) => self.step_roughly(tilt),
-            Err(error) => Err(error.into()),
-        }
+        let turn = rotation_vector(tilt.rotation() * self.tilt().inverse()).length();
+        let spheres = self.world.spheres();
+        let (arm, speed) = (spheres.positions()[0].length(), spheres.velocities()[0].length());
+        let arm = arm + 2.0 * self.maze.ball_radius();
+        h * speed + h * h * self.maze.gravity() + 2.0 * turn * arm
+    }
+
+    /// Whether the ball, which was at a place, is where it can have got to, and in no wall.
+    fn is_lawful(&self, place: DVec3, reach: f64) -> bool {
+        let way = self.world.spheres().positions()[0].distance(place);
+        way <= reach + SUNK && self.world.overlaps(SUNK).is_empty()
     }
 
     /// Takes a frame by the rule `discrete`, which always ends: the ball moves, and is put out of
