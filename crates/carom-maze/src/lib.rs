@@ -1,1 +1,52 @@
-//! The maze game: its rules, mazes, and a player that finds the way. No drawing.
+//! The maze game: a ball on a floor between walls, which the player tilts. No drawing, no clock.
+//!
+//! A [`Maze`] is a scene whose colliders have roles: ground, walls, end walls, collectibles. It is
+//! the course's ([`Maze::course`]), drawn with characters ([`Maze::from_text`]) or made at random
+//! ([`Maze::random`]). A [`Game`] plays in it, frame by frame, under a [`Steering`]; a [`Player`]
+//! finds the way by itself.
+//!
+//! ```
+//! use carom_maze::{Game, Maze, Options, Player};
+//!
+//! let maze = Maze::random(7, 3, 3)?;
+//! let mut player = Player::new(&maze, 1)?;
+//! let mut game = Game::new(maze, Options::default())?;
+//! for _ in 0..60 {
+//!     let steering = player.steer(&game);
+//!     for event in game.step(steering)? {
+//!         println!("{event:?}");
+//!     }
+//! }
+//! assert_eq!(game.elapsed(), 1.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A frame of the game: the *tilt* follows the steering, the *motion* of every collider takes it
+//! from the old tilt to the new one, the *world* is stepped, and *events* are read from its report.
+
+#![warn(clippy::unwrap_used)]
+
+mod builtin;
+mod camera;
+mod cover;
+mod drawing;
+mod error;
+mod floor;
+mod game;
+mod layout;
+mod maze;
+mod options;
+mod player;
+mod random;
+mod route;
+mod tilt;
+
+pub use builtin::DRAWINGS as BUILT_IN_DRAWINGS;
+pub use drawing::TextProblem;
+pub use error::{GameError, MazeError, PlanError};
+pub use game::{Game, GameEvent, GameState};
+pub use maze::{Maze, Role};
+pub use options::Options;
+pub use player::Player;
+pub use random::{MOST_CELLS_PER_SIDE, random_text};
+pub use tilt::{Steering, Tilt};

@@ -37,12 +37,14 @@ impl Colliders {
         self.tree.take();
     }
 
-    /// Puts a collider in the place of one that is there.
-    pub fn set(&mut self, id: ColliderId, collider: Collider) {
-        if let Some(place) = self.list.get_mut(id.0) {
-            *place = collider;
-            self.place_all();
+    /// Puts colliders in the places of some that are there.
+    pub fn set(&mut self, changes: &[(ColliderId, Collider)]) {
+        for &(id, collider) in changes {
+            if let Some(place) = self.list.get_mut(id.0) {
+                *place = collider;
+            }
         }
+        self.place_all();
     }
 
     pub fn remove(&mut self, id: ColliderId) -> Option<Collider> {

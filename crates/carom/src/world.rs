@@ -328,9 +328,20 @@ impl World {
     /// [`Error::Unknown`] if there is no such collider, [`Error::Invalid`] for a number that
     /// makes no sense.
     pub fn set_collider(&mut self, id: ColliderId, collider: Collider) -> Result<(), Error> {
-        self.collider(id)?;
-        collider.validate().map_err(|invalid| invalid.about(Subject::Collider(id)))?;
-        self.state.changed().colliders.set(id, collider);
+        self.set_colliders(&[(id, collider)])
+    }
+
+    /// Changes several colliders at once. Surfaces are placed anew once for all of them: to move
+    /// many colliders together costs as much as to move one.
+    ///
+    /// # Errors
+    /// As [`Self::set_collider`]; then none is changed.
+    pub fn set_colliders(&mut self, changes: &[(ColliderId, Collider)]) -> Result<(), Error> {
+        for (id, collider) in changes {
+            self.collider(*id)?;
+            collider.validate().map_err(|invalid| invalid.about(Subject::Collider(*id)))?;
+        }
+        self.state.changed().colliders.set(changes);
         Ok(())
     }
 

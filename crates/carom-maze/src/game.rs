@@ -1,0 +1,396 @@
+//! The game: the maze tilts, the ball rolls, and what it touches counts.
+
+use carom::{
+    Collider, ColliderId, DQuat, DVec3, Error, Exact, Participants, Pose, Rule, Settings, Snapshot,
+    SphereId, World,
+};
+use carom_scene::scene::Scene;
+
+use crate::error::GameError;
+use crate::maze::{Maze, Role};
+use crate::options::Options;
+use crate::tilt::{Steering, Tilt, rotation_vector};
+
+/// Impacts of the ball in a frame. A rolling ball needs some ten; a frame that needs more than this
+/// is taken by the rule `discrete`, after some milliseconds.
+const MOST_IMPACTS: u32 = 2_000;
+/// A ball that is deeper in the maze than that \[m\] has sunk in: it is put out again. Far more than
+/// what the rule `exact` leaves uncertain where surfaces turn, far less than one can see.
+const SUNK: f64 = 1e-6;
+
+/// Where a game stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum GameState {
+    /// The ball rolls.
+    Rolling,
+    /// The ball touched an end wall; the game stands still until it is played again.
+    Won {
+        /// Time it took \[s\].
+        time: f64,
+    },
+}
+
+/// What happened in a frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum GameEvent {
+    /// The ball touched a collectible, which vanished.
+    Collected {
+        /// Which, in the order of [`Maze::collectibles`].
+        index: usize,
+        /// How many are taken now.
+        count: usize,
+    },
+    /// The ball fell out of the maze and starts again.
+    Fell,
+    /// The ball touched an end wall.
+    Won {
+        /// Time it took \[s\].
+        time: f64,
+        /// How many collectibles were taken.
+        collected: usize,
+        /// Whether no game before was won in less time.
+        is_best: bool,
+    },
+}
+
+/// A collider of the world, as it is in the level maze.
+#[derive(Debug, Clone)]
+struct Part {
+    id: ColliderId,
+    role: Role,
+    level: Collider,
+}
+
+/// A game in a maze.
+///
+/// Time runs from the first frame in which the player steers. The ball starts at rest on the ground,
+/// the maze level. A collectible that the ball touches vanishes and counts. A ball that falls below
+/// [`Options::reset_height`] starts again, with the maze level; what it has collected stays
+/// collected, and time runs on. Touching an end wall wins.
+#[derive(Debug, Clone)]
+pub struct Game {
+    maze: Maze,
+    options: Options,
+    world: World,
+    /// The world at the start of a game.
+    start: Snapshot,
+    ball: SphereId,
+    /// Those that are still there, in the order of the world's colliders.
+    parts: Vec<Part>,
+    /// The maze's scene without what was taken.
+    scene: Scene,
+    tilt: Tilt,
+    state: GameState,
+    collected: usize,
+    /// Frames since the player first steered.
+    frames: u64,
+    best: Option<f64>,
+    rough_frames: u64,
+    events: Vec<GameEvent>,
+}
+
+impl Game {
+    /// A game that has not begun.
+    ///
+    /// # Errors
+    /// [`GameError::Option`] for an option that makes no sense, also for a reset height that is not
+    /// below the start.
+    pub fn new(maze: Maze, options: Options) -> Result<Self, GameError> {
+        options.validate()?;
+        if options.reset_height >= maze.start().y {
+            let (field, value) = ("reset_height", options.reset_height);
+            return Err(GameError::Option { field, requirement: "below the ball's start", value });
+        }
+        let mut world = maze.scene().world()?;
+        world.set_settings(settings(Rule::Exact(exact()), &world))?;
+        let both = world.colliders().zip(maze.roles());
+        let parts = both.map(|((id, level), &role)| Part { id, role, level: *level }).collect();
+        Ok(Self {
+            start: world.snapshot(),
+            ball: world.spheres().ids()[0],
+            world,
+            parts,
+            scene: maze.scene().clone(),
+            maze,
+            options,
+            tilt: Tilt::LEVEL,
+            state: GameState::Rolling,
+            collected: 0,
+            frames: 0,
+            best: None,
+            rough_frames: 0,
+            events: Vec::new(),
+        })
+    }
+
+    /// Plays one frame. A game that is won stands still.
+    ///
+    /// # Errors
+    /// [`GameError::Steering`] for steering that is not finite, [`GameError::Physics`] if a number
+    /// would overflow. The game is then as it was.
+    pub fn step(&mut self, steering: Steering) -> Result<&[GameEvent], GameError> {
+        self.events.clear();
+        steering.validate()?;
+        if self.state != GameState::Rolling {
+            return Ok(&[]);
+        }
+        let tilt = self.tilt.steered(steering, &self.options);
+        self.step_world(tilt)?;
+        self.tilt = tilt;
+        if self.frames > 0 || steering.is_active() {
+            self.frames += 1;
+        }
+        self.collect()?;
+        self.win();
+        self.catch()?;
+        Ok(&self.events)
+    }
+
+    /// Steps the world by a frame in which the maze turns to `tilt`: by the rule `exact`, and where
+    /// that fails by the rule `discrete`. The ball never gets lost.
+    fn step_world(&mut self, tilt: Tilt) -> Result<(), GameError> {
+        let before = self.world.snapshot();
+        if self.world.overlaps(SUNK).is_empty() {
+            let reach = self.reach(tilt);
+            let place = self.world.spheres().positions()[0];
+            self.move_maze(self.tilt, tilt)?;
+            match self.world.step(self.options.frame_time).map(drop) {
+                Ok(()) if self.is_lawful(place, reach) => return Ok(()),
+                Ok(()) | Err(Error::TooManyImpacts { .. }) => self.world.restore(&before),
+                Err(error) => return Err(error.into()),
+            }
+        }
+        let stepped = self.step_roughly(tilt);
+        if stepped.is_err() {
+            self.world.restore(&before);
+        }
+        stepped
+    }
+
+    /// How far the ball can get \[m\] while the maze turns to `tilt`: by its own speed, by what
+    /// gravity adds, and by twice the speed of walls, which an elastic one gives it.
+    fn reach(&self, tilt: Tilt) -> f64 {
+        let h = self.options.frame_time;
+        let turn = rotation_vector(tilt.rotation() * self.tilt().inverse()).length();
+        let spheres = self.world.spheres();
+        let (arm, speed) = (spheres.positions()[0].length(), spheres.velocities()[0].length());
+        let arm = arm + 2.0 * self.maze.ball_radius();
+        h * speed + h * h * self.maze.gravity() + 2.0 * turn * arm
+    }
+
+    /// Whether the ball, which was at a place, is where it can have got to, and in no wall.
+    fn is_lawful(&self, place: DVec3, reach: f64) -> bool {
+        let way = self.world.spheres().positions()[0].distance(place);
+        way <= reach + SUNK && self.world.overlaps(SUNK).is_empty()
+    }
+
+    /// Takes a frame by the rule `discrete`, which always ends: the ball moves, and is put out of
+    /// the maze as it is at the end of the frame.
+    fn step_roughly(&mut self, tilt: Tilt) -> Result<(), GameError> {
+        self.rough_frames += 1;
+        self.move_maze(self.tilt, tilt)?;
+        let turned: Vec<_> = self
+            .parts
+            .iter()
+            .map(|part| {
+                let moving = self.world.collider(part.id);
+                moving.map(|it| {
+                    (part.id, Collider { pose: posed(&part.level, tilt.rotation()), ..it })
+                })
+            })
+            .collect::<Result<_, Error>>()?;
+        self.world.set_colliders(&turned)?;
+        self.world.set_settings(settings(Rule::Discrete, &self.world))?;
+        let stepped = self.world.step(self.options.frame_time).map(drop);
+        self.world.set_settings(settings(Rule::Exact(exact()), &self.world))?;
+        Ok(stepped?)
+    }
+
+    /// Sets every collider where it is at one tilt, with the steady motion that takes it to where it
+    /// is at another after a frame. Poses follow from the tilt, so they never drift.
+    fn move_maze(&mut self, from: Tilt, to: Tilt) -> Result<(), GameError> {
+        let (before, after) = (from.rotation(), to.rotation());
+        let turn = rotation_vector(after * before.inverse()) / self.options.frame_time;
+        if turn == DVec3::ZERO && self.is_posed(before) {
+            return Ok(());
+        }
+        let moved = |part: &Part| {
+            let pose = posed(&part.level, before);
+            let way = posed(&part.level, after).position - pose.position;
+            let velocity = way / self.options.frame_time;
+            (part.id, Collider { pose, ..part.level.moving(velocity, turn) })
+        };
+        let changes: Vec<_> = self.parts.iter().map(moved).collect();
+        Ok(self.world.set_colliders(&changes)?)
+    }
+
+    /// Whether the colliders are at rest where a rotation of the maze puts them.
+    fn is_posed(&self, rotation: DQuat) -> bool {
+        let mut both = self.world.colliders().zip(&self.parts);
+        both.all(|((_, now), part)| {
+            *now == Collider { pose: posed(&part.level, rotation), ..part.level }
+        })
+    }
+
+    /// Takes the collectibles that the ball touches.
+    fn collect(&mut self) -> Result<(), GameError> {
+        let touched: Vec<ColliderId> =
+            self.world.report().triggers.iter().map(|contact| contact.collider).collect();
+        for id in touched {
+            let Some(place) = self.parts.iter().position(|part| part.id == id) else { continue };
+            let Role::Collectible(index) = self.parts[place].role else { continue };
+            self.world.remove_collider(id)?;
+            self.parts.remove(place);
+            self.scene.colliders.remove(place);
+            self.collected += 1;
+            self.events.push(GameEvent::Collected { index, count: self.collected });
+        }
+        Ok(())
+    }
+
+    /// Wins if the ball touched an end wall.
+    fn win(&mut self) {
+        let is_end_wall = |id: ColliderId| {
+            self.parts.iter().any(|part| part.id == id && part.role == Role::EndWall)
+        };
+        let touches = |between| match between {
+            Participants::Collider { collider, .. } => is_end_wall(collider),
+            Participants::Spheres(..) => false,
+        };
+        if self.world.report().impacts.iter().any(|impact| touches(impact.between)) {
+            let (time, collected) = (self.elapsed(), self.collected);
+            let is_best = self.best.is_none_or(|best| time < best);
+            if is_best {
+                self.best = Some(time);
+            }
+            self.state = GameState::Won { time };
+            self.events.push(GameEvent::Won { time, collected, is_best });
+        }
+    }
+
+    /// Lets a ball that fell start again.
+    fn catch(&mut self) -> Result<(), GameError> {
+        let is_low = self.ball_in_maze().0.y < self.options.reset_height;
+        if self.state != GameState::Rolling || !is_low {
+            return Ok(());
+        }
+        let ball = self.world.sphere(self.ball)?;
+        let ball = carom::Sphere { position: self.maze.start(), velocity: DVec3::ZERO, ..ball };
+        self.world.set_sphere(self.ball, ball)?;
+        self.tilt = Tilt::LEVEL;
+        self.move_maze(Tilt::LEVEL, Tilt::LEVEL)?;
+        self.events.push(GameEvent::Fell);
+        Ok(())
+    }
+
+    /// Starts anew: everything is where it was at first, and the time is zero. The best time stays.
+    pub fn play_again(&mut self) {
+        self.world.restore(&self.start);
+        let both = self.world.colliders().zip(self.maze.roles());
+        self.parts = both.map(|((id, level), &role)| Part { id, role, level: *level }).collect();
+        self.scene.clone_from(self.maze.scene());
+        self.tilt = Tilt::LEVEL;
+        self.state = GameState::Rolling;
+        (self.collected, self.frames) = (0, 0);
+        self.events.clear();
+    }
+
+    /// The maze that is played.
+    pub fn maze(&self) -> &Maze {
+        &self.maze
+    }
+
+    /// How it is played.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Length of a frame \[s\].
+    pub fn frame_time(&self) -> f64 {
+        self.options.frame_time
+    }
+
+    /// Everything as it is now, tilted; the ball is its only sphere.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// How everything looks: the scene of the maze without what was taken. Its colliders are in the
+    /// order of those of [`Self::world`], which knows where they are now.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Rotation from the maze to the world.
+    pub fn tilt(&self) -> DQuat {
+        self.tilt.rotation()
+    }
+
+    /// The tilt as angles.
+    pub fn tilt_angles(&self) -> Tilt {
+        self.tilt
+    }
+
+    /// Position \[m\] and velocity \[m/s\] of the ball's centre along the axes of the maze. The
+    /// velocity is that in the world: the maze may turn under it.
+    pub fn ball_in_maze(&self) -> (DVec3, DVec3) {
+        let spheres = self.world.spheres();
+        let into_maze = self.tilt().inverse();
+        (into_maze * spheres.positions()[0], into_maze * spheres.velocities()[0])
+    }
+
+    /// Whether it is still played.
+    pub fn state(&self) -> GameState {
+        self.state
+    }
+
+    /// How many collectibles were taken.
+    pub fn collected(&self) -> usize {
+        self.collected
+    }
+
+    /// Which collectibles are still there, ascending, in the order of [`Maze::collectibles`].
+    pub fn remaining(&self) -> impl Iterator<Item = usize> + '_ {
+        self.parts.iter().filter_map(|part| match part.role {
+            Role::Collectible(index) => Some(index),
+            _ => None,
+        })
+    }
+
+    /// Time since the player first steered \[s\].
+    pub fn elapsed(&self) -> f64 {
+        self.frames as f64 * self.options.frame_time
+    }
+
+    /// The least time in which this game was won \[s\].
+    pub fn best(&self) -> Option<f64> {
+        self.best
+    }
+
+    /// What happened in the last frame.
+    pub fn events(&self) -> &[GameEvent] {
+        &self.events
+    }
+
+    /// Frames that were taken by the rule `discrete`, because in them the ball met walls more often
+    /// than the rule `exact` is allowed to follow, or because it had sunk into a wall.
+    pub fn rough_frames(&self) -> u64 {
+        self.rough_frames
+    }
+}
+
+fn exact() -> Exact {
+    Exact { max_impacts: MOST_IMPACTS, ..Exact::default() }
+}
+
+fn settings(rule: Rule, world: &World) -> Settings {
+    Settings { rule, ..*world.settings() }
+}
+
+/// Pose of a collider when the maze is turned about the origin.
+fn posed(level: &Collider, rotation: DQuat) -> Pose {
+    Pose {
+        position: rotation * level.pose.position,
+        rotation: rotation * level.pose.rotation.normalize(),
+    }
+}

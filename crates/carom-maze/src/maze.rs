@@ -1,0 +1,268 @@
+//! A maze: a scene in its own frame, and what each collider is in the game.
+
+use carom::{DQuat, DVec3};
+use carom_scene::scene::{Collider, Color, Colors, Force, Scene, Shape, Sphere};
+use carom_scene::{Library, SceneError};
+
+use crate::drawing::{Drawing, TextProblem};
+use crate::error::MazeError;
+use crate::floor::Floor;
+use crate::layout;
+use crate::random;
+
+/// Colours of what has none in the scene.
+const WALL_COLOR: Color = [0.42, 0.55, 0.71];
+const END_WALL_COLOR: Color = [0.80, 0.25, 0.22];
+const GROUND_COLOR: Color = [0.86, 0.86, 0.84];
+const COLLECTIBLE_COLOR: Color = [0.95, 0.76, 0.2];
+const BALL_COLOR: Color = [0.90, 0.92, 0.95];
+
+/// What a collider is in the game.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// The ball bounces off it.
+    Wall,
+    /// Whoever touches it wins.
+    EndWall,
+    /// The ball rolls on it.
+    Ground,
+    /// It faces down, and keeps the ball from jumping.
+    Ceiling,
+    /// It vanishes when touched, and counts. The number is its place among the collectibles.
+    Collectible(usize),
+}
+
+/// A maze in its own frame, level: the scene, and the role of each of its colliders.
+#[derive(Debug, Clone)]
+pub struct Maze {
+    scene: Scene,
+    roles: Vec<Role>,
+    start: DVec3,
+    radius: f64,
+    gravity: f64,
+}
+
+impl Maze {
+    /// The maze of the course.
+    ///
+    /// # Errors
+    /// None but what a broken built-in scene would give.
+    pub fn course() -> Result<Self, MazeError> {
+        let (scene, _) = Library::new().find("maze", &[])?;
+        Self::from_scene(&scene)
+    }
+
+    /// A maze from a scene with one sphere, the ball. Solid colliders named "end wall" win, trigger
+    /// spheres and boxes are collectibles, rectangles and half-spaces that face up are ground,
+    /// those that face down ceiling, and all else is wall. Colours and camera are the scene's.
+    ///
+    /// The ball starts at rest on the ground under its place in the scene. How the scene is
+    /// stepped, and motion in it, do not matter: the game decides that.
+    ///
+    /// # Errors
+    /// [`MazeError`] without a ball, ground under it, gravity, or an end wall; if the ball overlaps
+    /// a wall at its start; and for a scene that makes no sense.
+    pub fn from_scene(scene: &Scene) -> Result<Self, MazeError> {
+        let name = || scene.name.clone();
+        let count = scene.spheres.len() + scene.generators.len() + scene.emitters.len();
+        let [ball] = scene.spheres.as_slice() else {
+            return Err(MazeError::OneBall { scene: name(), count });
+        };
+        if count > 1 {
+            return Err(MazeError::OneBall { scene: name(), count });
+        }
+        let roles = roles(&scene.colliders);
+        if !roles.contains(&Role::EndWall) {
+            return Err(MazeError::NoEndWall { scene: name() });
+        }
+        // A world of the scene as it is checks every number in it.
+        let mut scene = scene.clone();
+        scene.simulation.allow_overlap = true;
+        let ball_in_world = scene.world()?.spheres().get(0);
+        let (radius, place) = (ball_in_world.radius, ball_in_world.position);
+        let gravity = gravity(&scene.forces, ball_in_world.kilograms());
+        if gravity <= 0.0 {
+            return Err(MazeError::NoGravity { scene: name() });
+        }
+        let heights = scene.colliders.iter().zip(&roles).filter_map(|(collider, role)| {
+            let height = ground_height(collider, place)?;
+            (*role == Role::Ground && height <= place.y).then_some(height)
+        });
+        let ground = heights.fold(f64::NEG_INFINITY, f64::max);
+        if ground == f64::NEG_INFINITY {
+            return Err(MazeError::NoGround { scene: name() });
+        }
+        let start = DVec3::new(place.x, ground + radius, place.z);
+        scene.spheres[0] =
+            Sphere { position: start.to_array(), velocity: [0.0; 3], ..ball.clone() };
+        scene.simulation = Default::default();
+        color(&mut scene, &roles);
+        for collider in &mut scene.colliders {
+            (collider.velocity, collider.angular_velocity) = ([0.0; 3], [0.0; 3]);
+        }
+        scene.world()?;
+        Ok(Self { scene, roles, start, radius, gravity })
+    }
+
+    /// A maze drawn with characters: `#` wall, space or `.` floor, `o` collectible, `S` start, `E`
+    /// end wall; the last line is nearest to the viewer. Lines before the drawing may say
+    /// `title: ...` and `walls: thin`: then the first, third, fifth, ... column and row, where walls
+    /// stand, are as narrow as the course's walls. `name` is what the maze is called in errors.
+    ///
+    /// # Errors
+    /// [`MazeError::Text`], with line and column: an unknown character, no start or two, no end, no
+    /// way between them that is wide enough for the ball, too large, or nothing at all.
+    pub fn from_text(text: &str, name: &str) -> Result<Self, MazeError> {
+        let drawing = Drawing::read(text, name)?;
+        let at_start =
+            |problem: TextProblem| problem.at(name, drawing.place_in_text(drawing.start));
+        let maze =
+            Self::from_scene(&layout::scene(&drawing, name)).map_err(|error| match error {
+                MazeError::Scene(SceneError::Invalid(_)) if !name.trim().is_empty() => {
+                    at_start(TextProblem::NarrowStart)
+                }
+                other => other,
+            })?;
+        let floor = Floor::new(&maze)?;
+        let way = floor.cell_near(maze.start).map(|cell| floor.costs_from(&[cell]));
+        let way = way.ok_or_else(|| at_start(TextProblem::NarrowStart))?;
+        let is_reached = |cell: &usize| way[*cell].is_finite();
+        if !floor.cells_at_end_walls().iter().any(is_reached) {
+            return Err(at_start(TextProblem::NoWay));
+        }
+        Ok(maze)
+    }
+
+    /// A maze with one way between any two places, collectibles in dead ends and the end wall far
+    /// from the start. The same seed and size give the same maze; [`random_text`] draws it.
+    ///
+    /// [`random_text`]: crate::random_text
+    ///
+    /// # Errors
+    /// [`MazeError::Size`] for fewer columns or rows than 2, or more than
+    /// [`MOST_CELLS_PER_SIDE`](crate::MOST_CELLS_PER_SIDE).
+    pub fn random(seed: u64, columns: usize, rows: usize) -> Result<Self, MazeError> {
+        let text = random::random_text(seed, columns, rows)?;
+        Self::from_text(&text, &format!("random-{seed}-{columns}x{rows}"))
+    }
+
+    /// What it is called for people.
+    pub fn title(&self) -> &str {
+        if self.scene.title.is_empty() { &self.scene.name } else { &self.scene.title }
+    }
+
+    /// Everything in it, level, the ball at its start; with camera, sun and colours.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// What each collider of [`Self::scene`] is, in the same order.
+    pub fn roles(&self) -> &[Role] {
+        &self.roles
+    }
+
+    /// Where the centre of the ball starts \[m\].
+    pub fn start(&self) -> DVec3 {
+        self.start
+    }
+
+    /// Radius of the ball \[m\].
+    pub fn ball_radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Acceleration of the ball downward \[m/s²\], > 0.
+    pub fn gravity(&self) -> f64 {
+        self.gravity
+    }
+
+    /// Centres of the collectibles \[m\], in their order.
+    pub fn collectibles(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.with_role(|role| matches!(role, Role::Collectible(_)))
+            .map(|collider| DVec3::from_array(collider.position))
+    }
+
+    /// Centres and radii \[m\] of spheres in the collectibles, which touch the ball when they do.
+    pub(crate) fn collectible_spheres(&self) -> impl Iterator<Item = (DVec3, f64)> + '_ {
+        let inner = |shape: &Shape| match *shape {
+            Shape::Sphere { radius } => radius,
+            Shape::Box { size } => 0.5 * DVec3::from_array(size).min_element(),
+            Shape::Rectangle { .. } | Shape::HalfSpace => 0.0,
+        };
+        self.with_role(|role| matches!(role, Role::Collectible(_)))
+            .map(move |it| (DVec3::from_array(it.position), inner(&it.shape)))
+    }
+
+    /// Colliders of some roles.
+    pub(crate) fn with_role(&self, is_it: fn(Role) -> bool) -> impl Iterator<Item = &Collider> {
+        let both = self.scene.colliders.iter().zip(&self.roles);
+        both.filter(move |(_, role)| is_it(**role)).map(|(collider, _)| collider)
+    }
+}
+
+fn roles(colliders: &[Collider]) -> Vec<Role> {
+    let mut collectibles = 0;
+    let role = |collider: &Collider| {
+        let up = up(collider).y;
+        match collider.shape {
+            _ if collider.trigger => {
+                collectibles += 1;
+                Role::Collectible(collectibles - 1)
+            }
+            _ if collider.name.trim().eq_ignore_ascii_case("end wall") => Role::EndWall,
+            Shape::Rectangle { .. } | Shape::HalfSpace if up > 0.5 => Role::Ground,
+            Shape::Rectangle { .. } if up < -0.5 => Role::Ceiling,
+            _ => Role::Wall,
+        }
+    };
+    colliders.iter().map(role).collect()
+}
+
+/// Direction of a collider's own y axis.
+fn up(collider: &Collider) -> DVec3 {
+    let rotation = DQuat::from_array(collider.rotation);
+    if rotation.length_squared() > 0.0 { rotation.normalize() * DVec3::Y } else { DVec3::Y }
+}
+
+/// Acceleration \[m/s²\] downward of a ball of some mass \[kg\].
+fn gravity(forces: &[Force], mass: f64) -> f64 {
+    let down = forces.iter().map(|force| match force {
+        Force::Constant { force } => -force[1] / mass,
+        Force::Gravity { acceleration } => -acceleration[1],
+        Force::ViscousDrag { .. } => 0.0,
+    });
+    down.sum()
+}
+
+/// Height \[m\] of a ground above or below a place; `None` if it does not reach there.
+pub(crate) fn ground_height(collider: &Collider, place: DVec3) -> Option<f64> {
+    let center = DVec3::from_array(collider.position);
+    let normal = up(collider);
+    let height = center.y - (place - center).reject_from(DVec3::Y).dot(normal) / normal.y;
+    let on_it = DVec3::new(place.x, height, place.z) - center;
+    let local = DQuat::from_array(collider.rotation).normalize().inverse() * on_it;
+    let reaches = match collider.shape {
+        Shape::Rectangle { size_x, size_z } => {
+            local.x.abs() <= 0.5 * size_x && local.z.abs() <= 0.5 * size_z
+        }
+        Shape::HalfSpace => true,
+        Shape::Sphere { .. } | Shape::Box { .. } => false,
+    };
+    reaches.then_some(height)
+}
+
+/// Gives colours to what has none.
+fn color(scene: &mut Scene, roles: &[Role]) {
+    let walls = scene.colors.as_ref().and_then(|colors| colors.colliders).unwrap_or(WALL_COLOR);
+    for (collider, role) in scene.colliders.iter_mut().zip(roles) {
+        let own = match role {
+            Role::Wall | Role::Ceiling => walls,
+            Role::EndWall => END_WALL_COLOR,
+            Role::Ground => GROUND_COLOR,
+            Role::Collectible(_) => COLLECTIBLE_COLOR,
+        };
+        collider.color.get_or_insert(own);
+    }
+    let spheres = scene.colors.as_ref().and_then(|colors: &Colors| colors.spheres);
+    scene.spheres[0].color.get_or_insert(spheres.unwrap_or(BALL_COLOR));
+}

@@ -1,0 +1,161 @@
+//! Every transition of the game: what the ball touches, how it falls, who wins, what time says.
+
+mod common;
+
+use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Role, Steering};
+use common::{collectible, game, game_with, open_floor, play, until_event};
+
+const LEFT: Steering = Steering::Turn { about_x: 0.0, about_z: 1.0 };
+const RIGHT: Steering = Steering::Turn { about_x: 0.0, about_z: -1.0 };
+
+#[test]
+fn a_touched_collectible_vanishes_and_counts_once() {
+    let mut scene = open_floor(0.0);
+    scene.colliders.push(collectible([8.0, 0.5, 8.0]));
+    scene.colliders.push(collectible([1.2, 0.5, 0.0]));
+    let mut game = game(&scene);
+    let events = until_event(&mut game, RIGHT, 10.0);
+    assert_eq!(events, [GameEvent::Collected { index: 1, count: 1 }]);
+    assert_eq!(game.collected(), 1);
+    assert_eq!(game.remaining().collect::<Vec<_>>(), [0]);
+    assert_eq!(game.world().colliders().len(), 3);
+    assert_eq!(game.scene().colliders.len(), 3);
+    // Over its place again, on the way back to the end wall.
+    let events = until_event(&mut game, LEFT, 20.0);
+    assert!(matches!(events[..], [GameEvent::Won { collected: 1, .. }]), "{events:?}");
+}
+
+#[test]
+fn touching_an_end_wall_wins_and_then_nothing_moves() {
+    let mut game = game(&open_floor(0.0));
+    let events = until_event(&mut game, LEFT, 10.0);
+    let time = game.elapsed();
+    assert_eq!(events, [GameEvent::Won { time, collected: 0, is_best: true }]);
+    assert_eq!(game.state(), GameState::Won { time });
+    let hash = game.world().state_hash();
+    play(&mut game, RIGHT, 1.0);
+    assert_eq!(game.world().state_hash(), hash);
+    assert_eq!(game.elapsed(), time);
+}
+
+#[test]
+fn playing_again_starts_anew_and_keeps_the_best_time() {
+    let mut scene = open_floor(0.0);
+    scene.colliders.push(collectible([-1.0, 0.5, 0.0]));
+    let mut game = game(&scene);
+    let start = game.world().state_hash();
+    assert_eq!(game.best(), None);
+    until_event(&mut game, LEFT, 10.0);
+    until_event(&mut game, LEFT, 10.0);
+    let GameState::Won { time: first } = game.state() else { panic!("not won") };
+
+    game.play_again();
+    assert_eq!(game.world().state_hash(), start);
+    assert_eq!((game.state(), game.collected(), game.elapsed()), (GameState::Rolling, 0, 0.0));
+    assert_eq!(game.scene(), game.maze().scene());
+    // A detour makes the second game longer.
+    play(&mut game, RIGHT, 0.3);
+    until_event(&mut game, LEFT, 10.0);
+    let events = until_event(&mut game, LEFT, 10.0);
+    assert!(matches!(events[..], [GameEvent::Won { is_best: false, .. }]), "{events:?}");
+    assert_eq!(game.best(), Some(first));
+
+    game.play_again();
+    until_event(&mut game, LEFT, 10.0);
+    let events = until_event(&mut game, LEFT, 10.0);
+    let same = GameEvent::Won { time: first, collected: 1, is_best: false };
+    assert_eq!(events, [same], "as long as the first is no better than it");
+}
+
+#[test]
+fn a_ball_that_falls_starts_again_on_a_level_maze_and_keeps_what_it_has() {
+    let mut scene = open_floor(0.0);
+    scene.colliders.push(collectible([2.0, 0.5, 0.0]));
+    let mut game = game(&scene);
+    until_event(&mut game, RIGHT, 10.0);
+    let before = game.elapsed();
+    assert_eq!(until_event(&mut game, RIGHT, 10.0), [GameEvent::Fell]);
+    assert_eq!(game.ball_in_maze(), (game.maze().start(), carom::DVec3::ZERO));
+    assert_eq!(game.tilt(), carom::DQuat::IDENTITY);
+    for ((_, now), level) in game.world().colliders().zip(&game.scene().colliders) {
+        assert_eq!(now.pose.position.to_array(), level.position);
+        assert_eq!(now.angular_velocity, carom::DVec3::ZERO);
+    }
+    assert_eq!((game.collected(), game.state()), (1, GameState::Rolling));
+    assert!(game.elapsed() > before);
+}
+
+#[test]
+fn time_runs_from_the_first_steering() {
+    let mut game = game(&open_floor(0.0));
+    play(&mut game, Steering::NONE, 1.0);
+    assert_eq!(game.elapsed(), 0.0);
+    play(&mut game, RIGHT, 0.5);
+    play(&mut game, Steering::NONE, 0.5);
+    assert_eq!(game.elapsed(), 60.0 * game.frame_time());
+}
+
+#[test]
+fn a_ball_that_nobody_tilts_stays_at_its_start_for_ever() {
+    let mut game = Game::new(Maze::course().unwrap(), Options::default()).unwrap();
+    let start = game.ball_in_maze();
+    play(&mut game, Steering::NONE, 2.0);
+    assert_eq!(game.ball_in_maze(), start);
+}
+
+#[test]
+fn the_ball_of_the_course_starts_on_the_ground_under_its_place() {
+    // The course lets it fall from y = 0.5, its top through the ceiling; the ground is at -0.2672.
+    let start = Maze::course().unwrap().start();
+    assert_eq!(start.to_array(), [2.23, -0.2672 + 0.5, 0.7]);
+}
+
+#[test]
+fn what_is_drawn_is_what_is_there() {
+    let mut game = Game::new(Maze::course().unwrap(), Options::default()).unwrap();
+    play(&mut game, Steering::roll(1.0, 1.0), 0.5);
+    let tilt = game.tilt();
+    for ((_, now), level) in game.world().colliders().zip(&game.scene().colliders) {
+        let place = tilt * carom::DVec3::from_array(level.position);
+        // Poses were moved by their velocities for a frame: some roundings of 10 m.
+        assert!(now.pose.position.distance(place) < 1e-13);
+    }
+    assert!(game.scene().colliders.iter().all(|collider| collider.color.is_some()));
+}
+
+#[test]
+fn steering_that_is_no_number_is_refused_and_changes_nothing() {
+    let mut game = game(&open_floor(0.0));
+    play(&mut game, RIGHT, 0.5);
+    let (hash, tilt) = (game.world().state_hash(), game.tilt());
+    let steering = Steering::Turn { about_x: f64::NAN, about_z: 1.0 };
+    assert!(matches!(game.step(steering), Err(GameError::Steering { .. })));
+    assert_eq!((game.world().state_hash(), game.tilt()), (hash, tilt));
+}
+
+#[test]
+fn options_that_make_no_sense_are_refused_by_name() {
+    let good = Options::default();
+    for (options, name) in [
+        (Options { frame_time: 0.0, ..good }, "frame_time"),
+        (Options { max_tilt_degrees: 46.0, ..good }, "max_tilt_degrees"),
+        (
+            Options { tilt_speed_degrees_per_second: f64::NAN, ..good },
+            "tilt_speed_degrees_per_second",
+        ),
+        (Options { reset_height: 1.0, ..good }, "reset_height"),
+    ] {
+        let error = Game::new(Maze::course().unwrap(), options).unwrap_err();
+        assert!(matches!(error, GameError::Option { field, .. } if field == name), "{error}");
+    }
+}
+
+#[test]
+fn the_course_has_four_collectibles_and_one_end_wall() {
+    let maze = Maze::course().unwrap();
+    let count = |role: fn(&&Role) -> bool| maze.roles().iter().filter(role).count();
+    assert_eq!(maze.collectibles().count(), 4);
+    assert_eq!(count(|role| **role == Role::EndWall), 1);
+    assert_eq!(count(|role| **role == Role::Ground), 1);
+    assert_eq!(count(|role| **role == Role::Ceiling), 1);
+}
