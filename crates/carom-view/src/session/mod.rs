@@ -32,7 +32,7 @@ use std::sync::Arc;
 
 use carom::{DVec3, SphereId, StateHash, World};
 use carom_scene::SceneError;
-use carom_scene::scene::{Color, Scene};
+use carom_scene::scene::Scene;
 
 pub use command::Command;
 pub use comparison::{Comparison, Distance};
@@ -299,11 +299,6 @@ impl Session {
     /// there, where they are now.
     pub fn previous_positions(&self) -> &[DVec3] {
         self.previous.positions()
-    }
-
-    /// Colours of spheres that have one of their own, ascending by id.
-    pub fn colors(&self) -> &[(SphereId, Color)] {
-        self.looks.colors()
     }
 
     fn take_frame(&mut self) -> Result<(), SessionError> {
