@@ -91,7 +91,9 @@ fn frames_that_were_not_taken_for_lack_of_time_come_later() {
     driver.update(0.0, || false);
     driver.update(0.1, || true);
     assert_eq!(driver.view().frame, 1);
+    assert_eq!(driver.seconds_to_work(), Some(0.0));
     driver.update(0.0, || false);
+    assert!(driver.seconds_to_work().is_some_and(|seconds| seconds > 0.0));
     assert!((5..=6).contains(&driver.view().frame), "{}", driver.view().frame);
 }
 

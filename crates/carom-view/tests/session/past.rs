@@ -2,7 +2,7 @@
 
 use carom::{DVec3, SphereId};
 use carom_scene::scene::Rule;
-use carom_view::session::{Edit, STRIDE, Session, SessionError, SphereChange};
+use carom_view::session::{Edit, Session, SessionError, SphereChange};
 
 use crate::{built_in, busy, busy_scene, hashes};
 
@@ -200,18 +200,21 @@ fn the_past_stays_within_its_memory_and_is_not_lost() {
 }
 
 #[test]
-fn near_the_present_a_step_back_takes_few_frames_again() {
+fn the_way_to_a_frame_grows_with_its_distance_from_the_present() {
     let mut session = built_in("simtest1");
-    // Place for about a hundred moments.
-    session.set_memory(1_000_000);
+    // Place for some tens of moments.
+    session.set_memory(500_000);
     hashes(&mut session, 3000);
-    session.seek(session.frame() - 1);
-    assert!(session.frame() + STRIDE >= 3000, "restored frame {}", session.frame());
-    session.advance_seek(u64::MAX).unwrap();
-    // Having gone there, frames near there are kept all.
-    session.seek(session.frame() - 1);
-    assert_eq!(session.seeking(), None);
-    // A tenth of the way back costs less than the tenth.
-    session.seek(2700);
-    assert!(session.frame() + 150 > 2700, "restored frame {}", session.frame());
+    let frames_again = |session: &mut Session, frame: u64| {
+        session.seek(frame);
+        let frames_again = frame - session.frame();
+        session.stop_seeking();
+        frames_again
+    };
+    // The last frames are kept all; of 1000 moments in 3000 frames, all would be near.
+    assert_eq!(frames_again(&mut session, 2999), 0);
+    for back in [10, 100, 300, 1000, 2000, 2900] {
+        let again = frames_again(&mut session, 3000 - back);
+        assert!(again <= back / 2, "{again} frames to go back by {back}");
+    }
 }
