@@ -7,6 +7,7 @@ use carom_scene::scene::{Rule, Scene};
 use super::Session;
 use super::edit::Edit;
 use super::error::SessionError;
+use super::history::DEFAULT_MEMORY;
 use super::periodic;
 use super::series::Series;
 use super::view::{View, replace};
@@ -77,6 +78,7 @@ impl Comparison {
             Session::new(scene)
         });
         let mut comparison = Self { first: first?, second: second?, distances: Series::default() };
+        comparison.set_memory(DEFAULT_MEMORY);
         comparison.measure();
         Ok(comparison)
     }
@@ -89,6 +91,12 @@ impl Comparison {
     /// Under the second rule.
     pub fn second(&self) -> &Session {
         &self.second
+    }
+
+    /// Bounds the memory that the past of both together may take \[bytes\].
+    pub fn set_memory(&mut self, bytes: usize) {
+        self.first.set_memory(bytes / 2);
+        self.second.set_memory(bytes / 2);
     }
 
     /// How far apart they are now.

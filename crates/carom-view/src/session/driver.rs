@@ -90,6 +90,16 @@ impl Driver {
         &self.view
     }
 
+    /// Seconds until [`Self::update`] has work to do, if no command is sent; `None` for never, as
+    /// with a thread, which does it and then says that it has news.
+    pub fn seconds_to_work(&self) -> Option<f64> {
+        match &self.form {
+            Form::Inline(player) => player.seconds_to_work(),
+            #[cfg(not(target_arch = "wasm32"))]
+            Form::Threaded(_) => None,
+        }
+    }
+
     /// How far a picture made now shows spheres on the way from their previous positions to their
     /// positions, in \[0, 1\].
     pub fn blend(&self) -> f64 {

@@ -11,16 +11,16 @@ use super::setup::Setup;
 /// Memory that the moments kept may take, unless told otherwise \[bytes\].
 pub const DEFAULT_MEMORY: usize = 256 << 20;
 
-/// Frames from one moment kept to the next while time goes on: a step back takes at most so many
-/// frames again, and keeping them costs a small part of taking the frames.
-pub const STRIDE: u64 = 8;
+/// Most moments kept: so many that none between two of them is far, so few that to look through
+/// them takes no time.
+const MOST_MOMENTS: usize = 1024;
 
 /// Memory per sphere: id, position, velocity, radius, mass, restitution, and the colour \[bytes\].
 const BYTES_PER_SPHERE: usize = 112;
 
-/// Memory per sphere for its flight, neighbours and predictions under the rule `exact` \[bytes\];
-/// measured for gases.
-const BYTES_PER_FLIGHT: usize = 900;
+/// Memory per sphere for its flight and predictions under the rule `exact` \[bytes\]: 250 were
+/// measured in dense gases, and lasting contacts take some more.
+const BYTES_PER_FLIGHT: usize = 400;
 
 /// Memory per collider with its surfaces \[bytes\]; a box, which has most, measured.
 const BYTES_PER_COLLIDER: usize = 3000;
@@ -192,12 +192,10 @@ impl History {
         &self.moments[later.saturating_sub(1)]
     }
 
-    /// Whether the moment at this frame is worth keeping, on the way to frame `target`.
-    pub fn wants(&self, frame: u64, target: u64) -> bool {
-        let since_last = frame - self.before(frame).frame;
-        // Near where someone goes back to, it is likely that they go back further.
-        let stride = if target > frame && target - frame < STRIDE { 1 } else { STRIDE };
-        since_last >= stride
+    /// Whether the present of this world, at this frame, is to be kept: every frame is, to begin
+    /// with, since a copy takes a small part of the time of a step.
+    pub fn wants(&self, frame: u64, world: &World) -> bool {
+        self.before(frame).frame < frame && estimated_bytes(world, frame) <= self.memory
     }
 
     /// Keeps a moment, unless its frame is kept already; makes place for it.
@@ -216,7 +214,8 @@ impl History {
     fn thin_out(&mut self, present: u64) {
         let first = self.moments.first().map_or(0, |moment| moment.bytes);
         let mut bytes = self.bytes() - first;
-        while bytes > self.memory && self.moments.len() > 1 {
+        let is_too_much = |bytes, count| bytes > self.memory || count > MOST_MOMENTS;
+        while is_too_much(bytes, self.moments.len()) && self.moments.len() > 1 {
             let place = self.least_missed(present);
             bytes -= self.moments.remove(place).bytes;
         }

@@ -6,6 +6,22 @@
 //! [`View`] of it: all that an interface shows.
 //!
 //! Nothing here draws, and only the thread of a driver reads a clock.
+//!
+//! ```
+//! use carom_scene::Library;
+//! use carom_view::session::{Command, Driver, Session};
+//!
+//! let (scene, _) = Library::new().find("simtest1", &[])?;
+//! let mut driver = Driver::inline(Session::new(scene)?);
+//! driver.send(Command::Play)?;
+//! // Before each picture, with the time since the last one:
+//! for _ in 0..60 {
+//!     driver.update(1.0 / 60.0, || false);
+//!     println!("{} spheres", driver.view().spheres.positions.len());
+//! }
+//! # assert!(driver.view().time > 0.9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod command;
 mod comparison;
@@ -32,14 +48,14 @@ use std::sync::Arc;
 
 use carom::{DVec3, SphereId, StateHash, World};
 use carom_scene::SceneError;
-use carom_scene::scene::{Color, Scene};
+use carom_scene::scene::Scene;
 
 pub use command::Command;
 pub use comparison::{Comparison, Distance};
 pub use driver::Driver;
 pub use edit::{Edit, SphereChange};
 pub use error::SessionError;
-pub use history::{DEFAULT_MEMORY, STRIDE};
+pub use history::DEFAULT_MEMORY;
 pub use impacts::{ListedImpact, REMEMBERED, energy_change_alone};
 pub use pace::{FASTEST, LONGEST_DELAY, Pace, SLOWEST};
 pub use readings::{PickedReading, RATE_WINDOW, Reading};
@@ -301,11 +317,6 @@ impl Session {
         self.previous.positions()
     }
 
-    /// Colours of spheres that have one of their own, ascending by id.
-    pub fn colors(&self) -> &[(SphereId, Color)] {
-        self.looks.colors()
-    }
-
     fn take_frame(&mut self) -> Result<(), SessionError> {
         let start = self.world.time();
         self.previous.remember(&self.world);
@@ -323,7 +334,7 @@ impl Session {
         self.readings.note(self.frame, start, &self.world);
         self.history.reach(self.frame, self.world.time());
         self.repeat_changes();
-        if self.history.wants(self.frame, self.target.unwrap_or(self.frame)) {
+        if self.history.wants(self.frame, &self.world) {
             let more = (&self.setup, &self.looks);
             let impacts = self.readings.impacts;
             let moment = Moment::new(self.frame, self.changes, impacts, &self.world, more);

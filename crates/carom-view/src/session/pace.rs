@@ -88,7 +88,8 @@ impl Pace {
 
     /// How many frames of `frame_time` \[s\] are to be taken now that `wall_seconds` have gone by.
     pub fn frames_due(&mut self, wall_seconds: f64, frame_time: f64) -> u64 {
-        if !self.playing || !(frame_time > 0.0) || !(wall_seconds >= 0.0) {
+        let is_time = frame_time > 0.0 && wall_seconds >= 0.0 && wall_seconds.is_finite();
+        if !(self.playing && is_time) {
             return 0;
         }
         self.frame_time = frame_time;
@@ -112,7 +113,11 @@ impl Pace {
         let time = frames as f64 * self.frame_time;
         self.owed += time;
         let lost = self.limit();
-        self.measure(Measurement { wall: 0.0, wished: 0.0, lost, taken: -time });
+        // They were counted in the last measurement.
+        if let Some(last) = self.measured.back_mut() {
+            last.lost += lost;
+            last.taken -= time;
+        }
     }
 
     /// Limits what is owed to a frame and the longest delay; returns what was lost.

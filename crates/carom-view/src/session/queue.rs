@@ -39,6 +39,7 @@ impl Queue {
     }
 
     /// Takes over what waits in another queue, as far as there is place.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn take_from(&mut self, other: &mut Self) {
         while self.0.len() < MOST_WAITING
             && let Some(command) = other.0.pop_front()

@@ -94,7 +94,8 @@ impl Readings {
         let past = self.all.until(frame.saturating_sub(1));
         let outside = past.partition_point(|(_, reading)| reading.time <= time - RATE_WINDOW);
         let Some((_, since)) = past.get(outside.saturating_sub(1)) else { return 0.0 };
-        self.impacts.saturating_sub(since.impacts) as f64 / (time - since.time)
+        let impacts = self.impacts.saturating_sub(since.impacts);
+        if time > since.time { impacts as f64 / (time - since.time) } else { 0.0 }
     }
 
     /// The picked sphere at the present of the world, if it is still there.

@@ -158,11 +158,14 @@ impl Shared {
     }
 }
 
+/// Longest sleep without a look at the clock.
+const LONGEST_SLEEP: Duration = Duration::from_secs(3600);
+
 /// Time to sleep before there is something to do; `None` for ever.
 fn time_to_work(player: &Player, published: Instant) -> Option<Duration> {
     let work = player.seconds_to_work().map(|seconds| {
-        // Times too long for a duration are as good as for ever.
-        Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
+        // A time too long for a duration is too long to sleep, too.
+        Duration::try_from_secs_f64(seconds).unwrap_or(LONGEST_SLEEP).min(LONGEST_SLEEP)
     });
     let news = player.has_news().then(|| UNSEEN.saturating_sub(published.elapsed()));
     match (work, news) {

@@ -1,0 +1,274 @@
+//! Drivers, in place and on a thread.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use carom_scene::Scene;
+use carom_scene::scene::Rule;
+use carom_view::session::{
+    Command, Comparison, Driver, Edit, FASTEST, Session, SessionError, View,
+};
+
+use crate::{built_in, busy, busy_scene, hashes};
+
+/// Longer than anything here takes on a machine that is shared \[s\].
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// A driver with a thread, and what says that it has news.
+fn threaded(session: Session) -> (Driver, Receiver<()>) {
+    let (sender, news) = channel();
+    // The test may be gone before the thread.
+    let on_news = Box::new(move || _ = sender.send(()));
+    (Driver::threaded(session, on_news).unwrap(), news)
+}
+
+/// Waits until the view is as wanted.
+fn wait_for(driver: &mut Driver, news: &Receiver<()>, is_it: impl Fn(&View) -> bool) {
+    let start = Instant::now();
+    driver.update(0.0, || true);
+    while !is_it(driver.view()) {
+        assert!(start.elapsed() < PATIENCE, "still at {:?}", driver.view().playback);
+        let _ = news.recv_timeout(Duration::from_millis(20));
+        driver.update(0.0, || true);
+    }
+}
+
+fn send(driver: &mut Driver, commands: impl IntoIterator<Item = Command>) {
+    commands.into_iter().for_each(|command| driver.send(command).unwrap());
+}
+
+/// A scene that fails when its ball reaches the floor, for that is one impact too many.
+fn failing() -> Session {
+    let mut scene = busy_scene();
+    scene.simulation.exact.max_impacts = 1;
+    Session::new(scene).unwrap()
+}
+
+#[test]
+fn in_place_frames_follow_the_time_given() {
+    let mut driver = Driver::inline(busy());
+    driver.update(1.0, || false);
+    assert_eq!(driver.view().frame, 0);
+    send(&mut driver, [Command::Play]);
+    // Time that went by at a stop does not count.
+    driver.update(1.0, || false);
+    assert_eq!(driver.view().frame, 0);
+    (0..10).for_each(|_| _ = driver.update(0.1, || false));
+    assert!((59..=60).contains(&driver.view().frame), "{}", driver.view().frame);
+    send(&mut driver, [Command::Speed(0.5)]);
+    (0..10).for_each(|_| _ = driver.update(0.1, || false));
+    assert!((89..=90).contains(&driver.view().frame), "{}", driver.view().frame);
+    send(&mut driver, [Command::Pause]);
+    driver.update(1.0, || false);
+    assert!((89..=90).contains(&driver.view().frame));
+    assert!(!driver.view().playback.playing);
+}
+
+#[test]
+fn in_place_a_piece_of_work_is_done_even_without_time() {
+    let mut driver = Driver::inline(busy());
+    send(&mut driver, [Command::Seek(0.5), Command::Step]);
+    let mut updates = 0;
+    while driver.view().frame < 31 || driver.view().seeking.is_some() {
+        driver.update(0.0, || true);
+        updates += 1;
+        assert!(updates < 100);
+    }
+    // The seek, a frame each, and the step.
+    assert_eq!(updates, 32);
+    let mut stepped = busy();
+    let there = hashes(&mut stepped, 31);
+    send(&mut driver, [Command::ShowStateHash(true)]);
+    driver.update(0.0, || false);
+    assert_eq!(driver.view().playback.state_hash, Some(there[31]));
+}
+
+#[test]
+fn frames_that_were_not_taken_for_lack_of_time_come_later() {
+    let mut driver = Driver::inline(busy());
+    send(&mut driver, [Command::Play]);
+    driver.update(0.0, || false);
+    driver.update(0.1, || true);
+    assert_eq!(driver.view().frame, 1);
+    assert_eq!(driver.seconds_to_work(), Some(0.0));
+    driver.update(0.0, || false);
+    assert!(driver.seconds_to_work().is_some_and(|seconds| seconds > 0.0));
+    assert!((5..=6).contains(&driver.view().frame), "{}", driver.view().frame);
+}
+
+#[test]
+fn commands_are_obeyed_in_the_order_sent() {
+    let (mut driver, news) = threaded(busy());
+    let mut stepped = busy();
+    let there = hashes(&mut stepped, 40);
+    let steps = std::iter::repeat_n(Command::Step, 3);
+    send(&mut driver, [Command::ShowStateHash(true), Command::Seek(0.5)]);
+    send(&mut driver, steps);
+    send(&mut driver, [Command::StepBack]);
+    wait_for(&mut driver, &news, |view| view.frame == 32 && view.furthest_frame == 33);
+    assert_eq!(driver.view().playback.state_hash, Some(there[32]));
+    send(&mut driver, [Command::Restart, Command::Step, Command::StepBack, Command::Step]);
+    wait_for(&mut driver, &news, |view| view.frame == 1);
+    assert_eq!(driver.view().playback.state_hash, Some(there[1]));
+}
+
+#[test]
+fn on_its_thread_time_goes_on_by_its_own_clock_until_it_is_paused() {
+    let (mut driver, news) = threaded(busy());
+    let start = Instant::now();
+    send(&mut driver, [Command::Speed(FASTEST), Command::Play]);
+    wait_for(&mut driver, &news, |view| view.time > 1.0);
+    assert!(start.elapsed().as_secs_f64() * FASTEST > 1.0, "faster than its clock");
+    send(&mut driver, [Command::Pause]);
+    wait_for(&mut driver, &news, |view| !view.playback.playing);
+    let frame = driver.view().frame;
+    std::thread::sleep(Duration::from_millis(50));
+    driver.update(0.0, || true);
+    assert_eq!(driver.view().frame, frame);
+    // The same bits as without a clock.
+    let mut stepped = busy();
+    let there = hashes(&mut stepped, frame);
+    send(&mut driver, [Command::ShowStateHash(true)]);
+    wait_for(&mut driver, &news, |view| view.playback.state_hash.is_some());
+    assert_eq!(driver.view().playback.state_hash, there.last().copied());
+}
+
+#[test]
+fn the_thread_ends_when_the_driver_is_dropped() {
+    for plays in [false, true] {
+        let alive = Arc::new(());
+        let held = alive.clone();
+        let on_news = Box::new(move || drop(held.clone()));
+        let mut driver = Driver::threaded(busy(), on_news).unwrap();
+        if plays {
+            send(&mut driver, [Command::Play]);
+        } else {
+            // It sleeps for ever, then.
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        drop(driver);
+        let start = Instant::now();
+        while Arc::strong_count(&alive) > 1 {
+            assert!(start.elapsed() < PATIENCE, "the thread lives on");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+}
+
+#[test]
+fn a_failing_step_pauses_and_says_why() {
+    let (mut driver, news) = threaded(failing());
+    send(&mut driver, [Command::Speed(FASTEST), Command::Play]);
+    wait_for(&mut driver, &news, |view| view.playback.error.is_some());
+    let view = driver.view();
+    assert!(!view.playback.playing);
+    let error = view.playback.error.as_deref().unwrap();
+    assert!(matches!(error, SessionError::World(carom::Error::TooManyImpacts { .. })));
+    assert!(error.to_string().contains("max_impacts"), "{error}");
+    // Nothing is lost: the frame before is there, and the past.
+    let frame = view.frame;
+    assert!(frame > 0);
+    send(&mut driver, [Command::StepBack]);
+    wait_for(&mut driver, &news, |view| view.frame == frame - 1);
+    assert!(driver.view().playback.error.is_none());
+    // With more impacts allowed it goes on.
+    let mut simulation = driver.view().setup.simulation.clone();
+    simulation.exact.max_impacts = 1000;
+    send(&mut driver, [Command::Edit(Edit::Simulation(Box::new(simulation)))]);
+    send(&mut driver, [Command::Step, Command::Step, Command::Step]);
+    wait_for(&mut driver, &news, |view| view.frame == frame + 2);
+    assert!(driver.view().playback.error.is_none());
+}
+
+#[test]
+fn a_refused_edit_says_why_and_time_goes_on() {
+    let mut driver = Driver::inline(busy());
+    send(&mut driver, [Command::Play, Command::Edit(Edit::FrameTime(-1.0))]);
+    driver.update(0.0, || false);
+    driver.update(0.1, || false);
+    let playback = &driver.view().playback;
+    assert!(playback.playing && driver.view().frame > 0);
+    let error = playback.error.as_deref().unwrap().to_string();
+    assert!(error.contains("frame_time"), "{error}");
+}
+
+#[test]
+fn edits_of_a_dragged_slider_do_not_pile_up() {
+    // What cannot be merged is refused at some point, and says so.
+    let mut driver = Driver::inline(busy());
+    let refused = (0..100_000).find_map(|_| driver.send(Command::Step).err());
+    assert!(matches!(refused, Some(SessionError::Busy)));
+    let mut dragged = Driver::inline(busy());
+    for i in 0..100_000 {
+        let restitution = f64::from(i) / 100_000.0;
+        send(&mut dragged, [Command::Edit(Edit::AllColliderRestitutions(restitution))]);
+    }
+    dragged.update(0.0, || false);
+    assert_eq!(dragged.view().setup.colliders[0].1.restitution, 0.99999);
+}
+
+#[test]
+fn another_seek_takes_the_place_of_one_under_way() {
+    let mut driver = Driver::inline(busy());
+    send(&mut driver, [Command::Seek(1e9)]);
+    driver.update(0.0, || true);
+    driver.update(0.0, || true);
+    assert!(driver.view().seeking.is_some());
+    send(&mut driver, [Command::Seek(0.1)]);
+    driver.update(0.0, || false);
+    assert_eq!((driver.view().frame, driver.view().seeking), (6, None));
+    send(&mut driver, [Command::Seek(1e9), Command::Pick(None), Command::StopSeeking]);
+    let mut looks = 0;
+    // A command in between that has to wait keeps the one after it waiting.
+    driver.update(0.0, || {
+        looks += 1;
+        looks > 20
+    });
+    assert!(driver.view().seeking.is_some());
+}
+
+#[test]
+fn another_scene_is_opened_or_the_old_one_stays() {
+    let (mut driver, news) = threaded(busy());
+    let tutorial = built_in("tutorial1").scene().as_ref().clone();
+    send(&mut driver, [Command::Step, Command::Open(Box::new(tutorial))]);
+    wait_for(&mut driver, &news, |view| view.scene.name == "tutorial1");
+    assert_eq!(driver.view().frame, 0);
+    let nameless = Scene::new("");
+    send(&mut driver, [Command::Step, Command::Open(Box::new(nameless))]);
+    wait_for(&mut driver, &news, |view| view.playback.error.is_some());
+    assert_eq!((driver.view().scene.name.as_str(), driver.view().frame), ("tutorial1", 1));
+}
+
+#[test]
+fn two_rules_are_driven_like_one() {
+    let scene = busy_scene();
+    let mut driver = Driver::inline(busy());
+    send(&mut driver, [Command::Compare(Box::new(scene), [Rule::Exact, Rule::Bisect])]);
+    send(&mut driver, [Command::ShowStateHash(true), Command::Seek(0.5), Command::StepBack]);
+    driver.update(0.0, || false);
+    let view = driver.view();
+    let other = view.other.as_deref().unwrap();
+    assert_eq!((view.frame, other.frame, view.distances.len()), (29, 29, 30));
+    assert_ne!(view.playback.state_hash, other.playback.state_hash);
+    // One alone again.
+    send(&mut driver, [Command::Open(Box::new(busy_scene()))]);
+    driver.update(0.0, || false);
+    assert!(driver.view().other.is_none() && driver.view().distances.is_empty());
+    let both = Comparison::new(&busy_scene(), [Rule::Exact, Rule::Discrete]).unwrap();
+    assert!(Driver::inline(both).view().other.is_some());
+}
+
+#[test]
+fn after_a_step_a_picture_shows_the_whole_frame() {
+    let mut driver = Driver::inline(busy());
+    send(&mut driver, [Command::Speed(0.1), Command::Play]);
+    driver.update(0.0, || false);
+    driver.update(0.21, || false);
+    let blend = driver.blend();
+    assert!(driver.view().frame == 1 && (blend - 0.26).abs() < 1e-9, "{blend}");
+    send(&mut driver, [Command::Step]);
+    driver.update(0.0, || false);
+    assert_eq!(driver.blend(), 1.0);
+}

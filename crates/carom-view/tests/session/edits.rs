@@ -1,0 +1,169 @@
+//! Edits: each changes the world and what is said of it, or nothing.
+
+use carom::{ConstantForce, DVec3, Rule, Sphere};
+use carom_scene::scene::{self, Color, Force, ImpactLaw, Integrator};
+use carom_view::session::{Edit, Session, SphereChange, View};
+
+use crate::{busy, busy_scene, hashes};
+
+const RED: Option<Color> = Some([1.0, 0.0, 0.0]);
+const GREEN: Option<Color> = Some([0.0, 1.0, 0.0]);
+const BLUE: Option<Color> = Some([0.0, 0.0, 1.0]);
+const YELLOW: Option<Color> = Some([1.0, 1.0, 0.0]);
+
+fn view(session: &Session) -> View {
+    let mut view = View::default();
+    session.fill(&mut view);
+    view
+}
+
+#[test]
+fn an_edit_of_the_simulation_reaches_the_world() {
+    let mut session = busy();
+    let mut simulation = session.setup().simulation.clone();
+    simulation.rule = scene::Rule::Bisect;
+    simulation.bisect.max_halvings = 20;
+    simulation.integrator = Integrator::RungeKutta4;
+    simulation.impact_law = ImpactLaw::Sequential;
+    simulation.spheres_collide = false;
+    session.edit(Edit::Simulation(Box::new(simulation.clone()))).unwrap();
+    let settings = session.world().settings();
+    assert!(matches!(settings.rule, Rule::Bisect(it) if it.max_halvings == 20));
+    assert_eq!(settings.integrator, carom::Integrator::RungeKutta4);
+    assert_eq!(settings.impact_law, carom::ImpactLaw::Sequential);
+    assert!(!settings.spheres_collide);
+    assert_eq!(session.scene_now().simulation, simulation);
+}
+
+#[test]
+fn a_simulation_that_no_file_could_say_is_refused_in_the_words_of_files() {
+    let mut session = busy();
+    let mut simulation = session.setup().simulation.clone();
+    simulation.rule = scene::Rule::Bisect;
+    simulation.bisect.tolerance = 0.1;
+    let error = session.edit(Edit::Simulation(Box::new(simulation))).unwrap_err().to_string();
+    assert!(error.contains("simulation.bisect.tolerance"), "{error}");
+}
+
+#[test]
+fn forces_are_changed_added_and_removed_in_both() {
+    let mut session = busy();
+    let [gravity, drag] = [0, 1].map(|i| session.setup().forces[i].0);
+    let moon = Force::Gravity { acceleration: [0.0, -1.62, 0.0] };
+    let wind = Force::Constant { force: [0.5, 0.0, 0.0] };
+    session.edit(Edit::Force(gravity, moon.clone())).unwrap();
+    session.edit(Edit::AddForce(wind.clone())).unwrap();
+    session.edit(Edit::RemoveForce(drag)).unwrap();
+    assert_eq!(session.scene_now().forces, [moon, wind]);
+    assert_eq!(session.world().forces().len(), 2);
+    let added = format!("{:?}", session.world().forces().last().unwrap().1);
+    assert_eq!(added, format!("{:?}", ConstantForce::new(DVec3::new(0.5, 0.0, 0.0))));
+    let negative = Force::ViscousDrag { coefficient: -1.0 };
+    assert!(session.edit(Edit::AddForce(negative.clone())).is_err());
+    assert!(session.edit(Edit::Force(gravity, negative)).is_err());
+    assert_eq!(session.setup().forces.len(), 2);
+}
+
+#[test]
+fn restitutions_of_colliders_are_changed_one_by_one_and_together() {
+    let mut session = busy();
+    let floor = session.setup().colliders[0].0;
+    let restitutions = |session: &Session| -> Vec<f64> {
+        let said = session.scene_now().colliders.iter().map(|it| it.restitution).collect();
+        let real: Vec<f64> = session.world().colliders().map(|it| it.1.restitution).collect();
+        assert_eq!(said, real);
+        said
+    };
+    session.edit(Edit::ColliderRestitution(floor, 0.25)).unwrap();
+    assert_eq!(restitutions(&session), [0.25, 1.0]);
+    session.edit(Edit::AllColliderRestitutions(0.5)).unwrap();
+    assert_eq!(restitutions(&session), [0.5, 0.5]);
+}
+
+#[test]
+fn a_change_of_a_sphere_leaves_the_rest_of_it_as_it_is_by_then() {
+    let mut session = busy();
+    hashes(&mut session, 10);
+    let id = session.world().spheres().ids()[0];
+    let before = session.world().sphere(id).unwrap();
+    let change = SphereChange { mass: Some(7.0), ..SphereChange::default() };
+    session.edit(Edit::Sphere(id, change)).unwrap();
+    assert_eq!(session.world().sphere(id).unwrap(), before.with_mass(7.0));
+    session.edit(Edit::RemoveSphere(id)).unwrap();
+    assert!(session.world().sphere(id).is_err());
+    assert!(session.edit(Edit::RemoveSphere(id)).is_err());
+}
+
+#[test]
+fn emitters_emit_what_they_were_changed_to() {
+    let mut session = busy();
+    hashes(&mut session, 30);
+    let (id, emitter) = session.world().emitters().next().map(|it| (it.0, *it.1)).unwrap();
+    let sphere = emitter.sphere.with_mass(3.0);
+    let changed = carom::Emitter { sphere, period: 0.5, max_spheres: None, ..emitter };
+    session.edit(Edit::Emitter(id, Box::new(changed))).unwrap();
+    let said = &session.scene_now().emitters[0];
+    assert_eq!((said.period, said.max_spheres, said.sphere.mass), (0.5, None, Some(3.0)));
+    assert_eq!(said.sphere.color, GREEN);
+    session.step().unwrap();
+    let view = view(&session);
+    let newest = view.spheres.masses.iter().position(|mass| *mass == 3.0).unwrap();
+    assert_eq!(view.spheres.colors[newest], GREEN);
+    let bad = carom::Emitter { period: -1.0, ..changed };
+    assert!(session.edit(Edit::Emitter(id, Box::new(bad))).is_err());
+}
+
+#[test]
+fn spheres_keep_the_colour_they_came_with() {
+    for rule in [scene::Rule::Exact, scene::Rule::Discrete] {
+        let mut scene = busy_scene();
+        scene.simulation.rule = rule;
+        let mut session = Session::new(scene).unwrap();
+        for _ in 0..100 {
+            session.step().unwrap();
+        }
+        // A step back and forth must not mix them up.
+        session.jump(0.9).unwrap();
+        for _ in 0..30 {
+            session.step().unwrap();
+            let view = view(&session);
+            let of = |color| view.spheres.colors.iter().filter(|it| **it == color).count();
+            assert_eq!([RED, BLUE, GREEN, YELLOW].map(of), [1, 12, 4, 5], "{rule:?}");
+        }
+    }
+}
+
+#[test]
+fn the_colour_of_an_emitted_sphere_is_that_of_its_emitter() {
+    for rule in [scene::Rule::Exact, scene::Rule::Discrete] {
+        let mut scene = busy_scene();
+        scene.simulation.rule = rule;
+        scene.simulation.frame_time = 0.02;
+        scene.forces.clear();
+        scene.spheres.clear();
+        scene.generators.clear();
+        let mut session = Session::new(scene).unwrap();
+        // Until the first ones reach anything: green ones move to the right, yellow ones to the
+        // left.
+        for _ in 0..60 {
+            session.step().unwrap();
+            let view = view(&session);
+            for (velocity, color) in view.spheres.velocities.iter().zip(&view.spheres.colors) {
+                let expected = if velocity.x > 0.0 { GREEN } else { YELLOW };
+                assert_eq!(*color, expected, "{rule:?}, {} s", session.time());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_thrown_sphere_is_there_with_its_colour() {
+    let mut session = busy();
+    let sphere = Sphere::new(DVec3::new(0.0, 50.0, 0.0), 0.1).with_density(800.0);
+    session.edit(Edit::Throw { sphere, color: None }).unwrap();
+    session.edit(Edit::Throw { sphere, color: RED }).unwrap();
+    assert_eq!(view(&session).spheres.colors.as_slice()[13..], [BLUE, RED]);
+    let nowhere = Sphere::new(DVec3::NAN, 0.1);
+    assert!(session.edit(Edit::Throw { sphere: nowhere, color: RED }).is_err());
+    assert_eq!(view(&session).spheres.colors.len(), 15);
+}

@@ -1,0 +1,199 @@
+//! What is measured.
+
+use carom::{DVec3, Participants};
+use carom_scene::scene::{Rule, Scene, Sphere};
+use carom_view::session::{Edit, MARKED, MAX_POINTS, REMEMBERED, Session, SphereChange, View};
+
+use crate::{busy, busy_scene, hashes};
+
+fn view(session: &Session) -> View {
+    let mut view = View::default();
+    session.fill(&mut view);
+    view
+}
+
+/// Two spheres of 1 kg and 3 kg in a line, which meet with 2 m/s and restitution 0.5.
+fn two_that_meet(rule: Rule) -> Session {
+    let mut scene = Scene::new("two");
+    let mut first = Sphere::at([-1.0, 0.0, 0.0], 0.5);
+    (first.velocity, first.restitution) = ([2.0, 0.0, 0.0], 0.5);
+    let mut second = Sphere::at([1.0, 0.0, 0.0], 0.5);
+    second.mass = Some(3.0);
+    scene.spheres = vec![first, second];
+    scene.simulation.rule = rule;
+    Session::new(scene).unwrap()
+}
+
+#[test]
+fn an_impact_is_listed_with_its_time_impulse_and_energy() {
+    for (rule, tolerance) in [(Rule::Exact, 1e-12), (Rule::Bisect, 1e-4), (Rule::Discrete, 0.02)] {
+        let mut session = two_that_meet(rule);
+        hashes(&mut session, 60);
+        let view = view(&session);
+        let [impact] = view.impacts[..] else { panic!("{rule:?}: {:?}", view.impacts) };
+        // A gap of 1 m at 2 m/s; the reduced mass is 3/4 kg.
+        assert!((impact.time - 0.5).abs() <= tolerance, "{rule:?}: {}", impact.time);
+        assert!(matches!(impact.between, Participants::Spheres(..)));
+        assert_eq!((impact.group_size, impact.normal), (1, DVec3::X));
+        let impulse = 0.75 * (1.0 + 0.5) * 2.0;
+        assert!((impact.impulse - impulse).abs() < 1e-12, "{rule:?}: {}", impact.impulse);
+        let lost = 0.5 * 0.75 * (1.0 - 0.25) * 4.0;
+        let change = impact.energy_change.unwrap();
+        assert!((change + lost).abs() < 1e-12, "{rule:?}: {change}");
+        // The world lost just that.
+        let [first, .., last] = view.readings[..] else { panic!("too few readings") };
+        assert!((last.total_energy() - first.total_energy() + lost).abs() < 1e-12);
+        assert!((last.momentum - DVec3::new(2.0, 0.0, 0.0)).length() < 1e-12);
+    }
+}
+
+#[test]
+fn marks_fade() {
+    let mut session = two_that_meet(Rule::Exact);
+    session.jump(0.5 + 0.9 * MARKED).unwrap();
+    assert_eq!(view(&session).marks().len(), 1);
+    session.jump(0.5 + 1.5 * MARKED).unwrap();
+    assert_eq!(view(&session).marks().len(), 0);
+    // Back before the impact, it has not happened.
+    session.jump(0.4).unwrap();
+    assert!(view(&session).impacts.is_empty());
+}
+
+#[test]
+fn readings_end_at_the_present_and_begin_at_the_beginning() {
+    let mut session = busy();
+    hashes(&mut session, 100);
+    let there = view(&session).readings;
+    assert_eq!(there.len(), 101);
+    for frame in [100_usize, 99, 50, 51, 90, 0, 100] {
+        session.seek(frame as u64);
+        session.advance_seek(u64::MAX).unwrap();
+        assert_eq!(view(&session).readings, there[..=frame], "frame {frame}");
+    }
+}
+
+#[test]
+fn an_edit_is_seen_in_the_readings_at_once() {
+    let mut session = busy();
+    hashes(&mut session, 30);
+    session.jump(0.25).unwrap();
+    let before = view(&session).now;
+    let id = session.world().spheres().ids()[0];
+    let change = SphereChange { mass: Some(100.0), ..SphereChange::default() };
+    session.edit(Edit::Sphere(id, change)).unwrap();
+    let after = view(&session);
+    assert!(after.now.kinetic_energy > before.kinetic_energy);
+    assert_eq!((after.readings.len(), after.readings.last()), (16, Some(&after.now)));
+    session.step_back().unwrap();
+    session.step().unwrap();
+    assert_eq!(view(&session).readings, after.readings);
+}
+
+#[test]
+fn a_long_run_is_shown_whole_in_bounded_memory() {
+    let mut session = two_that_meet(Rule::Exact);
+    hashes(&mut session, 3 * MAX_POINTS as u64);
+    let readings = view(&session).readings;
+    assert!(readings.len() <= MAX_POINTS + 1, "{} points", readings.len());
+    assert!(readings.len() > MAX_POINTS / 2, "{} points", readings.len());
+    assert_eq!(readings[0].time, 0.0);
+    assert_eq!(readings[readings.len() - 1].time, session.time());
+    let times: Vec<f64> = readings.iter().map(|reading| reading.time).collect();
+    assert!(times.is_sorted_by(|one, next| one < next));
+    // Evenly: no gap is longer than four frames.
+    assert!(times.windows(2).all(|pair| pair[1] - pair[0] < 4.5 / 60.0));
+}
+
+#[test]
+fn the_rate_of_impacts_is_their_number_per_second() {
+    // One sphere between two walls 1 m apart with 20 m/s: 20 impacts per second.
+    let mut scene = Scene::new("between walls");
+    let mut sphere = Sphere::at([0.0; 3], 0.5);
+    sphere.velocity = [20.0, 0.0, 0.0];
+    scene.spheres = vec![sphere];
+    let wall = "shape = \"half-space\"";
+    let text = format!(
+        "{}\n[[colliders]]\n{wall}\nposition = [-1.0, 0, 0]\nrotation = [0, 0, -0.5, 0.5]\n\
+         [[colliders]]\n{wall}\nposition = [1.0, 0, 0]\nrotation = [0, 0, 0.5, 0.5]\n",
+        scene.to_toml()
+    );
+    let mut session = Session::new(Scene::from_toml(&text, "walls").unwrap()).unwrap();
+    hashes(&mut session, 120);
+    let view = view(&session);
+    // At most one more or less in the window.
+    assert!((view.now.impact_rate - 20.0).abs() <= 2.0, "{}", view.now.impact_rate);
+    assert_eq!(view.now.impacts, view.impacts.len() as u64);
+}
+
+#[test]
+fn the_picked_sphere_is_followed_from_then_on() {
+    let mut session = two_that_meet(Rule::Exact);
+    hashes(&mut session, 10);
+    let id = session.world().spheres().ids()[0];
+    session.pick(Some(id));
+    hashes(&mut session, 50);
+    let there = view(&session);
+    assert_eq!(there.picked_readings.len(), 51);
+    assert_eq!(there.picked_readings[0].speed, 2.0);
+    // Of 2 m/s, the centre of mass keeps 0.5 m/s; of the 1.5 m/s relative to it, half comes back.
+    let last = there.picked_readings[50];
+    assert!((last.speed - 0.25).abs() < 1e-12, "{last:?}");
+    session.step_back().unwrap();
+    assert_eq!(view(&session).picked_readings, there.picked_readings[..50]);
+    session.edit(Edit::RemoveSphere(id)).unwrap();
+    session.step().unwrap();
+    assert_eq!(view(&session).picked, Some(id));
+}
+
+#[test]
+fn only_the_last_impacts_are_remembered() {
+    let mut scene = busy_scene();
+    scene.colliders[0].restitution = 1.0;
+    let mut session = Session::new(scene).unwrap();
+    while view(&session).now.impacts < 3 * REMEMBERED as u64 / 2 {
+        session.step().unwrap();
+    }
+    let impacts = view(&session).impacts;
+    assert_eq!(impacts.len(), REMEMBERED);
+    assert!(impacts.is_sorted_by_key(|impact| impact.time));
+}
+
+#[test]
+fn previous_positions_are_those_a_frame_ago_for_the_spheres_that_were_there() {
+    let mut session = busy();
+    let mut before = view(&session).spheres;
+    let mut seen = 0;
+    for _ in 0..120 {
+        session.step().unwrap();
+        let now = view(&session).spheres;
+        for (i, id) in now.ids.iter().enumerate() {
+            let expected = match before.index_of(*id) {
+                Some(place) => before.positions[place],
+                None => now.positions[i],
+            };
+            assert_eq!(now.previous_positions[i], expected);
+        }
+        seen += usize::from(now.ids != before.ids);
+        before = now;
+    }
+    assert!(seen > 10, "spheres hardly ever came or went");
+}
+
+#[test]
+fn a_view_filled_again_and_again_is_like_a_fresh_one() {
+    let mut session = busy();
+    let mut reused = View::default();
+    for frame in 0..100 {
+        session.step().unwrap();
+        if frame == 50 {
+            session.jump(0.2).unwrap();
+        }
+        session.fill(&mut reused);
+        assert_eq!(reused.spheres, view(&session).spheres, "frame {frame}");
+    }
+    // Another session of the same scene has the same stamps, and other spheres.
+    let mut other = busy();
+    other.step().unwrap();
+    other.fill(&mut reused);
+    assert_eq!(reused.spheres, view(&other).spheres);
+}
