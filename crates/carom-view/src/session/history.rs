@@ -19,7 +19,7 @@ const MOST_MOMENTS: usize = 1024;
 const BYTES_PER_SPHERE: usize = 112;
 
 /// Memory per sphere for its flight and predictions under the rule `exact` \[bytes\]: 250 were
-/// measured in dense gases, and lasting contacts take some more.
+/// measured in dense gases; the rest is for lasting contacts.
 const BYTES_PER_FLIGHT: usize = 400;
 
 /// Memory per collider with its surfaces \[bytes\]; a box, which has most, measured.
