@@ -8,7 +8,7 @@
 //! ```
 //! use carom_maze::{Game, Maze, Options, Player};
 //!
-//! let maze = Maze::random(7, 3, 3)?;
+//! let maze = Maze::random(7, 5, 4)?;
 //! let mut player = Player::new(&maze, 1)?;
 //! let mut game = Game::new(maze, Options::default())?;
 //! for _ in 0..60 {

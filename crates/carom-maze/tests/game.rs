@@ -3,7 +3,7 @@
 mod common;
 
 use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Role, Steering};
-use common::{collectible, game, game_with, open_floor, play, until_event};
+use common::{collectible, game, open_floor, play, until_event};
 
 const LEFT: Steering = Steering::Turn { about_x: 0.0, about_z: 1.0 };
 const RIGHT: Steering = Steering::Turn { about_x: 0.0, about_z: -1.0 };

@@ -364,3 +364,16 @@ fn a_sphere_inside_a_solid_box_overlaps_it_once() {
     assert!(world.meets_collider(DVec3::ZERO, 0.01));
     assert!(!world.meets_collider(vec(0.0, 2.2, 0.0), 0.125));
 }
+
+#[test]
+fn several_colliders_change_at_once_or_not_at_all() {
+    let mut world = World::new(Settings::default()).unwrap();
+    let plate = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
+    let first = world.add_collider(plate).unwrap();
+    let second = world.add_collider(plate).unwrap();
+    let (soft, bad) = (plate.with_restitution(0.5), plate.with_restitution(2.0));
+    assert!(world.set_colliders(&[(first, soft), (second, bad)]).is_err());
+    assert_eq!(world.collider(first).unwrap(), plate);
+    world.set_colliders(&[(first, soft), (second, soft)]).unwrap();
+    assert!(world.colliders().all(|(_, collider)| *collider == soft));
+}
