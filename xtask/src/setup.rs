@@ -34,10 +34,7 @@ const GRAPHICS: &[Need] = &[
         is_met: || succeeds("pkg-config", &["--exists", "libudev"]),
         packages: &["pkg-config", "libudev-dev"],
     },
-    Need {
-        is_met: has_vulkan_driver,
-        packages: &["libvulkan1", "mesa-vulkan-drivers"],
-    },
+    Need { is_met: has_vulkan_driver, packages: &["libvulkan1", "mesa-vulkan-drivers"] },
 ];
 
 /// What tests of films look at them with.
@@ -85,7 +82,7 @@ fn install(needs: &[Need]) -> Outcome {
 /// Whether the loader of Vulkan finds a driver.
 fn has_vulkan_driver() -> bool {
     let folders = ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d"];
-    folders.iter().any(|folder| {
-        Path::new(folder).read_dir().is_ok_and(|mut files| files.next().is_some())
-    })
+    folders
+        .iter()
+        .any(|folder| Path::new(folder).read_dir().is_ok_and(|mut files| files.next().is_some()))
 }

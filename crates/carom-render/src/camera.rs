@@ -65,6 +65,14 @@ impl Camera {
         Self::looking_at(bounds.center() + direction * distance, bounds.center(), vertical_fov)
     }
 
+    /// The same camera for a picture of this width to height: where that is narrower than 16:9, for
+    /// which scenes are made, it sees more above and below instead of less at the sides.
+    pub fn in_picture(self, aspect: f64) -> Self {
+        let widened = (16.0 / 9.0 / aspect).max(1.0);
+        let upward = (0.5 * self.vertical_fov).tan() * widened;
+        Self { vertical_fov: 2.0 * upward.atan(), ..self }
+    }
+
     /// The way it looks, unit vector.
     pub fn ahead(&self) -> DVec3 {
         self.rotation * DVec3::NEG_Z

@@ -126,9 +126,9 @@ impl Light {
     /// The same light under a dark sky, for dark surroundings.
     pub fn at_dusk(self) -> Self {
         Self {
-            zenith: linear([0.13, 0.15, 0.20]),
-            horizon: linear([0.24, 0.26, 0.31]),
-            ground: linear([0.17, 0.17, 0.18]),
+            zenith: linear([0.26, 0.29, 0.36]),
+            horizon: linear([0.36, 0.39, 0.45]),
+            ground: linear([0.27, 0.28, 0.31]),
             ..self
         }
     }

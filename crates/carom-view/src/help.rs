@@ -1,6 +1,6 @@
 //! The list of shortcuts.
 
-use egui::{Align2, Context, Grid, RichText, Window};
+use egui::{Align2, Context, Grid, KeyboardShortcut, RichText, Window};
 
 use crate::action::{MOUSE, SHORTCUTS};
 
@@ -14,8 +14,11 @@ pub fn show(context: &Context, open: &mut bool) {
         .show(context, |ui| {
             Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).striped(true).show(ui, |ui| {
                 for shortcut in SHORTCUTS {
-                    let keys: Vec<String> =
-                        shortcut.keys.iter().map(|key| context.format_shortcut(key)).collect();
+                    let name = |key: &KeyboardShortcut| {
+                        let control = if key.modifiers.command { "Ctrl + " } else { "" };
+                        format!("{control}{}", key.logical_key.symbol_or_name())
+                    };
+                    let keys: Vec<String> = shortcut.keys.iter().map(name).collect();
                     ui.label(RichText::new(keys.join("  or  ")).strong());
                     ui.label(shortcut.text);
                     ui.end_row();

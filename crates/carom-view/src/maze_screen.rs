@@ -193,7 +193,7 @@ impl MazeScreen {
         if dark {
             self.drawing.light = self.drawing.light.at_dusk();
         }
-        studio.draw(&mut self.canvas, size, &self.drawing, &orbit.camera);
+        studio.draw(&mut self.canvas, size, &self.drawing, &orbit.camera.in_picture(aspect));
         if let Some(texture) = self.canvas.texture() {
             Image::new((texture, rect.size())).paint_at(ui, rect);
         }
@@ -289,6 +289,6 @@ impl MazeScreen {
             Some(orbit) => orbit,
             None => self.preset(Preset::Scene, aspect),
         };
-        studio.picture([width, height], &self.drawing, &orbit.camera)
+        studio.picture([width, height], &self.drawing, &orbit.camera.in_picture(aspect))
     }
 }

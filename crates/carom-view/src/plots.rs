@@ -1,7 +1,7 @@
 //! Plots of what is measured.
 
 use egui::{Color32, ScrollArea, Ui};
-use egui_plot::{Legend, Line, Plot, PlotPoint, PlotPoints, VLine};
+use egui_plot::{AxisHints, Legend, Line, Plot, PlotPoint, PlotPoints, VLine};
 
 use crate::session::View;
 
@@ -87,7 +87,8 @@ fn plot(ui: &mut Ui, title: &str, now: f64, curves: Vec<Curve>) {
         .allow_zoom(false)
         .allow_boxed_zoom(false)
         .include_x(0.0)
-        .y_axis_min_width(46.0)
+        .custom_x_axes(vec![AxisHints::new_x().label_spacing(30.0..=80.0)])
+        .custom_y_axes(vec![AxisHints::new_y().label_spacing(12.0..=30.0).min_thickness(46.0)])
         .show(ui, |plot| {
             for Curve { name, color, points } in curves {
                 plot.line(Line::new(name, PlotPoints::Owned(points)).color(color));

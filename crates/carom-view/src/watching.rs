@@ -299,12 +299,13 @@ impl Watching {
         }
         let Some(orbit) = self.orbit else { return };
         let look = self.look(manner);
-        let drawn = Drawn { news: self.news, camera: orbit.camera, look, size };
+        let camera = orbit.camera.in_picture(aspect);
+        let drawn = Drawn { news: self.news, camera, look, size };
         if self.drawn[side] != Some(drawn) {
             let view = self.driver.view();
             let view = if side == 0 { view } else { view.other.as_deref().unwrap_or(view) };
             look::draw(view, &look, &mut self.drawing);
-            studio.draw(&mut self.canvases[side], size, &self.drawing, &orbit.camera);
+            studio.draw(&mut self.canvases[side], size, &self.drawing, &camera);
             self.drawn[side] = Some(drawn);
         }
         if let Some(texture) = self.canvases[side].texture() {
@@ -358,7 +359,8 @@ impl Watching {
         let rect = response.rect;
         let place = (pointer - rect.center()) / (0.5 * rect.size());
         let aspect = f64::from(rect.width() / rect.height());
-        let direction = orbit.camera.ray(glam::Vec2::new(place.x, -place.y), aspect);
+        let direction =
+            orbit.camera.in_picture(aspect).ray(glam::Vec2::new(place.x, -place.y), aspect);
         let origin = orbit.camera.position;
         if modifiers.command {
             let Throw { radius, mass, speed, restitution } = self.throw;
@@ -412,10 +414,11 @@ impl Watching {
         let view = driver.view();
         let sides: Vec<&View> = [Some(view), view.other.as_deref()].into_iter().flatten().collect();
         let size = [width / sides.len() as u32, height];
+        let camera = orbit.camera.in_picture(f64::from(size[0]) / f64::from(size[1]));
         let mut pictures = Vec::new();
         for side in sides {
             look::draw(side, &look, drawing);
-            pictures.push(studio.picture(size, drawing, &orbit.camera)?);
+            pictures.push(studio.picture(size, drawing, &camera)?);
         }
         Ok(Picture::side_by_side(&pictures))
     }

@@ -4,7 +4,7 @@ use carom::{DQuat, DVec3, Emitter, Mass, Sphere};
 use carom_scene::scene;
 use egui::{DragValue, Ui};
 
-use super::value::{Field, name, number, vector};
+use super::value::{Field, name, number, number_at_last, vector};
 use crate::session::{Command, Edit, View};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
@@ -15,7 +15,8 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             }
             let before = emitter(described);
             let mut after = before;
-            number(ui, Field::positive("period", "s"), &mut after.period);
+            // With another period it starts anew, and emits at once.
+            number_at_last(ui, Field::positive("period", "s"), &mut after.period);
             most(ui, &mut after.max_spheres);
             let mut velocity = after.sphere.velocity.to_array();
             vector(ui, Field::any("velocity", "m/s"), &mut velocity);

@@ -39,6 +39,26 @@ pub(super) fn vector(ui: &mut Ui, field: Field, value: &mut [f64; 3]) -> bool {
     row(ui, field, |ui| value.iter_mut().fold(false, |changed, it| drag(ui, field, it) | changed))
 }
 
+/// A row with a number that counts when it is let go or typed to its end, not on the way: for what
+/// must not change many times in between.
+pub(super) fn number_at_last(ui: &mut Ui, field: Field, value: &mut f64) -> bool {
+    let id = ui.scope_id().with(field.name);
+    row(ui, field, |ui| {
+        let mut shown = ui.data(|data| data.get_temp(id)).unwrap_or(*value);
+        let response = dragged(ui, field, &mut shown);
+        if response.drag_stopped() || response.lost_focus() {
+            ui.data_mut(|data| data.remove::<f64>(id));
+            let changed = shown != *value;
+            *value = shown;
+            return changed;
+        }
+        if response.changed() {
+            ui.data_mut(|data| data.insert_temp(id, shown));
+        }
+        false
+    })
+}
+
 fn row(ui: &mut Ui, field: Field, contents: impl FnOnce(&mut Ui) -> bool) -> bool {
     ui.horizontal(|ui| {
         name(ui, field.name);
@@ -59,9 +79,18 @@ pub(super) fn name(ui: &mut Ui, name: &str) {
 
 fn drag(ui: &mut Ui, field: Field, value: &mut f64) -> bool {
     let before = *value;
+    dragged(ui, field, value);
+    *value != before
+}
+
+fn dragged(ui: &mut Ui, field: Field, value: &mut f64) -> Response {
     let speed = (0.01 * value.abs()).max(0.005);
     let drag = DragValue::new(value).speed(speed).range(field.min..=field.max).max_decimals(6);
     let response: Response = ui.add(drag);
-    response.widget_info(|| egui::WidgetInfo::drag_value(true, *value));
-    *value != before
+    let text = field.name;
+    response.widget_info(|| egui::WidgetInfo {
+        label: Some(text.to_owned()),
+        ..egui::WidgetInfo::drag_value(true, *value)
+    });
+    response
 }
