@@ -23,6 +23,10 @@ const REST: f64 = 1e-12;
 /// between is a parabola through the middle of the turn; its gap to the true one is of the third
 /// order, below 1e-10 of the radius of the curve.
 const TURN: f64 = 1e-3;
+/// Where contacts differ by less than that in their normals \[rad\], as the faces of a box do in their
+/// common edge, what tells them apart is rounding: a gap of 1e-16 m would be closed by a way as long
+/// as it divided by that.
+const SAME_NORMAL: f64 = 1e-8;
 /// Below this turn \[rad\] a force that ends within a piece of the path ends at its beginning.
 const SHORTEST_TURN: f64 = 1e-6;
 
@@ -45,17 +49,19 @@ pub(super) fn find(stage: &Stage, group: &mut Group) -> Vec<Support> {
     while !lasting.is_empty() {
         correct(stage, group, &mut lasting);
         let forces = forces(&group.members, &lasting);
-        let (accelerations, hold) = match turning_time(&group.members, &lasting, &forces) {
-            f64::INFINITY => (borne(&group.members, &lasting, &forces), f64::INFINITY),
-            turning => match through_the_middle(stage, group, &lasting, &forces, turning) {
-                Ok(found) => found,
-                Err(released) => {
-                    let mut released = released.into_iter();
-                    lasting.retain(|_| !released.next().unwrap_or(false));
-                    continue;
-                }
-            },
-        };
+        let frame_left = (stage.start + stage.length - group.time).max(0.0);
+        let (accelerations, hold) =
+            match turning_time(&group.members, &lasting, &forces, frame_left) {
+                f64::INFINITY => (borne(&group.members, &lasting, &forces), f64::INFINITY),
+                turning => match through_the_middle(stage, group, &lasting, &forces, turning) {
+                    Ok(found) => found,
+                    Err(released) => {
+                        let mut released = released.into_iter();
+                        lasting.retain(|_| !released.next().unwrap_or(false));
+                        continue;
+                    }
+                },
+            };
         let accelerations = rest(group, accelerations, hold);
         let hold = hold.min(sliding_time(stage, group, &lasting, &accelerations));
         // What holds for less than a contact's duration is in doubt only by rounding.
@@ -163,14 +169,15 @@ fn borne(members: &[Member], touches: &[Touch], forces: &[f64]) -> Accelerations
     Accelerations { each, largest }
 }
 
-/// Time \[s\] in which the normal of some contact turns by [`TURN`]; infinite where none does.
-fn turning_time(members: &[Member], touches: &[Touch], forces: &[f64]) -> f64 {
+/// Time \[s\] in which the normal of some contact turns by [`TURN`]; infinite where none does. How
+/// a surface turns is known for what is left of the frame \[s\].
+fn turning_time(members: &[Member], touches: &[Touch], forces: &[f64], frame_left: f64) -> f64 {
     let accelerations = borne(members, touches, forces);
     let mut time = f64::INFINITY;
     for touch in touches {
         let spin = touch.surface_spin.length();
         if spin > 0.0 {
-            time = time.min(TURN / spin);
+            time = time.min(TURN / spin).min(frame_left);
         }
         let acceleration = |place: usize| {
             accelerations.each[place] - members[place].kind.drag_rate * members[place].velocity
@@ -377,6 +384,15 @@ fn corrections(members: &[Member], touches: &[Touch], excess: &[f64]) -> Vec<DVe
         touches.iter().map(of).collect()
     };
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).collect::<Sum>().value();
+    // What the curvature would be if no contact shared a sphere with another.
+    let each_alone = |weights: &[f64]| -> f64 {
+        let inverse_mass = |place: usize| 1.0 / members[place].kind.mass;
+        let of = |(touch, weight): (&Touch, &f64)| {
+            let both = inverse_mass(touch.second) + touch.first.map_or(0.0, inverse_mass);
+            weight * weight * both
+        };
+        touches.iter().zip(weights).map(of).sum()
+    };
     let mut weights = vec![0.0; touches.len()];
     let mut residual: Vec<f64> = excess.iter().map(|excess| -excess).collect();
     let mut direction = residual.clone();
@@ -389,7 +405,7 @@ fn corrections(members: &[Member], touches: &[Touch], excess: &[f64]) -> Vec<DVe
         }
         let image = along(&spread(&direction));
         let curvature = dot(&direction, &image);
-        if curvature <= 0.0 {
+        if curvature <= SAME_NORMAL * SAME_NORMAL * each_alone(&direction) {
             break;
         }
         let step = square / curvature;
