@@ -99,6 +99,14 @@ impl Camera {
         edges.map(|edge| (self.rotation * edge).as_vec3())
     }
 
+    /// Where a point \[m\] is seen in the picture, from (-1, -1) at the lower left to (1, 1); `None`
+    /// behind the eye.
+    pub fn place(&self, point: DVec3, aspect: f64) -> Option<Vec2> {
+        let seen =
+            self.clip_from_eye(aspect as f32) * (point - self.position).as_vec3().extend(1.0);
+        (seen.w > 0.0).then(|| Vec2::new(seen.x, seen.y) / seen.w)
+    }
+
     /// Direction in which a place in the picture is seen: (-1, -1) is its lower left corner.
     pub fn ray(&self, place: Vec2, aspect: f64) -> DVec3 {
         let [right, up] = self.edges(aspect as f32).map(|edge| edge.as_dvec3());

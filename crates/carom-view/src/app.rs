@@ -7,13 +7,14 @@ use carom_render::{Picture, Quality, stamp};
 use carom_scene::scene::Scene;
 use carom_scene::{Library, Source};
 use eframe::CreationContext;
-use egui::{Context, Theme, Ui};
+use egui::{Context, Pos2, Rect, Theme, Ui};
 
 use crate::action::{self, Action};
 use crate::chooser::{Choice, Chooser};
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
 use crate::orbit::Preset;
+use crate::session::Command;
 use crate::studio::Studio;
 use crate::watching::{Manner, Watching};
 use crate::{help, picture_files};
@@ -134,6 +135,18 @@ impl App {
         }
     }
 
+    /// Tells the physics of the scene being watched what to do.
+    pub fn command(&mut self, command: Command) {
+        if let Screen::Watching(watching) = &mut self.screen {
+            watching.commands.push(command);
+        }
+    }
+
+    /// Where in a picture of this place on the screen the sphere at an index is shown.
+    pub fn place_of(&self, index: usize, picture: Rect) -> Option<Pos2> {
+        self.watching()?.place_of(index, picture)
+    }
+
     /// The maze being played, if any is.
     pub fn maze(&self) -> Option<&MazeScreen> {
         match &self.screen {
@@ -153,7 +166,8 @@ impl App {
         }
     }
 
-    /// Opens a scene file that was dropped on the window: a scene, or a maze drawn with characters.
+    /// Opens a file that was dropped on the window: a scene, or a maze drawn with characters.
+    #[cfg(not(target_arch = "wasm32"))]
     fn open_dropped(&mut self, context: &Context) {
         let files = context.input(|input| input.raw.dropped_files.clone());
         for file in files {
@@ -169,6 +183,7 @@ impl App {
     }
 
     /// Opens the text of a file.
+    #[cfg(not(target_arch = "wasm32"))]
     fn open_text(&mut self, text: &str, path: &Path, context: &Context) {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if path.extension().is_some_and(|ending| ending == "txt") {
@@ -445,9 +460,11 @@ impl eframe::App for App {
                 self.act(action, &context);
             }
         }
-        self.open_dropped(&context);
         #[cfg(not(target_arch = "wasm32"))]
-        self.reload_changed(&context);
+        {
+            self.open_dropped(&context);
+            self.reload_changed(&context);
+        }
         if !self.chooser.is_open() {
             self.advance(ui);
             #[cfg(feature = "film")]

@@ -11,7 +11,7 @@ const ROWS: usize = 60;
 /// The last impacts, the newest first; a click on one picks its ball.
 pub fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     ui.weak("Energy is that of all impacts at the same instant, where the rule keeps account.");
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         Grid::new("impacts").num_columns(5).striped(true).spacing([14.0, 3.0]).show(ui, |ui| {
             for title in ["Time, s", "Who", "Approach, m/s", "Impulse, N s", "Energy, J"] {
                 ui.strong(title);

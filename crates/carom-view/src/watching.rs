@@ -272,7 +272,7 @@ impl Watching {
             let response = ui.allocate_rect(rect, Sense::click_and_drag());
             self.hand(ui, &response);
             self.draw(ui, studio, manner, side, rect);
-            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Picture"));
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Scene"));
         }
         self.send();
     }
@@ -385,6 +385,16 @@ impl Watching {
         }
         self.followed = None;
         self.commands.push(Command::Pick(picked));
+    }
+
+    /// Where in a picture of this place on the screen the sphere at an index is shown; `None` where
+    /// it is behind the eye.
+    pub fn place_of(&self, index: usize, picture: Rect) -> Option<Pos2> {
+        let aspect = f64::from(picture.width() / picture.height());
+        let camera = self.orbit?.camera.in_picture(aspect);
+        let center = look::place(self.view(), index, self.driver.blend());
+        let place = camera.place(center, aspect)?;
+        Some(picture.center() + Vec2::new(place.x, -place.y) * 0.5 * picture.size())
     }
 
     /// Sends what was asked for since the last picture.

@@ -39,7 +39,7 @@ fn most(ui: &mut Ui, max_spheres: &mut Option<u32>) {
     ui.horizontal(|ui| {
         name(ui, "at most");
         let mut is_limited = max_spheres.is_some();
-        if ui.checkbox(&mut is_limited, "").changed() {
+        if ui.checkbox(&mut is_limited, "limited").changed() {
             *max_spheres = is_limited.then_some(25);
         }
         match max_spheres {

@@ -46,11 +46,12 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
 fn choice<T: Copy + PartialEq>(ui: &mut Ui, title: &str, all: &[(T, &str)], value: &mut T) {
     let text = all.iter().find(|(it, _)| it == value).map_or("", |(_, text)| text);
     ui.horizontal(|ui| {
-        name(ui, title);
-        ComboBox::from_id_salt(title).selected_text(text).show_ui(ui, |ui| {
+        let label = name(ui, title);
+        let shown = ComboBox::from_id_salt(title).selected_text(text).show_ui(ui, |ui| {
             for (it, text) in all {
                 ui.selectable_value(value, *it, *text);
             }
         });
+        shown.response.labelled_by(label.id);
     });
 }

@@ -70,11 +70,9 @@ fn row(ui: &mut Ui, field: Field, contents: impl FnOnce(&mut Ui) -> bool) -> boo
 }
 
 /// The name of a row, as wide as in all others.
-pub(super) fn name(ui: &mut Ui, name: &str) {
-    ui.add_sized(
-        [84.0, ui.spacing().interact_size.y],
-        egui::Label::new(name).halign(egui::Align::LEFT),
-    );
+pub(super) fn name(ui: &mut Ui, name: &str) -> Response {
+    let label = egui::Label::new(name).halign(egui::Align::LEFT);
+    ui.add_sized([84.0, ui.spacing().interact_size.y], label)
 }
 
 fn drag(ui: &mut Ui, field: Field, value: &mut f64) -> bool {

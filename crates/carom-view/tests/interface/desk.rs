@@ -1,0 +1,57 @@
+//! A window without a screen, and what is done with it.
+
+use std::path::PathBuf;
+
+use carom_render::Quality;
+use carom_scene::{Library, Source};
+use carom_view::session::Command;
+use carom_view::{App, Setup, Start, Watching};
+use egui_kittest::Harness;
+
+pub type Desk = Harness<'static, App>;
+
+/// In points; small, so that pictures kept in the repository are.
+const SIZE: [f32; 2] = [1000.0, 620.0];
+
+pub fn setup() -> Setup {
+    Setup {
+        library: Library::new(),
+        start: None,
+        folder: PathBuf::new(),
+        quality: Quality::GOOD,
+        threaded: false,
+    }
+}
+
+pub fn desk(setup: Setup) -> Desk {
+    let builder = Harness::builder().with_size(SIZE).wgpu();
+    let mut desk = builder.build_eframe(|host| App::new(host, setup).expect("wgpu is there"));
+    desk.run_steps(4);
+    desk
+}
+
+/// A desk on which a built-in scene is watched.
+pub fn watching(name: &str) -> Desk {
+    let (scene, _) = Library::new().find(name, &[]).expect("a built-in scene");
+    let start = Some(Start::Scene(Box::new(scene), Source::BuiltIn));
+    desk(Setup { start, ..setup() })
+}
+
+/// The scene that is watched.
+pub fn scene(desk: &Desk) -> &Watching {
+    desk.state().watching().expect("a scene is watched")
+}
+
+/// Goes to a time \[s\] and waits until it is there.
+pub fn go_to(desk: &mut Desk, time: f64) {
+    desk.state_mut().command(Command::Seek(time));
+    desk.run_steps(2);
+    while scene(desk).view().seeking.is_some() {
+        desk.run_steps(1);
+    }
+}
+
+pub fn press(desk: &mut Desk, key: egui::Key) {
+    desk.key_press(key);
+    desk.run_steps(3);
+}

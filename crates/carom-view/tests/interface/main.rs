@@ -1,0 +1,10 @@
+//! The interface as a user meets it: keys and buttons pressed, files dropped and changed, and
+//! what becomes of it. Drawn by the software driver; physics in place, so that nothing depends on a
+//! thread's timing.
+
+mod desk;
+mod files;
+mod maze;
+mod pictures;
+mod scenes;
+mod transport;

@@ -1,0 +1,58 @@
+//! The maze by keys.
+
+use carom_maze::{GameState, Maze};
+use carom_view::{Setup, Start};
+use egui::Key;
+use egui_kittest::kittest::Queryable;
+
+use crate::desk::{Desk, desk, setup};
+
+/// The end wall is to the right of the start.
+pub const SHORT: &str = "#######\n#S o E#\n#######\n";
+
+pub fn playing(maze: Maze) -> Desk {
+    desk(Setup { start: Some(Start::Maze(Box::new(maze))), ..setup() })
+}
+
+/// Holds the right arrow until the game is won.
+pub fn win(desk: &mut Desk) {
+    desk.key_down(Key::ArrowRight);
+    for _ in 0..1200 {
+        desk.run_steps(1);
+        if desk.state().maze().is_some_and(|it| it.is_won()) {
+            break;
+        }
+    }
+    desk.key_up(Key::ArrowRight);
+    desk.run_steps(2);
+}
+
+#[test]
+fn each_arrow_rolls_the_ball_its_way() {
+    let keys =
+        [(Key::ArrowRight, 0, 1.0), (Key::A, 0, -1.0), (Key::ArrowUp, 2, -1.0), (Key::S, 2, 1.0)];
+    for (key, axis, sign) in keys {
+        let mut desk = playing(Maze::course().expect("the course's maze"));
+        let place = |desk: &Desk| desk.state().maze().expect("a game").game().ball_in_maze().0;
+        let before = place(&desk);
+        desk.key_down(key);
+        desk.run_steps(25);
+        let way = place(&desk) - before;
+        assert!(way[axis] * sign > 0.005, "{key:?}: {way}");
+    }
+}
+
+#[test]
+fn the_end_wall_wins_and_play_again_starts_anew() {
+    let mut desk = playing(Maze::from_text(SHORT, "short").expect("a maze"));
+    win(&mut desk);
+    let game = desk.state().maze().expect("a game").game();
+    let GameState::Won { time } = game.state() else { panic!("not won") };
+    assert_eq!((game.collected(), game.best()), (1, Some(time)));
+    desk.get_by_label("You win!");
+    desk.get_by_label("Play again").click();
+    desk.run_steps(3);
+    let game = desk.state().maze().expect("a game").game();
+    assert_eq!((game.state(), game.collected()), (GameState::Rolling, 0));
+    assert_eq!(game.best(), Some(time));
+}

@@ -1,0 +1,118 @@
+//! Choosing scenes, and changing them while they run.
+
+use carom_scene::Library;
+use carom_view::session::{Command, Edit};
+use egui::{Key, Role};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+use crate::desk::{desk, press, scene, setup, watching};
+
+#[test]
+fn the_chooser_is_there_at_the_start_and_comes_back_on_enter() {
+    let mut desk = desk(setup());
+    desk.get_by_label("Choose a scene");
+    press(&mut desk, Key::Enter);
+    assert!(desk.query_by_label("Choose a scene").is_none());
+    assert_eq!(scene(&desk).view().scene.name, "simtest1");
+    press(&mut desk, Key::Enter);
+    desk.get_by_label("Choose a scene");
+    press(&mut desk, Key::Escape);
+    assert!(desk.query_by_label("Choose a scene").is_none());
+}
+
+#[test]
+fn what_is_typed_filters_by_name_and_description() {
+    let mut desk = desk(setup());
+    desk.event(egui::Event::Text("cradle".to_owned()));
+    desk.run_steps(3);
+    assert!(desk.query_by_label("simtest1").is_none());
+    press(&mut desk, Key::Enter);
+    assert_eq!(scene(&desk).view().scene.name, "tutorial3");
+}
+
+#[test]
+fn every_scene_opens_from_the_chooser() {
+    let mut desk = desk(setup());
+    for entry in Library::new().entries().expect("built-in scenes") {
+        if desk.query_by_label("Choose a scene").is_none() {
+            press(&mut desk, Key::Enter);
+        }
+        desk.event(egui::Event::Text(entry.name.clone()));
+        desk.run_steps(3);
+        press(&mut desk, Key::Enter);
+        let app = desk.state();
+        let opened = app.watching().map(|it| it.view().scene.name.clone());
+        let opened = opened.or_else(|| app.maze().map(|it| it.game().scene().name.clone()));
+        assert_eq!(opened.as_deref(), Some(entry.name.as_str()));
+        assert!(!app.notices().any_error());
+    }
+}
+
+#[test]
+fn restitution_changes_while_the_scene_runs() {
+    let mut desk = watching("simtest1");
+    press(&mut desk, Key::P);
+    desk.run_steps(30);
+    desk.get_by_label("Restitution of PlaneCollider").click();
+    desk.run_steps(2);
+    desk.event(egui::Event::Text("0.05".to_owned()));
+    desk.run_steps(2);
+    press(&mut desk, Key::Enter);
+    let view = scene(&desk).view();
+    let (_, plane) = &view.setup.colliders[0];
+    assert_eq!(plane.restitution, 0.05);
+    assert!(view.playback.playing && view.time > 0.3, "it went on");
+}
+
+#[test]
+fn a_refused_change_is_told_and_changes_nothing() {
+    let mut desk = watching("simtest1");
+    let mut simulation = scene(&desk).view().setup.simulation.clone();
+    simulation.frame_time = -1.0;
+    desk.state_mut().command(Command::Edit(Edit::Simulation(Box::new(simulation))));
+    desk.run_steps(4);
+    assert!(desk.state().notices().any_error());
+    assert_eq!(scene(&desk).view().setup.simulation.frame_time, 0.02);
+}
+
+#[test]
+fn every_shortcut_is_in_the_help() {
+    let mut desk = watching("tutorial1");
+    press(&mut desk, Key::F1);
+    for shortcut in carom_view::SHORTCUTS {
+        desk.get_by_label(shortcut.text);
+    }
+}
+
+#[test]
+fn a_ball_that_is_clicked_is_picked_and_one_is_thrown_with_control() {
+    let mut desk = watching("tutorial1");
+    let balls = scene(&desk).view().spheres.ids.len();
+    let picture = desk.get_by_role_and_label(Role::Image, "Scene").rect();
+    let place = desk.state().place_of(0, picture).expect("the ball is in the picture");
+    desk.hover_at(place);
+    desk.drag_at(place);
+    desk.run_steps(1);
+    desk.drop_at(place);
+    desk.run_steps(4);
+    assert_eq!(scene(&desk).view().picked, scene(&desk).view().spheres.ids.first().copied());
+
+    let corner = picture.left_top() + egui::Vec2::splat(30.0);
+    let control = egui::Modifiers::COMMAND;
+    desk.event(egui::Event::ModifiersChanged(control));
+    desk.hover_at(corner);
+    desk.run_steps(1);
+    for pressed in [true, false] {
+        let event = egui::Event::PointerButton {
+            pos: corner,
+            button: egui::PointerButton::Primary,
+            pressed,
+            modifiers: control,
+        };
+        desk.event(event);
+        desk.run_steps(1);
+    }
+    desk.run_steps(4);
+    assert_eq!(scene(&desk).view().spheres.ids.len(), balls + 1);
+    assert!(!desk.root().accesskit_node().is_hidden());
+}
