@@ -8,14 +8,15 @@ mod schema;
 mod setup;
 mod shell;
 mod test;
+mod wasm;
 
 use std::process::ExitCode;
 
 const USAGE: &str = "\
 Usage: cargo xtask COMMAND
 
-  demo      set up, then run every built-in scene and print its table
-  test      set up, then every check: format, clippy, tests, documents, schema
+  demo      set up, run every built-in scene, make pictures and a film in out/, open the window
+  test      set up, then every check: format, clippy, tests, documents, schema, the browser's target
   schema    write scenes/scene.schema.json anew from the scene types
   bench     the benchmarks whose figures stand in docs/benchmarks.md";
 

@@ -1,11 +1,13 @@
 //! Every check, in the order in which they fail fastest.
 
 use crate::shell::{Outcome, cargo, cargo_with};
-use crate::{architecture, setup};
+use crate::{architecture, setup, wasm};
 
 /// Runs every check.
 pub fn test() -> Outcome {
     setup::toolchain()?;
+    setup::graphics()?;
+    setup::film_tests()?;
     cargo(&["fmt", "--all", "--check"])?;
     architecture::check()?;
     cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "--deny", "warnings"])?;
@@ -13,9 +15,13 @@ pub fn test() -> Outcome {
     cargo_with(&documents, &[("RUSTDOCFLAGS", "--deny warnings")])?;
     // The scene files can be read without the crates that only recordings need.
     cargo(&["check", "--package", "carom-scene", "--no-default-features", "--quiet"])?;
+    // The command line is built without pictures, too, by those who work on the physics.
+    let plain = ["--package", "carom-cli", "--no-default-features", "--quiet"];
+    cargo(&[&["check"], &plain[..]].concat())?;
+    wasm::check()?;
     cargo(&["test", "--workspace", "--quiet"])?;
     // What the physics is held against.
-    cargo(&["run", "--release", "--quiet", "--package", "carom-cli", "--", "verify"])?;
+    cargo(&[&["run", "--release"], &plain[..], &["--", "verify"]].concat())?;
     // The same bits in every build: the tests that pin hashes, optimised.
     let optimised = ["test", "--release", "--quiet", "--package"];
     cargo(&[&optimised[..], &["carom", "--test", "world", "--test", "exact"]].concat())?;

@@ -10,7 +10,15 @@ pub fn check() -> Outcome {
     setup::browser_target(TARGET)?;
     let packages = ["carom", "carom-scene", "carom-render", "carom-maze", "carom-view"];
     for package in packages {
-        cargo(&["check", "--quiet", "--package", package, "--target", TARGET, "--no-default-features"])?;
+        cargo(&[
+            "check",
+            "--quiet",
+            "--package",
+            package,
+            "--target",
+            TARGET,
+            "--no-default-features",
+        ])?;
     }
     Ok(())
 }

@@ -305,6 +305,16 @@ impl Game {
         &self.options
     }
 
+    /// Plays on in another way, from the next frame on.
+    ///
+    /// # Errors
+    /// [`GameError::Option`] for a value that makes no sense; then it is played as before.
+    pub fn set_options(&mut self, options: Options) -> Result<(), GameError> {
+        options.validate()?;
+        self.options = options;
+        Ok(())
+    }
+
     /// Length of a frame \[s\].
     pub fn frame_time(&self) -> f64 {
         self.options.frame_time

@@ -1,8 +1,10 @@
 //! The interface as a whole.
 
-use std::path::{Path, PathBuf};
+#[cfg(not(target_arch = "wasm32"))]
+use std::path::Path;
+use std::path::PathBuf;
 
-use carom_maze::Maze;
+use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
 use carom_render::{Picture, Quality, stamp};
 use carom_scene::scene::Scene;
 use carom_scene::{Library, Source};
@@ -53,6 +55,8 @@ pub struct App {
     chooser: Chooser,
     notices: Notices,
     help: bool,
+    /// Seed of the last random maze.
+    random_mazes: u64,
     #[cfg(feature = "film")]
     recorder: Option<crate::recorder::Recorder>,
     #[cfg(not(target_arch = "wasm32"))]
@@ -88,6 +92,7 @@ impl App {
             chooser: Chooser::default(),
             notices: Notices::default(),
             help: false,
+            random_mazes: 0,
             #[cfg(feature = "film")]
             recorder: None,
             #[cfg(not(target_arch = "wasm32"))]
@@ -359,6 +364,41 @@ impl App {
         }
     }
 
+    /// Says what went wrong on the graphics device. The scene goes on, and can be saved.
+    fn complain_of_studio(&mut self) {
+        if let Some(text) = self.studio.failure() {
+            let advice = "Save the scene with Ctrl + S, and start anew.";
+            self.notices.complain(format!("{text}. {advice}"));
+        }
+    }
+
+    /// What there is to choose in the maze game. Returns another maze to play.
+    fn mazes(&mut self, ui: &mut Ui) -> Option<Result<Maze, MazeError>> {
+        let Screen::Maze(screen) = &mut self.screen else { return None };
+        let mut levels_back = screen.levels_back();
+        if ui.checkbox(&mut levels_back, "Level back").changed()
+            && let Err(error) = screen.set_levels_back(levels_back)
+        {
+            self.notices.complain(error);
+        }
+        ui.separator();
+        let mut chosen = None;
+        if ui.button("Course").clicked() {
+            chosen = Some(Maze::course());
+        }
+        for (name, text) in BUILT_IN_DRAWINGS {
+            if ui.button(*name).clicked() {
+                chosen = Some(Maze::from_text(text, name));
+            }
+        }
+        if ui.button("Random").on_hover_text("another one each time").clicked() {
+            self.random_mazes += 1;
+            chosen = Some(Maze::random(self.random_mazes, 8, 6));
+        }
+        ui.separator();
+        chosen
+    }
+
     fn bar(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         ui.horizontal_wrapped(|ui| {
@@ -372,6 +412,11 @@ impl App {
             if let Screen::Watching(watching) = &self.screen {
                 actions.extend(watching.switches(ui));
                 ui.separator();
+            }
+            match self.mazes(ui) {
+                Some(Ok(maze)) => self.play(maze),
+                Some(Err(error)) => self.notices.complain(error),
+                None => {}
             }
             for (text, action) in [
                 ("Picture", Action::Screenshot),
@@ -471,6 +516,7 @@ impl eframe::App for App {
             self.film(&context);
         }
         self.complain_of_session();
+        self.complain_of_studio();
         let asked = egui::Panel::top("bar").show(ui, |ui| self.bar(ui)).inner;
         self.screen(ui);
         for action in asked {

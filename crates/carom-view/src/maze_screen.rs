@@ -144,10 +144,22 @@ impl MazeScreen {
         self.message = None;
     }
 
+    /// Whether the maze turns back to level when nothing steers it.
+    pub fn levels_back(&self) -> bool {
+        self.game.options().levels_back
+    }
+
+    /// Chooses whether the maze turns back to level when nothing steers it.
+    ///
+    /// # Errors
+    /// None but what the options had from the start.
+    pub fn set_levels_back(&mut self, levels_back: bool) -> Result<(), GameError> {
+        self.game.set_options(Options { levels_back, ..*self.game.options() })
+    }
+
     /// Looks from a preset.
     pub fn look_from(&mut self, preset: Preset) {
-        let aspect = self.orbit.map_or(16.0 / 9.0, |_| 16.0 / 9.0);
-        self.orbit = Some(self.preset(preset, aspect));
+        self.orbit = Some(self.preset(preset, 16.0 / 9.0));
     }
 
     fn preset(&mut self, preset: Preset, aspect: f64) -> Orbit {

@@ -1,5 +1,7 @@
 //! Pictures inside the interface.
 
+use std::sync::{Arc, Mutex};
+
 use carom_render::{Camera, Drawing, Gpu, GpuError, Offscreen, Picture, Quality, Renderer, Target};
 use egui::{TextureId, Vec2};
 use egui_wgpu::{RenderState, wgpu};
@@ -10,6 +12,28 @@ pub struct Studio {
     renderer: Renderer,
     /// For pictures that are saved; made when first needed.
     offscreen: Option<Offscreen>,
+    /// What went wrong on the device since it was asked.
+    failure: Arc<Mutex<Option<String>>>,
+}
+
+/// Notes what goes wrong on the device, instead of ending the program: the scene goes on.
+fn listen(device: &wgpu::Device, failure: &Arc<Mutex<Option<String>>>) {
+    let note = |failure: &Arc<Mutex<Option<String>>>, text: String| {
+        if let Ok(mut failure) = failure.lock() {
+            *failure = Some(text);
+        }
+    };
+    let lost = Arc::clone(failure);
+    device.set_device_lost_callback(move |reason, text| {
+        // That it ends with the program is no failure.
+        if reason != wgpu::DeviceLostReason::Destroyed {
+            note(&lost, format!("the graphics device was lost: {text}"));
+        }
+    });
+    let failed = Arc::clone(failure);
+    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+        note(&failed, format!("the graphics device failed: {error}"));
+    }));
 }
 
 /// A picture in the interface.
@@ -28,8 +52,15 @@ impl Canvas {
 impl Studio {
     /// A studio on the device that draws the interface.
     pub fn new(state: RenderState, quality: Quality) -> Self {
+        let failure = Arc::new(Mutex::new(None));
+        listen(&state.device, &failure);
         let renderer = Renderer::new(&state.device, quality);
-        Self { state, renderer, offscreen: None }
+        Self { state, renderer, offscreen: None, failure }
+    }
+
+    /// What went wrong on the device since this was asked last: lost, or out of memory.
+    pub fn failure(&self) -> Option<String> {
+        self.failure.lock().ok()?.take()
     }
 
     /// How much work goes into its pictures.

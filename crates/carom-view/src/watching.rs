@@ -5,6 +5,7 @@ use carom_render::{Camera, Drawing, GpuError, Picture};
 use carom_scene::scene::{Rule, Scene};
 use carom_scene::{SceneError, Source};
 use egui::{Image, Modifiers, PointerButton, Pos2, Rect, Response, Sense, Ui, Vec2};
+use web_time::Instant;
 
 use crate::action::Action;
 use crate::inspector::{self, Throw};
@@ -112,14 +113,8 @@ impl Watching {
     /// Lets the physics go on by the time since the last picture.
     pub fn advance(&mut self, ui: &Ui) {
         let wall_seconds = ui.input(|input| f64::from(input.unstable_dt));
-        #[cfg(not(target_arch = "wasm32"))]
-        let time_is_up = {
-            let began = std::time::Instant::now();
-            move || began.elapsed().as_secs_f64() > INLINE_BUDGET
-        };
-        // Without a clock, one piece of work a picture.
-        #[cfg(target_arch = "wasm32")]
-        let time_is_up = || true;
+        let began = Instant::now();
+        let time_is_up = || began.elapsed().as_secs_f64() > INLINE_BUDGET;
         if self.driver.update(wall_seconds, time_is_up) {
             self.news += 1;
         }
