@@ -1,0 +1,182 @@
+//! What pictures show, measured in their pixels. Drawn offscreen by whatever driver there is; a
+//! software one is enough.
+
+use std::f64::consts::PI;
+
+use carom::{DQuat, DVec3, Pose, Shape};
+use carom_render::{
+    Ball, Bounds, Camera, Drawing, GpuError, Light, Material, Offscreen, Picture, Quality,
+};
+
+const SIZE: [u32; 2] = [400, 300];
+const ASPECT: f64 = 4.0 / 3.0;
+
+fn ball(center: DVec3, radius: f64, color: [f64; 3]) -> Ball {
+    Ball { center, radius, color, rotation: DQuat::IDENTITY, material: Material::Glowing }
+}
+
+fn drawn(drawing: &Drawing, camera: &Camera, quality: Quality) -> Picture {
+    let mut offscreen = Offscreen::new(SIZE, quality).expect("a graphics driver");
+    offscreen.draw(drawing, camera).expect("a picture")
+}
+
+fn pixel(picture: &Picture, x: u32, y: u32) -> [u8; 3] {
+    let first = 4 * (y * picture.width + x) as usize;
+    [picture.pixels[first], picture.pixels[first + 1], picture.pixels[first + 2]]
+}
+
+/// Sum over the picture of how much of each pixel is red, where the rest of it is black.
+fn red_area(picture: &Picture) -> f64 {
+    // sRGB back to light (IEC 61966-2-1).
+    let light = |part: u8| (f64::from(part) / 255.0).powf(2.2);
+    picture.pixels.chunks_exact(4).map(|it| light(it[0])).sum()
+}
+
+fn in_the_dark() -> Drawing {
+    let black = [0.0; 3];
+    Drawing {
+        light: Light { zenith: black, horizon: black, ground: black, ..Light::default() },
+        ..Drawing::default()
+    }
+}
+
+fn camera_in_front(distance: f64) -> Camera {
+    Camera::looking_at(DVec3::Z * distance, DVec3::ZERO, 0.8)
+}
+
+#[test]
+fn a_ball_covers_the_ellipse_that_perspective_makes_of_it() {
+    // A cone of half angle s about a direction at angle t to the axis cuts the picture plane at
+    // distance 1 in an ellipse of the area π sin² s cos s cos t' / (cos² s - sin² t)^(3/2), here by
+    // its half axes: along t, (tan(t + s) - tan(t - s)) / 2, across, sin s / √(cos² t - sin² s).
+    for (aside, radius, distance) in
+        [(0.0, 1.0, 5.0), (1.5, 1.0, 5.0), (0.0, 0.05, 5.0), (0.0, 1.0, 2.6)]
+    {
+        let mut drawing = in_the_dark();
+        drawing.balls.push(ball(DVec3::new(aside, 0.0, 0.0), radius, [1.0, 0.0, 0.0]));
+        let camera = camera_in_front(distance);
+        let picture = drawn(&drawing, &camera, Quality::FINE);
+        let (t, to_center) = (f64::atan2(aside, distance), aside.hypot(distance));
+        let s = (radius / to_center).asin();
+        let along = 0.5 * ((t + s).tan() - (t - s).tan());
+        let across = s.sin() / (t.cos().powi(2) - s.sin().powi(2)).sqrt();
+        let pixels_per_unit = 0.5 * f64::from(SIZE[1]) / (0.5 * camera.vertical_fov).tan();
+        let expected = PI * along * across * pixels_per_unit * pixels_per_unit;
+        let outline = 2.0 * PI * along.max(across) * pixels_per_unit;
+        // Along the outline, coverage is a multiple of a quarter, and gamma is not quite 2.2.
+        let error = (red_area(&picture) - expected).abs();
+        assert!(
+            error < 0.12 * outline,
+            "{aside} {radius}: off by {error:.1} of {expected:.1} pixels"
+        );
+    }
+}
+
+#[test]
+fn where_two_balls_interpenetrate_the_nearer_surface_is_seen() {
+    let mut drawing = in_the_dark();
+    drawing.balls.push(ball(DVec3::new(-0.5, 0.0, 0.0), 1.0, [1.0, 0.0, 0.0]));
+    drawing.balls.push(ball(DVec3::new(0.5, 0.0, 0.0), 1.0, [0.0, 1.0, 0.0]));
+    let picture = drawn(&drawing, &camera_in_front(6.0), Quality::DRAFT);
+    // They are mirror images: the seam is the middle column.
+    for y in [120, 150, 180] {
+        assert_eq!(pixel(&picture, 195, y), [255, 0, 0]);
+        assert_eq!(pixel(&picture, 204, y), [0, 255, 0]);
+    }
+}
+
+#[test]
+fn the_back_of_a_rectangle_is_told_from_its_front() {
+    let mut drawing = Drawing::default();
+    let shape = Shape::Rectangle { size_x: 4.0, size_z: 4.0 };
+    drawing.add_collider(shape, Pose::at(DVec3::ZERO), [0.9, 0.9, 0.9], false);
+    let from = |height: f64| {
+        let camera = Camera::looking_at(DVec3::new(0.3, height, 0.2), DVec3::ZERO, 0.8);
+        let [r, g, b] = pixel(&drawn(&drawing, &camera, Quality::DRAFT), 200, 150);
+        u32::from(r) + u32::from(g) + u32::from(b)
+    };
+    let (front, back) = (from(4.0), from(-4.0));
+    assert!(front > 2 * back, "front {front}, back {back}");
+}
+
+#[test]
+fn a_ball_shades_the_floor_away_from_the_sun() {
+    let mut drawing = Drawing::default();
+    let shape = Shape::Rectangle { size_x: 20.0, size_z: 20.0 };
+    drawing.add_collider(shape, Pose::at(DVec3::ZERO), [0.8, 0.8, 0.8], false);
+    drawing.light.to_sun = DVec3::new(1.0, 1.0, 0.0).normalize();
+    let bare = drawing.clone();
+    drawing.balls.push(ball(DVec3::new(0.0, 2.0, 0.0), 0.5, [1.0, 0.0, 0.0]));
+    let camera = Camera::looking_at(DVec3::Y * 15.0, DVec3::ZERO, 0.8);
+    for quality in [Quality::DRAFT, Quality::FINE] {
+        let (with, without) = (drawn(&drawing, &camera, quality), drawn(&bare, &camera, quality));
+        // A ball 2 m high under a sun at 45° shades the floor 2 m further along -x.
+        let at = |point: DVec3| {
+            let place = camera.place(point, ASPECT).expect("before the eye");
+            let x = (0.5 + 0.5 * f64::from(place.x)) * f64::from(SIZE[0]);
+            let y = (0.5 - 0.5 * f64::from(place.y)) * f64::from(SIZE[1]);
+            let light = |picture| u32::from(pixel(picture, x as u32, y as u32)[1]);
+            (light(&with), light(&without))
+        };
+        let (shaded, lit) = at(DVec3::new(-2.3, 0.0, 0.1));
+        assert!(5 * shaded < 4 * lit, "shaded {shaded}, lit {lit}");
+        let (shaded, lit) = at(DVec3::new(2.3, 0.0, 0.1));
+        assert!(shaded.abs_diff(lit) <= 3, "towards the sun: {shaded} and {lit}");
+    }
+}
+
+#[test]
+fn a_fitted_camera_sees_every_corner_and_wastes_little() {
+    let bounds = Bounds { min: DVec3::new(-3.0, 0.0, 1.0), max: DVec3::new(5.0, 2.0, 1.5) };
+    for from in [DVec3::Z, DVec3::Y, DVec3::new(0.5, 0.5, 1.0), DVec3::new(-1.0, 0.1, 0.0)] {
+        let camera = Camera::fitted(&bounds, from, ASPECT);
+        let places = bounds.corners().map(|it| camera.place(it, ASPECT).expect("before the eye"));
+        let farthest = places.iter().map(|it| it.abs().max_element()).fold(0.0, f32::max);
+        assert!((0.9..=1.0).contains(&farthest), "{from}: {farthest}");
+    }
+}
+
+#[test]
+fn a_ray_through_a_place_meets_what_is_shown_there() {
+    let camera = Camera::looking_at(DVec3::new(2.0, 3.0, 7.0), DVec3::new(1.0, 0.0, 0.0), 0.9);
+    let point = DVec3::new(0.3, -0.4, 1.7);
+    let place = camera.place(point, ASPECT).expect("before the eye");
+    let to_point = (point - camera.position).normalize();
+    // Places have 24 bits.
+    assert!((camera.ray(place, ASPECT) - to_point).length() < 1e-6);
+    assert_eq!(camera.place(camera.position - camera.ahead(), ASPECT), None);
+}
+
+#[test]
+fn a_hundred_thousand_balls_are_drawn_at_once() {
+    let mut drawing = in_the_dark();
+    for i in 0..100_000 {
+        let place = |step: i32, count: i32| f64::from((i / step) % count);
+        let center = DVec3::new(place(1, 100), place(100, 100), place(10_000, 10));
+        drawing.balls.push(ball(center, 0.4, [1.0, 0.0, 0.0]));
+    }
+    let bounds = drawing.bounds().expect("there are balls");
+    let picture = drawn(&drawing, &Camera::fitted(&bounds, DVec3::Z, ASPECT), Quality::DRAFT);
+    assert!(red_area(&picture) > 30_000.0, "{}", red_area(&picture));
+}
+
+#[test]
+fn a_picture_without_pixels_or_too_large_is_refused() {
+    for size in [[0, 10], [10, 0], [1_000_000, 10]] {
+        let refused = Offscreen::new(size, Quality::DRAFT).expect_err("no such picture");
+        assert!(matches!(refused, GpuError::Size { .. }), "{refused}");
+    }
+}
+
+#[test]
+fn far_from_the_origin_nothing_trembles() {
+    // In 32 bits, places at 1e7 m would be a metre apart.
+    let far = DVec3::splat(1e7);
+    let at = |origin: DVec3| {
+        let mut drawing = in_the_dark();
+        drawing.balls.push(ball(origin + DVec3::new(0.25, 0.125, 0.0), 0.5, [1.0, 0.0, 0.0]));
+        let camera = Camera { position: origin + DVec3::Z * 3.0, ..camera_in_front(3.0) };
+        drawn(&drawing, &camera, Quality::DRAFT)
+    };
+    assert_eq!(at(DVec3::ZERO).pixels, at(far).pixels);
+}
