@@ -2,10 +2,14 @@
 
 use std::path::PathBuf;
 
-use carom_scene::{Library, Override};
+use carom_scene::{Library, Override, Scene, Source};
 use clap::{Parser, Subcommand};
 
 use crate::failure::Failure;
+#[cfg(feature = "pictures")]
+use crate::pictures::args::{Maze, Picture, Record};
+#[cfg(feature = "view")]
+use crate::window::View;
 
 /// Moves spheres exactly: runs scenes of spheres that collide with each other and with fixed
 /// surfaces.
@@ -17,17 +21,36 @@ pub struct Args {
     #[arg(long, global = true, value_name = "DIR")]
     scenes: Vec<PathBuf>,
     /// What to do.
+    #[cfg(not(feature = "view"))]
     #[command(subcommand)]
-    pub command: Command,
+    command: Command,
+    /// What to do; `view`, which lets you choose a scene, unless something is asked for.
+    #[cfg(feature = "view")]
+    #[command(subcommand)]
+    command: Option<Command>,
 }
 
 impl Args {
+    /// Who looks for scenes where, and what to do.
+    pub fn split(self) -> (Folders, Command) {
+        #[cfg(not(feature = "view"))]
+        let command = self.command;
+        #[cfg(feature = "view")]
+        let command = self.command.unwrap_or_else(|| Command::View(View::default()));
+        (Folders(self.scenes), command)
+    }
+}
+
+/// Folders with scenes, as the command line names them.
+pub struct Folders(Vec<PathBuf>);
+
+impl Folders {
     /// All scenes that can be found.
     pub fn library(&self) -> Result<Library, Failure> {
         let mut library = Library::new();
         let from_environment = std::env::var_os("CAROM_SCENES").unwrap_or_default();
         let from_environment = std::env::split_paths(&from_environment);
-        let folders = self.scenes.iter().cloned().chain(from_environment);
+        let folders = self.0.iter().cloned().chain(from_environment);
         for folder in folders.filter(|folder| !folder.as_os_str().is_empty()) {
             library.add_folder(&folder).map_err(|error| Failure::Usage(error.to_string()))?;
         }
@@ -61,6 +84,18 @@ pub enum Command {
     Compare(Box<Compare>),
     /// Measure how fast gases of spheres and the built-in scenes run on one core.
     Bench(Bench),
+    /// Draw a scene into a PNG file.
+    #[cfg(feature = "pictures")]
+    Picture(Box<Picture>),
+    /// Film a scene, a recorded run, or the maze game: H.264 in an mp4 file.
+    #[cfg(feature = "pictures")]
+    Record(Box<Record>),
+    /// Play the maze game in a window, or print a random maze.
+    #[cfg(feature = "pictures")]
+    Maze(Maze),
+    /// Watch and change a scene in a window; without a scene, choose one there.
+    #[cfg(feature = "view")]
+    View(View),
 }
 
 /// Which scene, and what is different in it.
@@ -68,10 +103,9 @@ pub enum Command {
 pub struct Choice {
     /// Name or title of a scene, or a scene file.
     scene: String,
-    /// Change a value of the scene, like emitters.0.max_spheres=100, or take it out with
-    /// emitters.0.max_spheres=none; may be given several times.
-    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
-    overrides: Vec<Override>,
+    /// What is different.
+    #[command(flatten)]
+    changes: Changes,
 }
 
 impl Choice {
@@ -80,12 +114,34 @@ impl Choice {
         &self,
         library: &Library,
         more: impl IntoIterator<Item = String>,
-    ) -> Result<carom_scene::Scene, Failure> {
+    ) -> Result<Scene, Failure> {
+        Ok(self.changes.find(library, &self.scene, more)?.0)
+    }
+}
+
+/// What is different in a scene.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct Changes {
+    /// Change a value of the scene, like emitters.0.max_spheres=100, or take it out with
+    /// emitters.0.max_spheres=none; may be given several times.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
+    #[arg(requires = "scene")]
+    overrides: Vec<Override>,
+}
+
+impl Changes {
+    /// A scene with these changes, and then those of `more`.
+    pub fn find(
+        &self,
+        library: &Library,
+        scene: &str,
+        more: impl IntoIterator<Item = String>,
+    ) -> Result<(Scene, Source), Failure> {
         let mut overrides = self.overrides.clone();
         for text in more {
             overrides.push(text.parse()?);
         }
-        Ok(library.find(&self.scene, &overrides)?.0)
+        Ok(library.find(scene, &overrides)?)
     }
 }
 
@@ -129,13 +185,22 @@ impl Length {
         if let Some(frames) = self.frames {
             return Ok(frames);
         }
-        // Up to whole frames; a billionth of a frame is rounding.
-        let frames = (self.seconds.unwrap_or(duration) / h - 1e-9).ceil();
-        if frames < 2f64.powi(53) {
-            Ok(frames as u64)
-        } else {
-            Err(Failure::Usage(format!("{frames} frames of {h} s are more than can be counted")))
-        }
+        whole_frames(self.seconds.unwrap_or(duration), h)
+    }
+}
+
+/// How many frames of `h` \[s\] take this long \[s\], up to whole ones.
+pub fn whole_frames(seconds: f64, h: f64) -> Result<u64, Failure> {
+    // A billionth of a frame is rounding.
+    countable((seconds / h - 1e-9).ceil(), h)
+}
+
+/// As many frames of `h` \[s\], if they can be counted one by one.
+pub fn countable(frames: f64, h: f64) -> Result<u64, Failure> {
+    if frames < 2f64.powi(53) {
+        Ok(frames as u64)
+    } else {
+        Err(Failure::Usage(format!("{frames} frames of {h} s are more than can be counted")))
     }
 }
 
@@ -147,7 +212,7 @@ pub struct Run {
     pub choice: Choice,
     /// Step rule, instead of the scene's own. `bisect` winds back only the spheres that meet
     /// unless the scene says simulation.bisect.wind_back = "all", the tutorial's way.
-    #[arg(long, value_parser = ["exact", "bisect", "discrete"])]
+    #[arg(long, value_parser = RULES)]
     pub rule: Option<String>,
     /// How long, in which frames.
     #[command(flatten)]
@@ -171,7 +236,7 @@ pub struct Run {
     pub json: bool,
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err("a positive number is needed".to_owned()),
@@ -179,7 +244,7 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 /// Names of the step rules.
-const RULES: [&str; 3] = ["exact", "bisect", "discrete"];
+pub const RULES: [&str; 3] = ["exact", "bisect", "discrete"];
 
 /// Check this build against physics.
 #[derive(Debug, clap::Args)]

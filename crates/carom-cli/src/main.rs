@@ -7,13 +7,19 @@ mod bench;
 mod compare;
 mod failure;
 mod gas;
+mod interruption;
 mod machine;
 mod numbers;
+#[cfg(feature = "pictures")]
+mod pictures;
+mod progress;
 mod run;
 mod scenes;
 mod summary;
 mod table;
 mod verify;
+#[cfg(feature = "view")]
+mod window;
 
 use std::process::ExitCode;
 
@@ -22,15 +28,24 @@ use clap::Parser;
 use args::{Args, Command};
 
 fn main() -> ExitCode {
-    let args = Args::parse();
-    let result = match &args.command {
-        Command::Scenes { json } => args.library().and_then(|it| scenes::list(&it, *json)),
+    let (folders, command) = Args::parse().split();
+    let library = || folders.library();
+    let result = match &command {
+        Command::Scenes { json } => library().and_then(|it| scenes::list(&it, *json)),
         Command::Check { files } => scenes::check(files),
-        Command::Show(show) => args.library().and_then(|it| scenes::show(&it, show)),
-        Command::Run(run) => args.library().and_then(|it| run::run(&it, run)),
+        Command::Show(show) => library().and_then(|it| scenes::show(&it, show)),
+        Command::Run(run) => library().and_then(|it| run::run(&it, run)),
         Command::Verify(verify) => verify::verify(verify),
-        Command::Compare(compare) => args.library().and_then(|it| compare::compare(&it, compare)),
+        Command::Compare(compare) => library().and_then(|it| compare::compare(&it, compare)),
         Command::Bench(bench) => bench::bench(bench),
+        #[cfg(feature = "pictures")]
+        Command::Picture(picture) => library().and_then(|it| pictures::picture(&it, picture)),
+        #[cfg(feature = "pictures")]
+        Command::Record(record) => library().and_then(|it| pictures::record(&it, record)),
+        #[cfg(feature = "pictures")]
+        Command::Maze(maze) => library().and_then(|it| pictures::maze(it, maze)),
+        #[cfg(feature = "view")]
+        Command::View(view) => library().and_then(|it| window::view(it, view)),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

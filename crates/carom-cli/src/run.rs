@@ -1,22 +1,17 @@
 //! The command `run`: steps a scene, records it, sums it up.
 
-use std::io::{self, IsTerminal};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::sync::atomic::Ordering;
 
 use carom::World;
 use carom_scene::Library;
 use carom_scene::recording::{ImpactTable, LedgerTable, Trajectory};
 use carom_scene::scene::Rule;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::Run;
 use crate::failure::Failure;
+use crate::interruption::interruption;
+use crate::progress::Progress;
 use crate::summary::{Observer, Summary};
-
-/// Runs that take less than this show no progress bar.
-const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Runs a scene and prints what became of it.
 pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
@@ -49,21 +44,6 @@ pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
     finished?;
     Summary::new(&scene, &world, observer).print(args.json)?;
     if interrupted.load(Ordering::Relaxed) { Err(Failure::Interrupted) } else { Ok(()) }
-}
-
-/// Becomes true when the user asks to stop: after the frame at work. Asked again, the program
-/// stops at once.
-fn interruption() -> Result<Arc<AtomicBool>, Failure> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let handler_flag = Arc::clone(&flag);
-    let handler = move || {
-        if handler_flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    };
-    ctrlc::set_handler(handler)
-        .map_err(|error| Failure::Fault(format!("cannot listen for Ctrl-C: {error}")))?;
-    Ok(flag)
 }
 
 /// The files of a run.
@@ -117,34 +97,5 @@ impl Outputs {
         self.impacts.map_or(Ok(()), ImpactTable::finish)?;
         self.ledger.map_or(Ok(()), LedgerTable::finish)?;
         Ok(trajectory?)
-    }
-}
-
-/// A progress bar for those who wait; none where nobody watches.
-struct Progress {
-    bar: ProgressBar,
-    began: Instant,
-}
-
-impl Progress {
-    fn new(frames: u64) -> Self {
-        let style = ProgressStyle::with_template("{wide_bar} {msg}, {eta} left");
-        let bar = ProgressBar::with_draw_target(Some(frames), ProgressDrawTarget::hidden());
-        bar.set_style(style.unwrap_or(ProgressStyle::default_bar()));
-        Self { bar, began: Instant::now() }
-    }
-
-    fn show(&self, frame: u64, time: f64) {
-        if self.bar.is_hidden() && self.began.elapsed() > PATIENCE && io::stderr().is_terminal() {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-        }
-        self.bar.set_message(format!("{time:.2} s"));
-        self.bar.set_position(frame);
-    }
-}
-
-impl Drop for Progress {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
     }
 }

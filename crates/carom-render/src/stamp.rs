@@ -6,6 +6,8 @@ use crate::picture::Picture;
 
 /// Height of the text as a part of the picture's height.
 const TEXT_PART: f32 = 1.0 / 28.0;
+/// Likewise of a caption: large enough to be read at a glance.
+const CAPTION_PART: f32 = 1.0 / 9.0;
 /// Text smaller than this cannot be read \[px\].
 const SMALLEST: f32 = 12.0;
 
@@ -29,25 +31,50 @@ const SOFTNESS: f32 = 1.5;
 /// The size follows the picture's height. Text too wide for the picture becomes smaller, then it
 /// is cut and ends in an ellipsis; what then still has no room is left out.
 pub fn stamp(picture: &mut Picture, text: &str) {
-    let (width, height) = (picture.width as f32, picture.height as f32);
+    write(picture, text, TEXT_PART, Place::LowerLeft);
+}
+
+/// Writes large text into the middle of a picture, like `You win!`, in the manner of [`stamp`].
+pub fn caption(picture: &mut Picture, text: &str) {
+    write(picture, text, CAPTION_PART, Place::Middle);
+}
+
+/// Where in a picture a line is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    LowerLeft,
+    Middle,
+}
+
+impl Place {
+    /// Upper left corner \[px\] of a backing of this width and height \[px\].
+    fn corner(self, picture: &Picture, backing: [f32; 2], margin: f32) -> [f32; 2] {
+        let (width, height) = (picture.width as f32, picture.height as f32);
+        match self {
+            Self::LowerLeft => [margin, height - margin - backing[1]],
+            Self::Middle => [0.5 * (width - backing[0]), 0.5 * (height - backing[1])],
+        }
+    }
+}
+
+/// Writes a line whose text has this part of the picture's height.
+fn write(picture: &mut Picture, text: &str, part: f32, place: Place) {
     // The font is part of the program: it can always be read.
     let Ok(font) = FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT) else {
         return;
     };
     let text: String = text.chars().filter(|char| !char.is_control()).take(LONGEST).collect();
-    let wished = (height * TEXT_PART).max(SMALLEST);
-    let Some(line) = fit(&font, text.trim(), wished, width) else {
+    let wished = (picture.height as f32 * part).max(SMALLEST);
+    let Some(line) = fit(&font, text.trim(), wished, picture.width as f32) else {
         return;
     };
-    let top = height - line.size * (MARGIN + 2.0 * PADDING_Y + 1.0);
-    let backing = Rectangle {
-        x: [line.size * MARGIN, line.size * (MARGIN + 2.0 * PADDING_X) + line.width],
-        y: [top, height - line.size * MARGIN],
-    };
-    darken(picture, &backing, line.size * CORNER);
-    let scaled = font.as_scaled(PxScale::from(line.size));
-    let origin =
-        [backing.x[0] + line.size * PADDING_X, top + line.size * PADDING_Y + scaled.ascent()];
+    let size = line.size;
+    let backing = [line.width + 2.0 * PADDING_X * size, (1.0 + 2.0 * PADDING_Y) * size];
+    let [left, top] = place.corner(picture, backing, MARGIN * size);
+    let rectangle = Rectangle { x: [left, left + backing[0]], y: [top, top + backing[1]] };
+    darken(picture, &rectangle, size * CORNER);
+    let ascent = font.as_scaled(PxScale::from(size)).ascent();
+    let origin = [left + size * PADDING_X, top + size * PADDING_Y + ascent];
     for mut glyph in line.glyphs {
         glyph.position.x += origin[0];
         glyph.position.y += origin[1];
@@ -216,6 +243,17 @@ mod tests {
         let (small, large) = (height(500), height(2000));
         // Edges are at whole pixels: 2 on each side.
         assert!(large.abs_diff(4 * small) <= 8, "{small} {large}");
+    }
+
+    #[test]
+    fn a_caption_is_in_the_middle_and_large() {
+        let mut picture = plain(640, 480, 128);
+        caption(&mut picture, "You win!");
+        let ([left, right], [top, bottom]) = changed(&picture, 128).unwrap();
+        // Edges are at whole pixels: 1 on each side.
+        assert!((left + right).abs_diff(639) <= 2, "{left} {right}");
+        assert!((top + bottom).abs_diff(479) <= 2, "{top} {bottom}");
+        assert!(right - left > 160 && bottom - top > 50, "{left} {right} {top} {bottom}");
     }
 
     /// Contrast of WCAG 2: (L1 + 0.05) / (L2 + 0.05) of relative luminances.

@@ -1,6 +1,7 @@
 //! A camera that is turned, moved and brought nearer by hand.
 
 use carom::{DQuat, DVec3};
+pub use carom_render::Preset;
 use carom_render::{Bounds, Camera};
 
 /// A camera and what it looks at.
@@ -11,20 +12,6 @@ pub struct Orbit {
     /// From the camera to the point about which it turns \[m\].
     pub distance: f64,
 }
-
-/// Places to look from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Preset {
-    /// The scene's own camera; one that shows everything where it has none.
-    Scene,
-    /// From the front, along -z.
-    Front,
-    /// From straight above.
-    Top,
-}
-
-/// From where everything is shown: a little from the right and from above.
-const OBLIQUE: DVec3 = DVec3::new(0.45, 0.5, 1.0);
 
 /// Nearest to straight up or down that a camera is turned \[rad\]: past it, right would be left.
 const NEAREST_TO_POLE: f64 = 0.01;
@@ -39,14 +26,7 @@ impl Orbit {
 
     /// A preset for what lies in `bounds`, seen in a picture of this width to height.
     pub fn preset(preset: Preset, of_scene: Option<Camera>, bounds: &Bounds, aspect: f64) -> Self {
-        let fitted = |from| Camera::fitted(bounds, from, aspect);
-        let camera = match (preset, of_scene) {
-            (Preset::Scene, Some(camera)) => camera,
-            (Preset::Scene, None) => fitted(OBLIQUE),
-            (Preset::Front, _) => fitted(DVec3::Z),
-            (Preset::Top, _) => fitted(DVec3::Y),
-        };
-        Self::about(camera, bounds)
+        Self::about(preset.camera(of_scene, bounds, aspect), bounds)
     }
 
     /// The point about which it turns \[m\].

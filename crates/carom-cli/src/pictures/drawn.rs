@@ -1,0 +1,34 @@
+//! Draws a running world, its spheres from there or from elsewhere.
+
+use carom::DQuat;
+use carom_render::{Ball, Drawing, Light, Material};
+use carom_scene::{Palette, Scene};
+
+use super::running::{Running, Seen};
+
+/// Draws these spheres and the surfaces of a world at a time \[s\] up to which it has gone.
+pub fn draw(
+    scene: &Scene,
+    running: &Running,
+    time: f64,
+    spheres: &[Seen],
+    palette: &mut Palette,
+    drawing: &mut Drawing,
+) {
+    drawing.clear();
+    drawing.light = Light::of_scene(scene);
+    let colliders = scene.colliders.iter().zip(running.world().colliders());
+    for (i, ((written, (_, now)), pose)) in colliders.zip(running.poses(time)).enumerate() {
+        if written.visible {
+            drawing.add_collider(now.shape, pose, palette.collider(i), now.trigger);
+        }
+    }
+    palette.follow(time);
+    drawing.balls.extend(spheres.iter().map(|&Seen { number, position, radius, mass }| Ball {
+        center: position,
+        radius,
+        color: palette.sphere(number, radius, mass),
+        rotation: DQuat::IDENTITY,
+        material: Material::Plain,
+    }));
+}

@@ -1,0 +1,66 @@
+//! A film: footage, frame by frame.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use carom_render::{Film, FilmSummary};
+
+use super::footage::Footage;
+use super::studio::Studio;
+use crate::args::whole_frames;
+use crate::failure::Failure;
+use crate::progress::Progress;
+
+/// A film that is to be made.
+pub struct Order<'a> {
+    /// Where it goes.
+    pub path: &'a Path,
+    /// Its frames per second.
+    pub fps: u32,
+}
+
+/// Films footage for so many seconds, up to a whole frame of the film, and prints a line about the film.
+///
+/// Whatever goes wrong or whoever interrupts, what was filmed until then is a film.
+pub fn shoot(
+    order: Order,
+    (mut footage, seconds): (Box<dyn Footage>, f64),
+    studio: &mut Studio,
+    interrupted: &AtomicBool,
+) -> Result<(), Failure> {
+    let began = Instant::now();
+    let rate = f64::from(order.fps);
+    let [width, height] = studio.size();
+    let mut film = Film::create(order.path, width, height, order.fps)?;
+    // A film of nothing is none: the first frame is in it.
+    let frames = whole_frames(seconds, 1.0 / rate)?.max(1);
+    let footage = footage.as_mut();
+    let camera = studio.camera(footage, 0.0)?;
+    let progress = Progress::new(frames);
+    let mut result = Ok(());
+    for frame in 0..frames {
+        let time = frame as f64 / rate;
+        let picture = studio.picture(footage, time, &camera);
+        result = picture.and_then(|picture| Ok(film.add(&picture)?));
+        progress.show(frame + 1, time);
+        if result.is_err() || interrupted.load(Ordering::Relaxed) {
+            break;
+        }
+    }
+    drop(progress);
+    let finished = film.finish();
+    result?;
+    tell(order.path, finished?, began)?;
+    if interrupted.load(Ordering::Relaxed) { Err(Failure::Interrupted) } else { Ok(()) }
+}
+
+fn tell(path: &Path, film: FilmSummary, began: Instant) -> io::Result<()> {
+    let FilmSummary { frames, seconds, bytes } = film;
+    let megabytes = bytes as f64 / 1e6;
+    let took = began.elapsed().as_secs_f64();
+    let name = path.display();
+    let line = format!("{name}: {frames} frames, {seconds:.2} s, {megabytes:.2} MB");
+    writeln!(io::stdout().lock(), "{line}, made in {took:.1} s")
+}

@@ -1,0 +1,52 @@
+//! What can be filmed.
+
+use carom_render::{Bounds, Drawing};
+use carom_scene::Scene;
+
+use crate::failure::Failure;
+
+/// Something to see at any time.
+pub trait Footage {
+    /// What it is called for people.
+    fn title(&self) -> &str;
+
+    /// The scene that says where from and in which light it is seen.
+    fn scene(&self) -> &Scene;
+
+    /// Draws what is to be seen at a time \[s\] that is not before the last one.
+    fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, Failure>;
+}
+
+/// What is written on a picture.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Words {
+    /// When this is, and how things stand: after the title, in the corner.
+    pub stamp: String,
+    /// Large, in the middle.
+    pub caption: Option<&'static str>,
+}
+
+impl Words {
+    /// The time \[s\] alone.
+    pub fn at(time: f64) -> Self {
+        Self { stamp: format!("t = {time:.3} s"), caption: None }
+    }
+}
+
+/// What a scene is called for people.
+pub fn title(scene: &Scene) -> &str {
+    if scene.title.is_empty() { &scene.name } else { &scene.title }
+}
+
+/// The box around what is drawn, and around the places where more balls will come from.
+pub fn bounds(scene: &Scene, drawing: &Drawing) -> Bounds {
+    // What a scene of planes without end is shown as: anything will do.
+    const NOTHING: f64 = 5.0;
+    let emitters = scene.emitters.iter().map(|emitter| {
+        let sphere = &emitter.sphere;
+        let radius = sphere.radius.or(sphere.diameter.map(|it| 0.5 * it)).unwrap_or(0.5);
+        Bounds::of_sphere(emitter.position.into(), radius)
+    });
+    Bounds::around(emitters.chain(drawing.bounds()))
+        .unwrap_or(Bounds::of_sphere(carom::DVec3::ZERO, NOTHING))
+}

@@ -1,0 +1,78 @@
+//! A recorded run, as footage.
+
+use std::path::Path;
+
+use carom_render::Drawing;
+use carom_scene::recording::{Playback, Replay, ReplayBall};
+use carom_scene::{Palette, Scene};
+
+use super::drawn;
+use super::footage::{Footage, Words, title};
+use super::running::{Running, Seen};
+use crate::failure::Failure;
+
+/// A recording that is played while it is filmed.
+pub struct Replayed {
+    scene: Scene,
+    /// The surfaces alone: they move by themselves, so no table has them.
+    surfaces: Running,
+    playback: Playback,
+    palette: Palette,
+    duration: f64,
+    /// Kept where the recording ends.
+    spheres: Vec<Seen>,
+}
+
+impl Replayed {
+    /// A recording of this scene.
+    pub fn open(path: &Path, scene: Scene) -> Result<Self, Failure> {
+        let mut duration = 0.0;
+        let mut replay = Replay::open(path, &scene)?;
+        while let Some(frame) = replay.next_frame()? {
+            duration = frame.time;
+        }
+        let mut empty = scene.clone();
+        empty.spheres.clear();
+        empty.generators.clear();
+        empty.emitters.clear();
+        Ok(Self {
+            surfaces: Running::new(&empty)?,
+            playback: Playback::new(Replay::open(path, &scene)?)?,
+            palette: Palette::new(&scene)?,
+            scene,
+            duration,
+            spheres: Vec::new(),
+        })
+    }
+
+    /// The time of its last frame \[s\].
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+}
+
+impl Footage for Replayed {
+    fn title(&self) -> &str {
+        title(&self.scene)
+    }
+
+    fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, Failure> {
+        let Self { scene, surfaces, playback, palette, spheres, .. } = self;
+        surfaces.go_to(time)?;
+        if let Some(frame) = playback.at(time)? {
+            spheres.clear();
+            spheres.extend(frame.balls.iter().map(seen));
+        }
+        drawn::draw(scene, surfaces, time, spheres, palette, drawing);
+        Ok(Words::at(time))
+    }
+}
+
+fn seen(ball: &ReplayBall) -> Seen {
+    let ReplayBall { number, position, radius, mass, .. } = *ball;
+    Seen { number, position, radius, mass }
+}

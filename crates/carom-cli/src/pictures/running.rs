@@ -1,0 +1,192 @@
+//! A world on its way: stepped by frames, seen at any time.
+
+use carom::{Boundary, DVec3, Pose, SphereId, World};
+use carom_scene::{Scene, SceneError};
+
+/// A frame counts as that of a time if it is no farther away than this \[s\]: sums of frame times
+/// and k / rate differ by rounding only, frames by far more.
+const SAME_TIME: f64 = 1e-9;
+
+/// A sphere as it is seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seen {
+    /// Place in the order of appearance, from 0.
+    pub number: u64,
+    /// Centre \[m\].
+    pub position: DVec3,
+    /// In m.
+    pub radius: f64,
+    /// In kg.
+    pub mass: f64,
+}
+
+/// A world that is stepped by the frames of its scene, and seen at times between them, too.
+///
+/// At the time of a frame everything is exactly where the frame has it. In between, spheres and
+/// surfaces are on the straight way from the frame before to the one after; a sphere that is not in
+/// both is seen until the one before it is gone, and not before the first one it is in.
+pub struct Running {
+    world: World,
+    frame_time: f64,
+    /// The frame before the one the world is in.
+    before: Frame,
+}
+
+/// What was where.
+#[derive(Debug, Default)]
+struct Frame {
+    time: f64,
+    spheres: Vec<(SphereId, Seen)>,
+    poses: Vec<Pose>,
+}
+
+impl Running {
+    /// The world of a scene, at its start.
+    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
+        let world = scene.world()?;
+        let before = Frame { time: world.time(), ..Frame::default() };
+        Ok(Self { world, frame_time: scene.simulation.frame_time, before })
+    }
+
+    /// The world in the frame of the time that was asked for last, or the first one after it.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// Takes one frame.
+    pub fn step(&mut self) -> Result<(), carom::Error> {
+        self.before.time = self.world.time();
+        self.before.spheres.clear();
+        self.before.spheres.extend(spheres(&self.world));
+        self.before.poses.clear();
+        self.before.poses.extend(self.world.colliders().map(|(_, collider)| collider.pose));
+        self.world.step(self.frame_time)?;
+        Ok(())
+    }
+
+    /// Takes all frames to this time \[s\].
+    pub fn go_to(&mut self, time: f64) -> Result<(), carom::Error> {
+        while self.world.time() < time - SAME_TIME {
+            self.step()?;
+        }
+        Ok(())
+    }
+
+    /// Part of the way from the frame before to the present one; `None` in that frame itself.
+    fn part(&self, time: f64) -> Option<f64> {
+        let h = self.world.time() - self.before.time;
+        let part = (time - self.before.time) / h;
+        (time < self.world.time() - SAME_TIME).then_some(part)
+    }
+
+    /// The spheres at a time \[s\] up to which it has gone.
+    pub fn spheres(&self, time: f64) -> Vec<Seen> {
+        let Some(part) = self.part(time) else {
+            return spheres(&self.world).map(|(_, seen)| seen).collect();
+        };
+        let now = self.world.spheres();
+        let boundary = self.world.settings().boundary;
+        let between = |&(id, seen): &(SphereId, Seen)| {
+            let way = now.index_of(id).map_or(DVec3::ZERO, |index| {
+                nearest(now.positions()[index] - seen.position, boundary)
+            });
+            Seen { position: seen.position + part * way, ..seen }
+        };
+        self.before.spheres.iter().map(between).collect()
+    }
+
+    /// The poses of the surfaces at a time \[s\] up to which it has gone.
+    pub fn poses(&self, time: f64) -> Vec<Pose> {
+        let now = self.world.colliders().map(|(_, collider)| collider.pose);
+        let Some(part) = self.part(time) else {
+            return now.collect();
+        };
+        let between = |(before, now): (&Pose, Pose)| Pose {
+            position: before.position.lerp(now.position, part),
+            rotation: before.rotation.slerp(now.rotation, part),
+        };
+        self.before.poses.iter().zip(now).map(between).collect()
+    }
+}
+
+fn spheres(world: &World) -> impl Iterator<Item = (SphereId, Seen)> + '_ {
+    let spheres = world.spheres();
+    spheres.ids().iter().enumerate().map(|(i, &id)| {
+        let position = spheres.positions()[i];
+        let (radius, mass) = (spheres.radii()[i], spheres.masses()[i]);
+        (id, Seen { number: id.number(), position, radius, mass })
+    })
+}
+
+/// The shortest of the ways \[m\] that are the same under a boundary.
+fn nearest(way: DVec3, boundary: Boundary) -> DVec3 {
+    let Boundary::Periodic { size } = boundary else {
+        return way;
+    };
+    // Along an open axis, there is one way only.
+    let along = |way: f64, size: f64| {
+        if size.is_finite() { way - (way / size).round() * size } else { way }
+    };
+    DVec3::new(along(way.x, size.x), along(way.y, size.y), along(way.z, size.z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use carom_scene::Library;
+
+    fn running(scene: &str, changes: &[&str]) -> Running {
+        let changes: Vec<_> = changes.iter().map(|text| text.parse().unwrap()).collect();
+        Running::new(&Library::new().find(scene, &changes).unwrap().0).unwrap()
+    }
+
+    #[test]
+    fn at_the_time_of_a_frame_spheres_are_those_of_the_frame() {
+        let mut running = running("simtest1", &[]);
+        let mut world = Library::new().find("simtest1", &[]).unwrap().0.world().unwrap();
+        // Frames of 0.02 s: every tenth is one of 5 a second.
+        for film_frame in 1..=20 {
+            (0..10).for_each(|_| drop(world.step(0.02).unwrap().clone()));
+            let time = f64::from(film_frame) / 5.0;
+            running.go_to(time).unwrap();
+            let seen: Vec<_> = running.spheres(time).iter().map(|seen| seen.position).collect();
+            assert_eq!(seen, world.spheres().positions());
+            assert_eq!(running.world().state_hash(), world.state_hash());
+        }
+    }
+
+    #[test]
+    fn between_two_frames_spheres_are_on_the_way() {
+        let mut running = running("tutorial2", &["simulation.frame_time=0.5"]);
+        running.go_to(0.75).unwrap();
+        let at = |time| running.spheres(time)[0].position;
+        let (before, now) = (at(0.5 + 1e-8), at(1.0));
+        // The frame before is 1e-8 s away, at speeds of a few m/s.
+        assert!((at(0.75) - 0.5 * (before + now)).length() < 1e-6);
+        assert!(before != now);
+    }
+
+    #[test]
+    fn an_emitted_sphere_is_not_seen_before_its_first_frame() {
+        let mut running = running("simtest1", &["simulation.frame_time=0.5"]);
+        running.go_to(0.6).unwrap();
+        assert_eq!([0.6, 1.0].map(|time| running.spheres(time).len()), [1, 2]);
+    }
+
+    #[test]
+    fn through_the_side_of_a_periodic_box_the_way_is_short() {
+        let boundary = Boundary::Periodic { size: DVec3::new(2.0, f64::INFINITY, 2.0) };
+        let way = nearest(DVec3::new(-1.6, -1.6, 0.3), boundary);
+        // One rounding of numbers up to 2.
+        assert!((way - DVec3::new(0.4, -1.6, 0.3)).length() < 1e-15, "{way}");
+    }
+
+    #[test]
+    fn a_moved_surface_is_seen_on_its_way() {
+        let mut running =
+            running("simtest1", &["simulation.frame_time=0.5", "colliders.0.velocity=[2, 0, 0]"]);
+        running.go_to(0.75).unwrap();
+        // After 0.75 s at 2 m/s; a rounding or two of numbers up to 2.
+        assert!((running.poses(0.75)[0].position.x - 1.5).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,48 @@
+//! A scene being stepped, as footage.
+
+use carom_render::Drawing;
+use carom_scene::{Palette, Scene};
+
+use super::drawn;
+use super::footage::{Footage, Words, title};
+use super::running::Running;
+use crate::failure::Failure;
+
+/// A scene that is stepped while it is filmed.
+pub struct Stepped {
+    scene: Scene,
+    running: Running,
+    palette: Palette,
+}
+
+impl Stepped {
+    /// A scene at its start.
+    pub fn new(scene: Scene) -> Result<Self, Failure> {
+        let running = Running::new(&scene)?;
+        let palette = Palette::new(&scene)?;
+        Ok(Self { scene, running, palette })
+    }
+
+    /// Takes one frame; the time \[s\] then.
+    pub fn step(&mut self) -> Result<f64, Failure> {
+        self.running.step()?;
+        Ok(self.running.world().time())
+    }
+}
+
+impl Footage for Stepped {
+    fn title(&self) -> &str {
+        title(&self.scene)
+    }
+
+    fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, Failure> {
+        let Self { scene, running, palette } = self;
+        running.go_to(time)?;
+        drawn::draw(scene, running, time, &running.spheres(time), palette, drawing);
+        Ok(Words::at(time))
+    }
+}

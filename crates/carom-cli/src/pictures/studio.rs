@@ -1,0 +1,52 @@
+//! Where pictures are made.
+
+use carom_render::{Camera, Drawing, Offscreen, Picture, caption, stamp};
+
+use super::args::Look;
+use super::footage::{Footage, Words, bounds};
+use crate::failure::Failure;
+
+/// Draws footage as the user wants to see it.
+pub struct Studio<'a> {
+    look: &'a Look,
+    offscreen: Offscreen,
+    drawing: Drawing,
+}
+
+impl<'a> Studio<'a> {
+    /// A studio on a graphics device of its own.
+    pub fn new(look: &'a Look) -> Result<Self, Failure> {
+        let offscreen = Offscreen::new(look.size, look.quality)?;
+        Ok(Self { look, offscreen, drawing: Drawing::default() })
+    }
+
+    /// Width and height of its pictures in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.look.size
+    }
+
+    /// A camera for footage, by what is to be seen at this time \[s\].
+    pub fn camera(&mut self, footage: &mut dyn Footage, time: f64) -> Result<Camera, Failure> {
+        footage.draw(time, &mut self.drawing)?;
+        let [width, height] = self.look.size.map(f64::from);
+        let bounds = bounds(footage.scene(), &self.drawing);
+        let of_scene = Camera::of_scene(footage.scene());
+        Ok(self.look.camera.camera(of_scene, &bounds, width / height))
+    }
+
+    /// Footage at a time \[s\].
+    pub fn picture(
+        &mut self,
+        footage: &mut dyn Footage,
+        time: f64,
+        camera: &Camera,
+    ) -> Result<Picture, Failure> {
+        let Words { stamp: now, caption: large } = footage.draw(time, &mut self.drawing)?;
+        let mut picture = self.offscreen.draw(&self.drawing, camera)?;
+        if !self.look.no_stamp {
+            stamp(&mut picture, &format!("{}   {now}", footage.title()));
+            large.into_iter().for_each(|text| caption(&mut picture, text));
+        }
+        Ok(picture)
+    }
+}

@@ -1,0 +1,63 @@
+//! Where the user wants to look from.
+
+use std::str::FromStr;
+
+use carom::DVec3;
+use carom_render::{Bounds, Camera, Preset};
+
+/// Where a picture is taken from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Viewpoint {
+    /// A place that suits the scene.
+    Preset(Preset),
+    /// From one point to another \[m\].
+    Between {
+        /// The camera.
+        position: DVec3,
+        /// What is in the middle of the picture.
+        target: DVec3,
+    },
+}
+
+/// Vertical field of view of cameras that do not say \[°\]: that of the presets.
+const VERTICAL_FOV_DEGREES: f64 = 45.0;
+
+impl Viewpoint {
+    /// The camera there, in a picture of this width to height.
+    pub fn camera(&self, of_scene: Option<Camera>, bounds: &Bounds, aspect: f64) -> Camera {
+        match *self {
+            Self::Preset(preset) => preset.camera(of_scene, bounds, aspect),
+            Self::Between { position, target } => {
+                Camera::looking_at(position, target, VERTICAL_FOV_DEGREES.to_radians())
+            }
+        }
+    }
+}
+
+impl FromStr for Viewpoint {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let preset = match text {
+            "scene" => Preset::Scene,
+            "fit" => Preset::Whole,
+            "front" => Preset::Front,
+            "top" => Preset::Top,
+            _ => return between(text),
+        };
+        Ok(Self::Preset(preset))
+    }
+}
+
+fn between(text: &str) -> Result<Viewpoint, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let needed = "scene, front, top or fit is needed, or six numbers: X,Y,Z of the camera, \
+                  TX,TY,TZ of what it looks at";
+    let numbers = numbers.map_err(|_| needed)?;
+    let [x, y, z, tx, ty, tz] = *numbers.as_slice() else { return Err(needed.to_owned()) };
+    let (position, target) = (DVec3::new(x, y, z), DVec3::new(tx, ty, tz));
+    if !position.is_finite() || !target.is_finite() || position == target {
+        return Err("the camera and what it looks at must be two different points".to_owned());
+    }
+    Ok(Viewpoint::Between { position, target })
+}

@@ -1,0 +1,68 @@
+//! The commands that open a window: `view` and `maze`, and `carom` alone.
+
+use std::path::PathBuf;
+
+use carom_maze::Maze;
+use carom_render::Quality;
+use carom_scene::{Library, Scene, Source};
+use carom_view::{Setup, Start, picture_files, window};
+
+use crate::args::{Changes, RULES};
+use crate::failure::Failure;
+use crate::pictures::args::quality;
+
+/// Watch a scene.
+#[derive(Debug, Default, clap::Args)]
+pub struct View {
+    /// Name or title of a scene, or a scene file; unless given, it is chosen in the window.
+    scene: Option<String>,
+    /// What is different.
+    #[command(flatten)]
+    changes: Changes,
+    /// Step rule, instead of the scene's own.
+    #[arg(long, value_parser = RULES, requires = "scene")]
+    rule: Option<String>,
+    /// Watch a scene that is a maze, too, instead of playing in it.
+    #[arg(long, requires = "scene")]
+    watch: bool,
+    /// Folder for pictures and films; Pictures/carom in your own folder, unless given.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// How much work goes into the pictures; `draft` is for slow machines.
+    #[arg(long, value_parser = quality(), default_value = "good")]
+    quality: Quality,
+}
+
+/// Opens the window with a scene, or to choose one.
+pub fn view(library: Library, args: &View) -> Result<(), Failure> {
+    let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
+    let found = args.scene.as_deref().map(|scene| args.changes.find(&library, scene, rule));
+    let start = found.transpose()?.map(|(scene, source)| start(scene, source, args.watch));
+    let folder = args.out.clone();
+    open(library, start, folder, args.quality)
+}
+
+/// Opens the window with the maze game.
+pub fn play(library: Library, maze: Maze) -> Result<(), Failure> {
+    open(library, Some(Start::Maze(Box::new(maze))), None, Quality::default())
+}
+
+/// A scene with a maze in it is played, unless it is to be watched.
+fn start(scene: Scene, source: Source, watch: bool) -> Start {
+    let maze = if watch { None } else { Maze::from_scene(&scene).ok() };
+    match maze {
+        Some(maze) => Start::Maze(Box::new(maze)),
+        None => Start::Scene(Box::new(scene), source),
+    }
+}
+
+fn open(
+    library: Library,
+    start: Option<Start>,
+    folder: Option<PathBuf>,
+    quality: Quality,
+) -> Result<(), Failure> {
+    let folder = folder.unwrap_or_else(picture_files::default_folder);
+    let setup = Setup { library, start, folder, quality, threaded: true };
+    window::open(setup).map_err(|error| Failure::Fault(error.to_string()))
+}

@@ -1,0 +1,35 @@
+//! Places to look from that suit any scene.
+
+use carom::DVec3;
+
+use crate::bounds::Bounds;
+use crate::camera::Camera;
+
+/// Places to look from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Preset {
+    /// The scene's own camera; [`Self::Whole`] where it has none.
+    Scene,
+    /// Everything is shown, from a little to the right and above.
+    Whole,
+    /// From the front, along -z.
+    Front,
+    /// From straight above.
+    Top,
+}
+
+/// A little from the right and from above.
+const OBLIQUE: DVec3 = DVec3::new(0.45, 0.5, 1.0);
+
+impl Preset {
+    /// The camera there, for what lies in `bounds`, in a picture of this width to height.
+    pub fn camera(self, of_scene: Option<Camera>, bounds: &Bounds, aspect: f64) -> Camera {
+        let fitted = |from| Camera::fitted(bounds, from, aspect);
+        match self {
+            Self::Scene => of_scene.unwrap_or_else(|| fitted(OBLIQUE)),
+            Self::Whole => fitted(OBLIQUE),
+            Self::Front => fitted(DVec3::Z),
+            Self::Top => fitted(DVec3::Y),
+        }
+    }
+}
