@@ -18,7 +18,8 @@ Usage: cargo xtask COMMAND
   demo      set up, run every built-in scene, make pictures and a film in out/, open the window
   test      set up, then every check: format, clippy, tests, documents, schema, the browser's target
   schema    write scenes/scene.schema.json anew from the scene types
-  bench     the benchmarks whose figures stand in docs/benchmarks.md";
+  bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
+            pictures and of the interface";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -28,6 +29,9 @@ fn main() -> ExitCode {
         ["test"] => test::test(),
         ["schema"] => schema::write(),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
+        ["bench", "pictures"] => {
+            shell::cargo(&["bench", "--package", "carom-render", "--package", "carom-view"])
+        }
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(2);

@@ -46,9 +46,9 @@ fn camera_in_front(distance: f64) -> Camera {
 
 #[test]
 fn a_ball_covers_the_ellipse_that_perspective_makes_of_it() {
-    // A cone of half angle s about a direction at angle t to the axis cuts the picture plane at
-    // distance 1 in an ellipse of the area π sin² s cos s cos t' / (cos² s - sin² t)^(3/2), here by
-    // its half axes: along t, (tan(t + s) - tan(t - s)) / 2, across, sin s / √(cos² t - sin² s).
+    // A cone of half angle s about a direction at the angle t to the axis cuts the picture plane at
+    // distance 1 in an ellipse; its half axes are (tan(t + s) - tan(t - s)) / 2 along the direction
+    // and sin s / √(cos² t - sin² s) across it.
     for (aside, radius, distance) in
         [(0.0, 1.0, 5.0), (1.5, 1.0, 5.0), (0.0, 0.05, 5.0), (0.0, 1.0, 2.6)]
     {

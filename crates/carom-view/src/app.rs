@@ -47,6 +47,7 @@ pub enum Start {
 
 /// The interface: hosted by a window, a page or a test.
 pub struct App {
+    context: Context,
     library: Library,
     folder: PathBuf,
     threaded: bool,
@@ -84,6 +85,7 @@ impl App {
         let state = host.wgpu_render_state.clone();
         let state = state.ok_or("the interface needs a host that draws with wgpu")?;
         let mut app = Self {
+            context: host.egui_ctx.clone(),
             library: setup.library,
             folder: setup.folder,
             threaded: setup.threaded,
@@ -101,7 +103,7 @@ impl App {
             gamepad: Default::default(),
         };
         match setup.start {
-            Some(Start::Scene(scene, source)) => app.watch(*scene, source, &host.egui_ctx),
+            Some(Start::Scene(scene, source)) => app.watch(*scene, source),
             Some(Start::Maze(maze)) => app.play(*maze),
             None => app.open_chooser(),
         }
@@ -109,8 +111,8 @@ impl App {
     }
 
     /// Watches a scene from now on; says so where it cannot be.
-    pub fn watch(&mut self, scene: Scene, source: Source, context: &Context) {
-        match Watching::new(scene, source, self.threaded, context) {
+    pub fn watch(&mut self, scene: Scene, source: Source) {
+        match Watching::new(scene, source, self.threaded, &self.context) {
             Ok(watching) => {
                 #[cfg(not(target_arch = "wasm32"))]
                 self.watched_file.watch(&watching.source);
@@ -179,7 +181,7 @@ impl App {
             let path = file.path().to_owned();
             let text = file.bytes().map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
             match text {
-                Ok(text) => self.open_text(&text, &path, context),
+                Ok(text) => self.open_text(&text, &path),
                 Err(error) => {
                     self.notices.complain(format!("cannot read {}: {error}", path.display()));
                 }
@@ -189,7 +191,7 @@ impl App {
 
     /// Opens the text of a file.
     #[cfg(not(target_arch = "wasm32"))]
-    fn open_text(&mut self, text: &str, path: &Path, context: &Context) {
+    fn open_text(&mut self, text: &str, path: &Path) {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if path.extension().is_some_and(|ending| ending == "txt") {
             let name = name.trim_end_matches(".txt");
@@ -202,7 +204,7 @@ impl App {
         match Scene::from_toml(text, &name) {
             Ok(scene) => {
                 self.chooser.close();
-                self.watch(scene, Source::File(path.to_owned()), context);
+                self.watch(scene, Source::File(path.to_owned()));
             }
             Err(error) => self.notices.complain(error),
         }
@@ -226,7 +228,8 @@ impl App {
     }
 
     /// Does what was asked for by a key or button.
-    fn act(&mut self, action: Action, context: &Context) {
+    pub fn act(&mut self, action: Action) {
+        let context = &self.context.clone();
         match action {
             Action::Choose => self.open_chooser(),
             Action::Help => self.help ^= true,
@@ -463,7 +466,7 @@ impl App {
             && let Screen::Maze(screen) = &self.screen
         {
             let scene = screen.game().maze().scene().clone();
-            self.watch(scene, Source::Registered, &ui.ctx().clone());
+            self.watch(scene, Source::Registered);
         }
     }
 
@@ -502,7 +505,7 @@ impl eframe::App for App {
         let is_won = self.maze().is_some_and(MazeScreen::is_won);
         if !self.chooser.is_open() && !is_won {
             for action in action::pressed(&context) {
-                self.act(action, &context);
+                self.act(action);
             }
         }
         #[cfg(not(target_arch = "wasm32"))]
@@ -520,10 +523,10 @@ impl eframe::App for App {
         let asked = egui::Panel::top("bar").show(ui, |ui| self.bar(ui)).inner;
         self.screen(ui);
         for action in asked {
-            self.act(action, &context);
+            self.act(action);
         }
         match self.chooser.show(&context, &mut self.studio) {
-            Some(Choice::Watch(scene, source)) => self.watch(*scene, source, &context),
+            Some(Choice::Watch(scene, source)) => self.watch(*scene, source),
             Some(Choice::Play(maze)) => self.play(*maze),
             None => {}
         }

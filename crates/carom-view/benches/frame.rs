@@ -1,0 +1,60 @@
+//! What a frame of the interface costs, drawing of the picture aside: panels, plots and transport,
+//! with nothing new to show, and while a scene is played that hardly costs any physics.
+
+#![allow(missing_docs)]
+
+use std::path::PathBuf;
+
+use carom_render::Quality;
+use carom_scene::scene::{Generator, Scene, Sphere};
+use carom_scene::{Library, Source};
+use carom_view::session::Command;
+use carom_view::{Action, App, Setup, Start};
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use egui_kittest::Harness;
+
+/// This many spheres in a lattice, all flying the same way.
+fn lattice(count: u32) -> Scene {
+    let mut scene = Scene::new("lattice");
+    let edge = f64::from(count).cbrt().ceil() as u32;
+    let sphere = Sphere { velocity: [0.1, 0.0, 0.0], ..Sphere::at([0.0; 3], 0.35) };
+    scene.generators.push(Generator::Lattice {
+        counts: [edge, edge, count.div_ceil(edge * edge)],
+        start: [0.0; 3],
+        spacing: [1.0; 3],
+        sphere,
+    });
+    scene
+}
+
+fn frame(criterion: &mut Criterion) {
+    for playing in [false, true] {
+        let name = if playing { "playing" } else { "nothing new" };
+        let mut group = criterion.benchmark_group(name);
+        group.sample_size(10);
+        for count in [100, 10_000, 100_000] {
+            let scene = Box::new(lattice(count));
+            let setup = Setup {
+                library: Library::new(),
+                start: Some(Start::Scene(scene, Source::Registered)),
+                folder: PathBuf::new(),
+                quality: Quality::DRAFT,
+                threaded: true,
+            };
+            let builder = Harness::builder().with_size([1360.0, 800.0]).wgpu();
+            let mut window =
+                builder.build_eframe(|host| App::new(host, setup).expect("wgpu is there"));
+            window.state_mut().act(Action::Plots);
+            if playing {
+                window.state_mut().command(Command::Play);
+            }
+            window.run_steps(10);
+            group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
+                bencher.iter(|| window.run_steps(1));
+            });
+        }
+    }
+}
+
+criterion_group!(benches, frame);
+criterion_main!(benches);
