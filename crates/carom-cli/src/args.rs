@@ -88,6 +88,11 @@ pub enum Command {
     #[cfg(feature = "pictures")]
     Picture(Box<Picture>),
     /// Film a scene, a recorded run, or the maze game: H.264 in an mp4 file.
+    ///
+    /// Frames of the film are exactly 1/fps of simulated time apart. The scene is stepped by its
+    /// own frame time, as `carom run` does it: where a frame of the film falls between two of
+    /// these, balls and surfaces are shown on the straight way from one to the other. Ctrl-C ends
+    /// the film early.
     #[cfg(feature = "pictures")]
     Record(Box<Record>),
     /// Play the maze game in a window, or print a random maze.

@@ -15,7 +15,7 @@ pub struct Look {
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = sides)]
     pub size: [u32; 2],
     /// Where from: the scene's own camera (`fit` where it has none), from the front, from above,
-    /// from where everything fits into the picture, or from one point to another \[m\].
+    /// from where everything fits into the picture, or from one point to another, in m.
     #[arg(long, value_name = "scene|front|top|fit|X,Y,Z,TX,TY,TZ", default_value = "scene")]
     #[arg(allow_hyphen_values = true)]
     pub camera: Viewpoint,
@@ -49,10 +49,6 @@ pub struct Picture {
 }
 
 /// Film a scene.
-///
-/// Frames of the film are exactly 1/fps of simulated time apart. The scene is stepped by its own
-/// frame time, as `carom run` does it: where a frame of the film falls between two of these, balls
-/// and surfaces are shown on the straight way from one to the other.
 #[derive(Debug, clap::Args)]
 pub struct Record {
     /// Name or title of a scene, or a scene file; with --play also a drawn maze, .txt.
@@ -84,7 +80,7 @@ pub struct Record {
     pub play: bool,
     /// Film the scenes of the course, the maze game, and the scenes of the tutorial, each into its
     /// own file in the folder --out.
-    #[arg(long, conflicts_with_all = ["scene", "from", "play"])]
+    #[arg(long, conflicts_with_all = ["scene", "overrides", "rule", "from", "play"])]
     pub all: bool,
     /// The film, .mp4; with --all, a folder.
     #[arg(long, value_name = "PATH")]

@@ -50,9 +50,10 @@ pub fn shoot(
         }
     }
     drop(progress);
-    let finished = film.finish();
+    let finished = film.finish().map_err(Failure::from);
+    let told = finished.and_then(|summary| Ok(tell(order.path, summary, began)?));
     result?;
-    tell(order.path, finished?, began)?;
+    told?;
     if interrupted.load(Ordering::Relaxed) { Err(Failure::Interrupted) } else { Ok(()) }
 }
 
