@@ -7,11 +7,6 @@ use crate::generate;
 use crate::origin::{Origin, Origins};
 use crate::scene::{Color, Colors, Scene, Sphere};
 
-/// A gentle blue, for spheres of scenes that say nothing about colours.
-const SPHERE: Color = [0.36, 0.56, 0.82];
-/// A warm grey, for colliders of such scenes.
-const COLLIDER: Color = [0.76, 0.73, 0.69];
-
 /// A density counts as listed if it differs by this part at most: mass / volume is off by a few
 /// roundings (1e-15), densities that somebody lists differ by far more.
 const SAME_DENSITY: f64 = 1e-9;
@@ -41,6 +36,12 @@ pub struct Palette {
 }
 
 impl Palette {
+    /// A gentle blue, for spheres of scenes that say nothing about colours.
+    pub const SPHERE: Color = [0.20, 0.45, 0.80];
+
+    /// A warm, light grey, for colliders of such scenes.
+    pub const COLLIDER: Color = [0.86, 0.85, 0.82];
+
     /// The colours of a scene at its start.
     ///
     /// # Errors
@@ -78,14 +79,14 @@ impl Palette {
         let colors = &self.colors;
         own.or_else(|| density_color(colors, mass / volume(radius)))
             .or(colors.spheres)
-            .unwrap_or(SPHERE)
+            .unwrap_or(Self::SPHERE)
     }
 
     /// The colour of the collider at this index: its own, else that of the scene's colliders, else
     /// a warm grey.
     pub fn collider(&self, index: usize) -> Color {
         let own = self.colliders.get(index).copied().flatten();
-        own.or(self.colors.colliders).unwrap_or(COLLIDER)
+        own.or(self.colors.colliders).unwrap_or(Self::COLLIDER)
     }
 
     fn own_color(&self, number: u64) -> Option<Color> {
@@ -165,8 +166,8 @@ mod tests {
         assert_eq!([2, 3].map(|number| palette.sphere(number, radius, mass)), [GREEN; 2]);
         assert_eq!(palette.sphere(4, radius, mass), WHITE, "nobody knows where it comes from");
         let plain = Palette::new(&Scene::new("plain")).unwrap();
-        assert_eq!(plain.sphere(0, radius, mass), SPHERE);
-        assert_eq!(plain.collider(0), COLLIDER);
+        assert_eq!(plain.sphere(0, radius, mass), Palette::SPHERE);
+        assert_eq!(plain.collider(0), Palette::COLLIDER);
     }
 
     #[test]

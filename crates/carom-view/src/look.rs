@@ -2,6 +2,7 @@
 
 use carom::{DQuat, DVec3, Shape, SphereId};
 use carom_render::{Arrow, Ball, Drawing, Light, Material};
+use carom_scene::Palette;
 use carom_scene::scene::{self, Color};
 
 use crate::session::View;
@@ -34,10 +35,6 @@ pub struct Look {
     pub blend: f64,
 }
 
-/// Spheres that have no colour of their own.
-const SPHERE: Color = [0.20, 0.45, 0.80];
-/// Surfaces that have no colour of their own.
-const SURFACE: Color = [0.86, 0.85, 0.82];
 /// Triggers that have no colour of their own.
 const TRIGGER: Color = [0.95, 0.76, 0.20];
 const VELOCITY: Color = [0.13, 0.55, 0.33];
@@ -66,8 +63,8 @@ pub fn place(view: &View, index: usize, blend: f64) -> DVec3 {
 }
 
 /// The colour of a collider as described in a scene.
-pub fn collider_color(collider: &scene::Collider, colors: Option<&scene::Colors>) -> Color {
-    let default = if collider.trigger { TRIGGER } else { SURFACE };
+fn collider_color(collider: &scene::Collider, colors: Option<&scene::Colors>) -> Color {
+    let default = if collider.trigger { TRIGGER } else { Palette::COLLIDER };
     let of_scene = colors.and_then(|colors| colors.colliders).unwrap_or(default);
     collider.color.unwrap_or(of_scene)
 }
@@ -94,7 +91,8 @@ fn shape(shape: &scene::Shape) -> Shape {
 
 fn add_spheres(view: &View, look: &Look, drawing: &mut Drawing) {
     let spheres = &view.spheres;
-    let common = view.scene.colors.as_ref().and_then(|colors| colors.spheres).unwrap_or(SPHERE);
+    let common =
+        view.scene.colors.as_ref().and_then(|colors| colors.spheres).unwrap_or(Palette::SPHERE);
     let picked = view.picked.and_then(|id| spheres.index_of(id));
     for i in 0..spheres.ids.len() {
         let center = place(view, i, look.blend);
