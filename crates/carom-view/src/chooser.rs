@@ -223,7 +223,7 @@ impl Chooser {
             self.cards.iter_mut().find(|card| matches!(card.thumbnail, Thumbnail::Missing));
         let Some(card) = missing else { return };
         let scene = card.entry.scene.as_ref().ok();
-        let drawn = scene.and_then(|scene| drawing_of(scene));
+        let drawn = scene.and_then(drawing_of);
         card.thumbnail = match drawn {
             Some((drawing, camera)) => {
                 let mut canvas = Canvas::default();
