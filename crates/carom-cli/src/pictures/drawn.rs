@@ -12,7 +12,7 @@ pub fn draw(
     running: &Running,
     time: f64,
     spheres: &[Seen],
-    palette: &mut Palette,
+    palette: &Palette,
     drawing: &mut Drawing,
 ) {
     drawing.clear();
@@ -23,7 +23,6 @@ pub fn draw(
             drawing.add_collider(now.shape, pose, palette.collider(i), now.trigger);
         }
     }
-    palette.follow(time);
     drawing.balls.extend(spheres.iter().map(|&Seen { number, position, radius, mass }| Ball {
         center: position,
         radius,

@@ -64,6 +64,7 @@ impl Footage for Replayed {
         let Self { scene, surfaces, playback, palette, spheres, .. } = self;
         surfaces.go_to(time)?;
         if let Some(frame) = playback.at(time)? {
+            palette.follow(frame.time);
             spheres.clear();
             spheres.extend(frame.balls.iter().map(seen));
         }

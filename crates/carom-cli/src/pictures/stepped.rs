@@ -42,6 +42,8 @@ impl Footage for Stepped {
     fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, Failure> {
         let Self { scene, running, palette } = self;
         running.go_to(time)?;
+        // Not the film's time, which may be a rounding before the frame of an emission.
+        palette.follow(running.world().time());
         drawn::draw(scene, running, time, &running.spheres(time), palette, drawing);
         Ok(Words::at(time))
     }
