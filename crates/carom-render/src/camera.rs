@@ -31,7 +31,7 @@ impl Camera {
         })
     }
 
-    /// At `position`, looking at `target` \[m\], the world's +y upward in the picture (+z where it
+    /// At `position`, looking at `target` \[m\], the world's +y upward in the picture (-z where it
     /// looks straight down or up).
     pub fn looking_at(position: DVec3, target: DVec3, vertical_fov: f64) -> Self {
         let distance = (position - target).length().max(1e-9);

@@ -23,30 +23,45 @@ pub(crate) struct Instances {
     pub faces: Vec<PackedPanel>,
     pub boxes: Vec<PackedPanel>,
     pub arrows: Vec<PackedArrow>,
+    /// How many of the balls, faces and boxes cast shadows: the first ones.
+    pub casting: [usize; 3],
 }
 
 impl Instances {
     /// Packs a drawing seen from `eye`; half-spaces reach to a horizon that suits a scene of this
     /// `radius` \[m\].
     pub fn pack(&mut self, drawing: &Drawing, eye: DVec3, radius: f64) {
-        let Self { balls, faces, boxes, arrows } = self;
+        let Self { balls, faces, boxes, arrows, casting } = self;
         balls.clear();
         faces.clear();
         boxes.clear();
         arrows.clear();
-        balls.extend(drawing.balls.iter().map(|ball| packed_ball(ball, eye)));
+        // Marks have no shadow, nor have surfaces that can be seen through.
+        let (casts, marks): (Vec<&Ball>, Vec<&Ball>) =
+            drawing.balls.iter().partition(|ball| ball.material != Material::Glowing);
+        casting[0] = casts.len();
+        balls.extend(casts.into_iter().chain(marks).map(|ball| packed_ball(ball, eye)));
         arrows.extend(drawing.arrows.iter().map(|arrow| packed_arrow(arrow, eye)));
-        for panel in &drawing.panels {
+        let (opaque, others): (Vec<&Panel>, Vec<&Panel>) =
+            drawing.panels.iter().partition(|panel| panel.opacity >= 1.0);
+        for (i, panel) in opaque.iter().chain(&others).enumerate() {
+            if i <= opaque.len() {
+                casting[1..].copy_from_slice(&[faces.len(), boxes.len()]);
+            }
             match panel.shape {
                 Shape::Box { size } => boxes.push(packed_box(panel, size, eye)),
                 Shape::Rectangle { size_x, size_z } => {
                     let half = 0.5 * DVec3::new(size_x, 0.0, size_z);
-                    faces.push(packed_panel(panel, panel.pose.position - eye, 0.0, half));
+                    let size = (half, grid_distance(2.0 * half.max_element()));
+                    faces.push(packed_panel(panel, panel.pose.position - eye, 0.0, size));
                 }
                 Shape::HalfSpace => faces.push(packed_half_space(panel, eye, radius)),
                 // Spheres are balls.
                 _ => {}
             }
+        }
+        if others.is_empty() {
+            casting[1..].copy_from_slice(&[faces.len(), boxes.len()]);
         }
     }
 }
@@ -87,8 +102,12 @@ fn packed_arrow(arrow: &Arrow, eye: DVec3) -> PackedArrow {
     ])
 }
 
-fn packed_panel(panel: &Panel, center: DVec3, kind: f64, half: DVec3) -> PackedPanel {
-    let grid = grid_distance(2.0 * half.max_element());
+fn packed_panel(
+    panel: &Panel,
+    center: DVec3,
+    kind: f64,
+    (half, grid): (DVec3, f64),
+) -> PackedPanel {
     joined(&[
         four(center, kind),
         panel.pose.rotation.normalize().as_quat().to_array(),
@@ -98,7 +117,8 @@ fn packed_panel(panel: &Panel, center: DVec3, kind: f64, half: DVec3) -> PackedP
 }
 
 fn packed_box(panel: &Panel, size: DVec3, eye: DVec3) -> PackedPanel {
-    packed_panel(panel, panel.pose.position - eye, 1.0, 0.5 * size)
+    let size = (0.5 * size, grid_distance(size.max_element()));
+    packed_panel(panel, panel.pose.position - eye, 1.0, size)
 }
 
 /// A half-space as a large square, moved along with the eye in steps of its grid, so that neither
@@ -107,13 +127,12 @@ fn packed_half_space(panel: &Panel, eye: DVec3, radius: f64) -> PackedPanel {
     let rotation = panel.pose.rotation.normalize();
     let seen = rotation.inverse() * (eye - panel.pose.position);
     let reach = HORIZON * radius.max(seen.y.abs()).max(1e-6);
-    let grid = grid_distance(2.0 * radius);
+    // By the height of the eye: what flies away does not change it.
+    let grid = grid_distance(2.0 * seen.y.abs());
     let below = (DVec3::new(seen.x, 0.0, seen.z) / grid).round() * grid;
     let center = panel.pose.position + rotation * below;
     let half = DVec3::new(reach, 0.0, reach);
-    let mut packed = packed_panel(panel, center - eye, 2.0, half);
-    packed[11] = grid as f32;
-    packed
+    packed_panel(panel, center - eye, 2.0, (half, grid))
 }
 
 /// A round distance of grid lines, of which some ten are on a `length` \[m\].

@@ -1,8 +1,8 @@
 //! Draws spheres and surfaces: into a window, a page, or offscreen into pictures and films.
 //!
 //! A [`Drawing`] is what there is to see, a [`Camera`] where it is seen from; a [`Renderer`] draws
-//! both into a [`Target`] on a device of wgpu, [`Offscreen`] into a [`Picture`] in memory. Nothing
-//! here knows physics or an interface.
+//! both into a [`Target`] on a device of wgpu, [`Offscreen`] into a [`Picture`] in memory. [`draw_world`]
+//! makes a drawing of a world; beyond that nothing here knows physics, nor an interface.
 
 #![warn(clippy::unwrap_used)]
 

@@ -79,16 +79,19 @@ impl Offscreen {
         );
         queue.submit([encoder.finish()]);
         self.readback.map_async(wgpu::MapMode::Read, .., |_| {});
-        device.poll(wgpu::PollType::wait_indefinitely()).map_err(lost)?;
-        let mut pixels = Vec::with_capacity(4 * width as usize * height as usize);
-        let bytes = self.readback.get_mapped_range(..).map_err(lost)?;
-        for line in bytes.chunks_exact(row as usize) {
-            pixels.extend_from_slice(&line[..4 * width as usize]);
-        }
-        drop(bytes);
+        let waited = device.poll(wgpu::PollType::wait_indefinitely()).map_err(lost);
+        let pixels = waited.and_then(|_| read(&self.readback, row, 4 * width));
+        // Whatever happened, the next picture is read into it again.
         self.readback.unmap();
-        Ok(Picture { width, height, pixels })
+        Ok(Picture { width, height, pixels: pixels? })
     }
+}
+
+/// The bytes of all rows, `used` of the `row` bytes of each.
+fn read(readback: &wgpu::Buffer, row: u32, used: u32) -> Result<Vec<u8>, GpuError> {
+    let bytes = readback.get_mapped_range(..).map_err(lost)?;
+    let lines = bytes.chunks_exact(row as usize);
+    Ok(lines.flat_map(|line| &line[..used as usize]).copied().collect())
 }
 
 fn lost(error: impl std::fmt::Display) -> GpuError {

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use crate::bounds::Bounds;
 use crate::camera::Camera;
-use crate::drawing::Drawing;
+use crate::drawing::{Ball, Drawing};
 use crate::instances::Instances;
 use crate::pipelines::{GLOBALS, Pipelines};
 use crate::quality::Quality;
@@ -121,9 +121,10 @@ impl Renderer {
         });
         pass.set_bind_group(0, &light.group, &[]);
         let Self { pipelines, instances, buffers, .. } = self;
-        draw(&mut pass, &pipelines.sphere_shadows, 4, &buffers.balls, instances.balls.len());
-        draw(&mut pass, &pipelines.surface_shadows, 6, &buffers.faces, instances.faces.len());
-        draw(&mut pass, &pipelines.surface_shadows, 36, &buffers.boxes, instances.boxes.len());
+        let [balls, faces, boxes] = instances.casting;
+        draw(&mut pass, &pipelines.sphere_shadows, 4, &buffers.balls, balls);
+        draw(&mut pass, &pipelines.surface_shadows, 6, &buffers.faces, faces);
+        draw(&mut pass, &pipelines.surface_shadows, 36, &buffers.boxes, boxes);
     }
 
     fn draw_picture(&self, encoder: &mut wgpu::CommandEncoder, target: &Target) {
@@ -175,7 +176,7 @@ impl Light {
 
 impl Buffers {
     fn fill(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, instances: &Instances) {
-        let Instances { balls, faces, boxes, arrows } = instances;
+        let Instances { balls, faces, boxes, arrows, .. } = instances;
         fill(&mut self.balls, device, queue, bytemuck::cast_slice(balls));
         fill(&mut self.faces, device, queue, bytemuck::cast_slice(faces));
         fill(&mut self.boxes, device, queue, bytemuck::cast_slice(boxes));
@@ -279,13 +280,28 @@ fn shadowed(drawing: &Drawing, camera: &Camera, bounds: &Bounds) -> (DVec3, f64)
     // In distances of the eye from the middle of the surfaces, or of everything without any.
     const REACH: f64 = 1.5;
     let panels = drawing.panels.iter().filter_map(|panel| panel.bounds());
-    let stage = Bounds::around(panels).unwrap_or(*bounds);
+    let stage = Bounds::around(panels).or_else(|| crowd(drawing, camera)).unwrap_or(*bounds);
     let focus = stage.center();
     let reach = REACH * (focus - camera.position).length().max(stage.radius());
     let near = drawing.balls.iter().filter(|ball| ball.center.distance(focus) < reach);
     let near = near.map(|ball| Bounds::of_sphere(ball.center, ball.radius));
     let seen = Bounds::around(near.chain([stage])).unwrap_or(stage);
     (seen.center(), seen.radius().min(2.0 * reach))
+}
+
+/// The box around the balls that are not much farther from the eye than half of them are.
+fn crowd(drawing: &Drawing, camera: &Camera) -> Option<Bounds> {
+    // In distances of the middle one.
+    const NEAR: f64 = 3.0;
+    let distance = |ball: &Ball| ball.center.distance(camera.position);
+    let mut distances: Vec<f64> = drawing.balls.iter().map(distance).collect();
+    if distances.is_empty() {
+        return None;
+    }
+    let middle = distances.len() / 2;
+    let reach = *distances.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let near = drawing.balls.iter().filter(|ball| distance(ball) <= NEAR * reach);
+    Bounds::around(near.map(|ball| Bounds::of_sphere(ball.center, ball.radius)))
 }
 
 /// The uniforms of a picture, in the order of the shader's `Globals`.

@@ -1,6 +1,6 @@
 //! What can be asked for by a key, and by which.
 
-use egui::{Context, Key, KeyboardShortcut, Modifiers};
+use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
 
 /// Something a user wants done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,6 +29,13 @@ pub enum Action {
     Theme,
     Help,
     Close,
+}
+
+impl Action {
+    /// Whether it is done again and again while its key is held.
+    fn repeats(self) -> bool {
+        matches!(self, Self::Step | Self::StepBack | Self::Faster | Self::Slower)
+    }
 }
 
 /// A key for an action, and what it does.
@@ -93,18 +100,29 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("click on a ball", "pick it; beside all balls: pick none"),
     ("Ctrl + click", "throw a new ball that way"),
     ("double click", "turn about what was clicked"),
-    ("drop a file", "open it as a scene"),
+    ("drop a file", "open it as a scene or maze"),
 ];
 
 /// The actions whose keys were pressed; the keys are taken, so that no button sees them. None
 /// while a text is being typed.
-pub fn pressed(context: &Context) -> Vec<Action> {
+/// Enter is left to others where they want it.
+pub fn pressed(context: &Context, without_enter: bool) -> Vec<Action> {
     if context.text_edit_focused() {
         return Vec::new();
     }
-    let is_pressed = |keys: &[KeyboardShortcut]| {
-        // Logical keys like `?` need modifiers on some keyboards, so those are ignored.
-        context.input_mut(|input| keys.iter().any(|key| input.consume_shortcut(key)))
+    let is_pressed = |shortcut: &&Shortcut| {
+        context.input_mut(|input| {
+            let is_fresh = |key: &KeyboardShortcut| {
+                input.events.iter().any(|event| {
+                    matches!(event, Event::Key { key: pressed, pressed: true, repeat: false, .. }
+                        if *pressed == key.logical_key)
+                })
+            };
+            // A key that is held does again only what is done by steps.
+            let counts = shortcut.action.repeats() || shortcut.keys.iter().any(is_fresh);
+            shortcut.keys.iter().any(|key| input.consume_shortcut(key)) && counts
+        })
     };
-    SHORTCUTS.iter().filter(|it| is_pressed(it.keys)).map(|it| it.action).collect()
+    let all = SHORTCUTS.iter().filter(|it| !(without_enter && it.action == Action::Choose));
+    all.filter(is_pressed).map(|it| it.action).collect()
 }

@@ -3,6 +3,7 @@
 #[cfg(not(target_arch = "wasm32"))]
 use std::path::Path;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
 use carom_render::{Picture, Quality, stamp};
@@ -12,11 +13,11 @@ use eframe::CreationContext;
 use egui::{Context, Pos2, Rect, Theme, Ui};
 
 use crate::action::{self, Action};
-use crate::chooser::{Choice, Chooser};
+use crate::chooser::Chooser;
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
 use crate::orbit::Preset;
-use crate::session::Command;
+use crate::session::{Command, SessionError};
 use crate::studio::Studio;
 use crate::watching::{Manner, Watching};
 use crate::{help, picture_files};
@@ -56,6 +57,8 @@ pub struct App {
     chooser: Chooser,
     notices: Notices,
     help: bool,
+    /// What went wrong in the physics and was told.
+    told: Option<Arc<SessionError>>,
     /// Seed of the last random maze.
     random_mazes: u64,
     #[cfg(feature = "film")]
@@ -94,6 +97,7 @@ impl App {
             chooser: Chooser::default(),
             notices: Notices::default(),
             help: false,
+            told: None,
             random_mazes: 0,
             #[cfg(feature = "film")]
             recorder: None,
@@ -110,14 +114,21 @@ impl App {
         Ok(app)
     }
 
+    /// Opens a scene: a maze to be played, any other to be watched.
+    fn open(&mut self, scene: Scene, source: Source) {
+        match Maze::from_scene(&scene) {
+            Ok(maze) => self.play(maze),
+            Err(_) => self.watch(scene, source),
+        }
+    }
+
     /// Watches a scene from now on; says so where it cannot be.
     pub fn watch(&mut self, scene: Scene, source: Source) {
         match Watching::new(scene, source, self.threaded, &self.context) {
             Ok(watching) => {
                 #[cfg(not(target_arch = "wasm32"))]
                 self.watched_file.watch(&watching.source);
-                self.screen = Screen::Watching(Box::new(watching));
-                self.notices.clear();
+                self.show(Screen::Watching(Box::new(watching)));
             }
             Err(error) => self.notices.complain(error),
         }
@@ -127,11 +138,19 @@ impl App {
     pub fn play(&mut self, maze: Maze) {
         match MazeScreen::new(maze) {
             Ok(screen) => {
-                self.screen = Screen::Maze(Box::new(screen));
-                self.notices.clear();
+                self.show(Screen::Maze(Box::new(screen)));
             }
             Err(error) => self.notices.complain(error),
         }
+    }
+
+    /// Fills the window with something else; a film of what was there before is complete.
+    fn show(&mut self, screen: Screen) {
+        self.notices.clear();
+        self.chooser.close();
+        #[cfg(feature = "film")]
+        self.finish_film();
+        self.screen = screen;
     }
 
     /// The scene being watched, if any is.
@@ -203,8 +222,7 @@ impl App {
         }
         match Scene::from_toml(text, &name) {
             Ok(scene) => {
-                self.chooser.close();
-                self.watch(scene, Source::File(path.to_owned()));
+                self.open(scene, Source::File(path.to_owned()));
             }
             Err(error) => self.notices.complain(error),
         }
@@ -215,7 +233,9 @@ impl App {
     fn reload_changed(&mut self, context: &Context) {
         let now = context.input(|input| input.time);
         let Screen::Watching(watching) = &mut self.screen else { return };
-        context.request_repaint_after_secs(crate::watched_file::INTERVAL as f32);
+        if self.watched_file.is_any() {
+            context.request_repaint_after_secs(crate::watched_file::INTERVAL as f32);
+        }
         let Some(path) = self.watched_file.changed(now) else { return };
         let reloaded = Scene::from_file(&path, &[]).and_then(|scene| watching.reload(scene));
         match reloaded {
@@ -258,7 +278,7 @@ impl App {
         let recording = self.recorder.is_some();
         #[cfg(not(feature = "film"))]
         let recording = false;
-        Manner { threaded: self.threaded, dark: context.theme() == Theme::Dark, recording }
+        Manner { dark: context.theme() == Theme::Dark, recording }
     }
 
     /// Name and time of what is shown \[s\].
@@ -304,7 +324,10 @@ impl App {
 
     /// Saves the present state as a scene file.
     fn save(&mut self) {
-        let Screen::Watching(watching) = &self.screen else { return };
+        let Screen::Watching(watching) = &self.screen else {
+            self.notices.complain("a game cannot be saved as a scene");
+            return;
+        };
         let view = watching.view();
         let path = picture_files::new_name(&self.folder, &view.scene.name, view.time, "toml");
         let text = view.scene_now().to_toml();
@@ -326,14 +349,12 @@ impl App {
     #[cfg(feature = "film")]
     fn record(&mut self, context: &Context) {
         use crate::recorder::Recorder;
-        if let Some(recorder) = self.recorder.take() {
-            match recorder.finish() {
-                Ok(text) => self.notices.tell(text),
-                Err(error) => self.notices.complain(error),
-            }
+        if self.recorder.is_some() {
+            self.finish_film();
             return;
         }
-        let Some((name, time)) = self.shown() else { return };
+        let Some((name, _)) = self.shown() else { return };
+        let time = self.film_clock();
         let path = picture_files::new_name(&self.folder, &name, time, "mp4");
         match Recorder::begin(path, SMALLEST_PICTURE, time) {
             Ok(recorder) => self.recorder = Some(recorder),
@@ -342,29 +363,59 @@ impl App {
         context.request_repaint();
     }
 
+    /// Completes the film that is being recorded, if one is.
+    #[cfg(feature = "film")]
+    fn finish_film(&mut self) {
+        match self.recorder.take().map(crate::recorder::Recorder::finish) {
+            Some(Ok(text)) => self.notices.tell(text),
+            Some(Err(error)) => self.notices.complain(error),
+            None => {}
+        }
+    }
+
+    /// The time by which films go on \[s\].
+    #[cfg(feature = "film")]
+    fn film_clock(&self) -> f64 {
+        match &self.screen {
+            Screen::Watching(watching) => watching.view().time,
+            Screen::Maze(screen) => screen.clock(),
+            Screen::Empty => 0.0,
+        }
+    }
+
     /// Adds the frames of the film that are due at the time shown.
     #[cfg(feature = "film")]
     fn film(&mut self, context: &Context) {
         let Some(mut recorder) = self.recorder.take() else { return };
-        let Some((_, time)) = self.shown() else { return };
+        let time = self.film_clock();
         let added = recorder.add_due(time, |size| self.snapshot(size, context));
         match added {
             Ok(()) => self.recorder = Some(recorder),
             Err(error) => {
-                self.notices.complain(error);
                 // What was recorded until then is kept.
-                recorder.finish().ok();
+                self.recorder = Some(recorder);
+                self.finish_film();
+                self.notices.complain(error);
             }
         }
     }
 
     /// Says what went wrong in the physics.
     fn complain_of_session(&mut self) {
-        if let Screen::Watching(watching) = &self.screen
-            && let Some(error) = &watching.view().playback.error
-        {
+        let Screen::Watching(watching) = &mut self.screen else { return };
+        if let Some(error) = watching.refused.take() {
             self.notices.complain(error);
         }
+        let error = watching.view().playback.error.clone();
+        // Each is told once: it stays in the view until something goes well.
+        let is_told = match (&error, &self.told) {
+            (Some(error), Some(told)) => Arc::ptr_eq(error, told),
+            _ => false,
+        };
+        if let Some(error) = error.as_ref().filter(|_| !is_told) {
+            self.notices.complain(error);
+        }
+        self.told = error;
     }
 
     /// Says what went wrong on the graphics device. The scene goes on, and can be saved.
@@ -474,6 +525,8 @@ impl App {
         match &mut self.screen {
             Screen::Empty => {}
             Screen::Watching(watching) => watching.advance(ui),
+            // A game waits behind the dialog.
+            Screen::Maze(_) if self.chooser.is_open() => {}
             Screen::Maze(screen) => {
                 #[cfg(feature = "gamepad")]
                 {
@@ -490,6 +543,7 @@ impl App {
 
 fn act_in_maze(screen: &mut MazeScreen, action: Action) {
     match action {
+        Action::PlayOrPause => screen.play_or_pause(),
         Action::Restart => screen.play_again(),
         Action::SceneCamera => screen.look_from(Preset::Scene),
         Action::FrontCamera => screen.look_from(Preset::Front),
@@ -501,10 +555,11 @@ fn act_in_maze(screen: &mut MazeScreen, action: Action) {
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
+        self.studio.begin_frame();
         // A dialog has the keys for itself; on the win screen Enter plays again.
         let is_won = self.maze().is_some_and(MazeScreen::is_won);
-        if !self.chooser.is_open() && !is_won {
-            for action in action::pressed(&context) {
+        if !self.chooser.is_open() {
+            for action in action::pressed(&context, is_won) {
                 self.act(action);
             }
         }
@@ -513,11 +568,9 @@ impl eframe::App for App {
             self.open_dropped(&context);
             self.reload_changed(&context);
         }
-        if !self.chooser.is_open() {
-            self.advance(ui);
-            #[cfg(feature = "film")]
-            self.film(&context);
-        }
+        self.advance(ui);
+        #[cfg(feature = "film")]
+        self.film(&context);
         self.complain_of_session();
         self.complain_of_studio();
         let asked = egui::Panel::top("bar").show(ui, |ui| self.bar(ui)).inner;
@@ -526,8 +579,7 @@ impl eframe::App for App {
             self.act(action);
         }
         match self.chooser.show(&context, &mut self.studio) {
-            Some(Choice::Watch(scene, source)) => self.watch(*scene, source),
-            Some(Choice::Play(maze)) => self.play(*maze),
+            Some((scene, source)) => self.open(scene, source),
             None => {}
         }
         help::show(&context, &mut self.help);

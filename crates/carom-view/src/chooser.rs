@@ -1,7 +1,7 @@
 //! The dialog in which a scene is chosen.
 
-use carom_maze::Maze;
-use carom_render::{Camera, Drawing};
+use carom::DVec3;
+use carom_render::{Bounds, Camera, Drawing};
 use carom_scene::scene::Scene;
 use carom_scene::{Entry, Library, Source};
 use egui::{
@@ -14,20 +14,13 @@ use crate::orbit::{Orbit, Preset};
 use crate::session::{Session, View};
 use crate::studio::{Canvas, Studio};
 
-/// What was chosen.
-#[derive(Debug)]
-pub enum Choice {
-    /// A scene to watch.
-    Watch(Box<Scene>, Source),
-    /// A maze to play.
-    Play(Box<Maze>),
-}
-
 /// The dialog; scenes are read anew each time it opens.
 #[derive(Default)]
 pub struct Chooser {
     open: bool,
     just_opened: bool,
+    /// Whether an arrow key was pressed in this frame.
+    moved: bool,
     filter: String,
     selected: usize,
     cards: Vec<Card>,
@@ -85,7 +78,7 @@ impl Chooser {
     }
 
     /// Shows the dialog while it is open. Returns what was chosen, which closes it.
-    pub fn show(&mut self, context: &Context, studio: &mut Studio) -> Option<Choice> {
+    pub fn show(&mut self, context: &Context, studio: &mut Studio) -> Option<(Scene, Source)> {
         if !self.open {
             return None;
         }
@@ -151,10 +144,13 @@ impl Chooser {
     fn keys(&mut self, context: &Context, found: &[usize]) -> Option<usize> {
         let mut chosen = None;
         context.input_mut(|input| {
-            if input.consume_key(Modifiers::NONE, Key::ArrowDown) {
+            let down = input.consume_key(Modifiers::NONE, Key::ArrowDown);
+            let up = input.consume_key(Modifiers::NONE, Key::ArrowUp);
+            self.moved = down || up;
+            if down {
                 self.selected += 1;
             }
-            if input.consume_key(Modifiers::NONE, Key::ArrowUp) {
+            if up {
                 self.selected = self.selected.saturating_sub(1);
             }
             self.selected = self.selected.min(found.len().saturating_sub(1));
@@ -195,26 +191,18 @@ impl Chooser {
         response.widget_info(|| {
             egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, name)
         });
-        if is_selected
-            && (self.just_opened
-                || ui.input(|input| {
-                    input.key_pressed(Key::ArrowDown) || input.key_pressed(Key::ArrowUp)
-                }))
-        {
+        if is_selected && (self.just_opened || self.moved) {
             response.scroll_to_me(None);
         }
         response.clicked()
     }
 
     /// Closes with a scene. One that cannot be read is shown with what is wrong, and stays.
-    fn choose(&mut self, index: usize) -> Option<Choice> {
+    fn choose(&mut self, index: usize) -> Option<(Scene, Source)> {
         let entry = &self.cards.get(index)?.entry;
         let scene = entry.scene.as_ref().ok()?.clone();
         self.open = false;
-        Some(match Maze::from_scene(&scene) {
-            Ok(maze) => Choice::Play(Box::new(maze)),
-            Err(_) => Choice::Watch(Box::new(scene), entry.source.clone()),
-        })
+        Some((scene, entry.source.clone()))
     }
 
     /// Draws one of the missing thumbnails: one a picture, so that the dialog is there at once.
@@ -278,7 +266,7 @@ fn drawing_of(scene: &Scene) -> Option<(Drawing, Camera)> {
     let mut drawing = Drawing::default();
     let look = Look { marks: Marks::default(), dark: false, blend: 1.0 };
     look::draw(&view, &look, &mut drawing);
-    let bounds = drawing.bounds()?;
+    let bounds = drawing.bounds().unwrap_or(Bounds::of_sphere(DVec3::ZERO, 1.0));
     let aspect = f64::from(THUMBNAIL.x / THUMBNAIL.y);
     let orbit = Orbit::preset(Preset::Scene, Camera::of_scene(scene), &bounds, aspect);
     Some((drawing, orbit.camera))

@@ -19,8 +19,11 @@ pub struct MazeScreen {
     orbit: Option<Orbit>,
     canvas: Canvas,
     drawing: Drawing,
+    dark: bool,
     /// Tilt by a gamepad or a tilted device, each part in \[-1, 1\].
     pub stick: Option<Vec2>,
+    /// Time played, standing at the win screen included \[s\].
+    clock: f64,
     /// How long to say what happened last, by the clock of the interface \[s\].
     message: Option<(String, f64)>,
 }
@@ -62,7 +65,9 @@ impl MazeScreen {
             orbit: None,
             canvas: Canvas::default(),
             drawing: Drawing::default(),
+            dark: false,
             stick: None,
+            clock: 0.0,
             message: None,
         })
     }
@@ -85,8 +90,11 @@ impl MazeScreen {
         let wall_seconds = ui.input(|input| f64::from(input.unstable_dt));
         let now = ui.input(|input| input.time);
         for _ in 0..self.pace.frames_due(wall_seconds, self.game.frame_time()) {
+            self.clock += self.game.frame_time();
             let before = self.game.ball_in_maze().0;
-            let events = self.game.step(steering)?.to_vec();
+            let stepped = self.game.step(steering).map(<[_]>::to_vec);
+            // What fails once would fail again.
+            let events = stepped.inspect_err(|_| self.pace.set_playing(false))?;
             for event in events {
                 self.note(event, now);
             }
@@ -131,10 +139,20 @@ impl MazeScreen {
         }
         let held = ui.input(|input| {
             KEYS.iter()
-                .filter(|(key, ..)| input.key_down(*key))
+                .filter(|(key, ..)| input.key_down(*key) && !input.modifiers.any())
                 .fold([0.0, 0.0], |sum, key| [sum[0] + key.1, sum[1] + key.2])
         });
         Steering::roll(held[0].clamp(-1.0, 1.0), held[1].clamp(-1.0, 1.0))
+    }
+
+    /// Time played, standing at the win screen included \[s\]: by it films go on.
+    pub fn clock(&self) -> f64 {
+        self.clock
+    }
+
+    /// Lets the game stand still, or go on.
+    pub fn play_or_pause(&mut self) {
+        self.pace.set_playing(!self.pace.is_playing());
     }
 
     /// Starts again, the best time kept.
@@ -174,10 +192,14 @@ impl MazeScreen {
         let rotation = self.game.tilt() * self.roll.rotation;
         let Self { game, palette, drawing, .. } = self;
         draw_world(game.scene(), game.world(), palette, |_| Some(rotation), drawing);
+        if self.dark {
+            self.drawing.light = self.drawing.light.at_dusk();
+        }
     }
 
     /// The game's picture with its counts. Returns what the player wants.
     pub fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, dark: bool) -> Option<Wish> {
+        self.dark = dark;
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Maze"));
@@ -202,9 +224,6 @@ impl MazeScreen {
         }
         self.orbit = Some(orbit);
         self.draw();
-        if dark {
-            self.drawing.light = self.drawing.light.at_dusk();
-        }
         studio.draw(&mut self.canvas, size, &self.drawing, &orbit.camera.in_picture(aspect));
         if let Some(texture) = self.canvas.texture() {
             Image::new((texture, rect.size())).paint_at(ui, rect);
@@ -279,7 +298,8 @@ impl MazeScreen {
             },
         );
         // Enter plays again, as on every win screen.
-        again |= ui.input(|input| input.key_pressed(Key::Enter)) && wish.is_none();
+        again |= wish.is_none()
+            && ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Enter));
         if again {
             self.play_again();
         }

@@ -39,10 +39,10 @@ impl Orbit {
         let target = self.target();
         // Angle between the way it looks and straight up.
         let from_up = self.camera.ahead().angle_between(DVec3::Y);
-        let least = NEAREST_TO_POLE - from_up;
-        let most = std::f64::consts::PI - NEAREST_TO_POLE - from_up;
+        let most = from_up - NEAREST_TO_POLE;
+        let least = from_up - (std::f64::consts::PI - NEAREST_TO_POLE);
         let up = up.clamp(least.min(0.0), most.max(0.0));
-        let pitch = DQuat::from_axis_angle(self.camera.rotation * DVec3::X, -up);
+        let pitch = DQuat::from_axis_angle(self.camera.rotation * DVec3::X, up);
         let yaw = DQuat::from_rotation_y(-right);
         self.camera.rotation = (yaw * pitch * self.camera.rotation).normalize();
         self.camera.position = target - self.distance * self.camera.ahead();

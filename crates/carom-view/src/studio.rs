@@ -14,6 +14,7 @@ pub struct Studio {
     offscreen: Option<Offscreen>,
     /// What went wrong on the device since it was asked.
     failure: Arc<Mutex<Option<String>>>,
+    dropped: Dropped,
 }
 
 /// Notes what goes wrong on the device, instead of ending the program: the scene goes on.
@@ -39,13 +40,31 @@ fn listen(device: &wgpu::Device, failure: &Arc<Mutex<Option<String>>>) {
 /// A picture in the interface.
 #[derive(Default)]
 pub struct Canvas {
-    shown: Option<(Target, TextureId)>,
+    shown: Option<Shown>,
+}
+
+struct Shown {
+    target: Target,
+    texture: TextureId,
+    /// Where the texture's name goes when it is needed no more.
+    dropped: Dropped,
+}
+
+/// Names of textures that are shown in the present frame for the last time.
+type Dropped = Arc<Mutex<Vec<TextureId>>>;
+
+impl Drop for Shown {
+    fn drop(&mut self) {
+        if let Ok(mut dropped) = self.dropped.lock() {
+            dropped.push(self.texture);
+        }
+    }
 }
 
 impl Canvas {
     /// What it shows, if anything was drawn into it.
     pub fn texture(&self) -> Option<TextureId> {
-        self.shown.as_ref().map(|(_, texture)| *texture)
+        self.shown.as_ref().map(|shown| shown.texture)
     }
 }
 
@@ -55,7 +74,14 @@ impl Studio {
         let failure = Arc::new(Mutex::new(None));
         listen(&state.device, &failure);
         let renderer = Renderer::new(&state.device, quality);
-        Self { state, renderer, offscreen: None, failure }
+        Self { state, renderer, offscreen: None, failure, dropped: Dropped::default() }
+    }
+
+    /// Begins a frame of the interface: frees the textures that were last shown in those before.
+    pub fn begin_frame(&mut self) {
+        let dropped = self.dropped.lock().map(|mut dropped| std::mem::take(&mut *dropped));
+        let mut interface = self.state.renderer.write();
+        dropped.unwrap_or_default().iter().for_each(|texture| interface.free_texture(texture));
     }
 
     /// What went wrong on the device since this was asked last: lost, or out of memory.
@@ -63,39 +89,23 @@ impl Studio {
         self.failure.lock().ok()?.take()
     }
 
-    /// How much work goes into its pictures.
-    pub fn quality(&self) -> Quality {
-        self.renderer.quality()
-    }
-
-    /// Changes how much work goes into its pictures.
-    pub fn set_quality(&mut self, quality: Quality) {
-        if quality != self.quality() {
-            self.renderer = Renderer::new(&self.state.device, quality);
-        }
-    }
-
     /// Draws into a canvas of this size in pixels.
     pub fn draw(&mut self, canvas: &mut Canvas, size: Vec2, drawing: &Drawing, camera: &Camera) {
         let RenderState { device, queue, .. } = &self.state;
         let largest = device.limits().max_texture_dimension_2d;
         let size = [size.x, size.y].map(|edge| (edge.round() as u32).clamp(1, largest));
-        let samples = self.quality().samples;
-        let is_fitting = |(target, _): &(Target, TextureId)| {
-            target.size() == size && target.samples() == samples
-        };
+        let samples = self.renderer.quality().samples;
+        let is_fitting =
+            |shown: &Shown| shown.target.size() == size && shown.target.samples() == samples;
         if !canvas.shown.as_ref().is_some_and(is_fitting) {
             let target = self.renderer.target(device, size);
             let view = target.picture.create_view(&Default::default());
-            let mut interface = self.state.renderer.write();
-            if let Some((_, old)) = canvas.shown.take() {
-                interface.free_texture(&old);
-            }
             let linear = wgpu::FilterMode::Linear;
+            let mut interface = self.state.renderer.write();
             let texture = interface.register_native_texture(device, &view, linear);
-            canvas.shown = Some((target, texture));
+            canvas.shown = Some(Shown { target, texture, dropped: Arc::clone(&self.dropped) });
         }
-        if let Some((target, _)) = &canvas.shown {
+        if let Some(Shown { target, .. }) = &canvas.shown {
             self.renderer.draw(device, queue, drawing, camera, target);
         }
     }

@@ -25,6 +25,11 @@ impl WatchedFile {
         };
     }
 
+    /// Whether there is a file to watch.
+    pub fn is_any(&self) -> bool {
+        self.file.is_some()
+    }
+
     /// The file, once, if it was changed since it was looked at last.
     pub fn changed(&mut self, now: f64) -> Option<PathBuf> {
         if now - self.looked < INTERVAL {

@@ -36,6 +36,8 @@ pub struct Watching {
     drawing: Drawing,
     drawn: [Option<Drawn>; 2],
     news: u64,
+    /// Why a command was not taken, until it is told.
+    pub refused: Option<SessionError>,
 }
 
 /// Which panels are open.
@@ -58,8 +60,6 @@ struct Drawn {
 /// How the interface works, whatever scene is watched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Manner {
-    /// Whether the physics has a thread of its own.
-    pub threaded: bool,
     /// Dark surroundings.
     pub dark: bool,
     /// Whether a film is being recorded.
@@ -95,6 +95,7 @@ impl Watching {
             drawing: Drawing::default(),
             drawn: [None; 2],
             news: 0,
+            refused: None,
         })
     }
 
@@ -124,8 +125,7 @@ impl Watching {
         }
     }
 
-    /// Does what was asked for by a key or button, if it is about this scene. Errors are those of
-    /// the comparison of rules.
+    /// Does what was asked for by a key or button, if it is about this scene.
     pub fn act(&mut self, action: Action) {
         let view = self.driver.view();
         let speed = view.playback.speed;
@@ -161,8 +161,9 @@ impl Watching {
     /// The same scene under two rules, from the start; or again under its own.
     fn compare(&mut self) {
         let view = self.driver.view();
-        let mut scene = (*view.scene).clone();
-        scene.simulation = view.setup.simulation.clone();
+        let mut scene = view.setup.scene(&view.scene);
+        scene.spheres = view.scene.spheres.clone();
+        scene.generators = view.scene.generators.clone();
         self.commands.push(if view.other.is_some() {
             Command::Open(Box::new(scene))
         } else {
@@ -265,7 +266,7 @@ impl Watching {
             let rect =
                 Rect::from_min_size(Pos2::new(left, whole.top()), Vec2::new(width, whole.height()));
             let response = ui.allocate_rect(rect, Sense::click_and_drag());
-            self.hand(ui, &response);
+            self.hand(ui, &response, side);
             self.draw(ui, studio, manner, side, rect);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Scene"));
         }
@@ -297,8 +298,7 @@ impl Watching {
         let camera = orbit.camera.in_picture(aspect);
         let drawn = Drawn { news: self.news, camera, look, size };
         if self.drawn[side] != Some(drawn) {
-            let view = self.driver.view();
-            let view = if side == 0 { view } else { view.other.as_deref().unwrap_or(view) };
+            let view = side_of(self.driver.view(), side);
             look::draw(view, &look, &mut self.drawing);
             studio.draw(&mut self.canvases[side], size, &self.drawing, &camera);
             self.drawn[side] = Some(drawn);
@@ -306,8 +306,8 @@ impl Watching {
         if let Some(texture) = self.canvases[side].texture() {
             Image::new((texture, rect.size())).paint_at(ui, rect);
         }
-        if let Some(other) = &self.view().other {
-            let view = if side == 0 { self.view() } else { other };
+        if self.view().other.is_some() {
+            let view = side_of(self.view(), side);
             let rule = format!("{:?}", view.setup.simulation.rule).to_lowercase();
             let painter = ui.painter_at(rect);
             let place = rect.left_top() + Vec2::new(12.0, 10.0);
@@ -326,7 +326,7 @@ impl Watching {
     }
 
     /// What the mouse or a finger does.
-    fn hand(&mut self, ui: &Ui, response: &Response) {
+    fn hand(&mut self, ui: &Ui, response: &Response, side: usize) {
         let Some(orbit) = &mut self.orbit else { return };
         let height = f64::from(response.rect.height().max(1.0));
         let drag = response.drag_delta();
@@ -345,11 +345,11 @@ impl Watching {
         if let Some(pointer) = response.interact_pointer_pos()
             && response.clicked()
         {
-            self.click(response, pointer, modifiers);
+            self.click(response, pointer, modifiers, side);
         }
     }
 
-    fn click(&mut self, response: &Response, pointer: Pos2, modifiers: Modifiers) {
+    fn click(&mut self, response: &Response, pointer: Pos2, modifiers: Modifiers, side: usize) {
         let Some(orbit) = &mut self.orbit else { return };
         let rect = response.rect;
         let place = (pointer - rect.center()) / (0.5 * rect.size());
@@ -371,9 +371,9 @@ impl Watching {
             return;
         }
         let blend = self.driver.blend();
-        let picked = look::sphere_at(self.driver.view(), blend, origin, direction);
+        let view = side_of(self.driver.view(), side);
+        let picked = look::sphere_at(view, blend, origin, direction);
         if response.double_clicked() {
-            let view = self.driver.view();
             if let Some(index) = picked.and_then(|id| view.spheres.index_of(id)) {
                 orbit.center_on(look::place(view, index, blend));
             }
@@ -395,8 +395,9 @@ impl Watching {
     /// Sends what was asked for since the last picture.
     fn send(&mut self) {
         for command in self.commands.drain(..) {
-            // Only a driver that has ended or is swamped refuses; its view says why.
-            self.driver.send(command).ok();
+            if let Err(error) = self.driver.send(command) {
+                self.refused = Some(error);
+            }
         }
     }
 
@@ -427,6 +428,11 @@ impl Watching {
         }
         Ok(Picture::side_by_side(&pictures))
     }
+}
+
+/// The view of one of two rules, or of the only one.
+fn side_of(view: &View, side: usize) -> &View {
+    if side == 0 { view } else { view.other.as_deref().unwrap_or(view) }
 }
 
 fn driver(

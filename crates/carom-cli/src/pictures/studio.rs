@@ -30,8 +30,9 @@ impl<'a> Studio<'a> {
         footage.draw(time, &mut self.drawing)?;
         let [width, height] = self.look.size.map(f64::from);
         let bounds = bounds(footage.scene(), &self.drawing);
-        let of_scene = Camera::of_scene(footage.scene());
-        Ok(self.look.camera.camera(of_scene, &bounds, width / height))
+        let aspect = width / height;
+        let of_scene = Camera::of_scene(footage.scene()).map(|camera| camera.in_picture(aspect));
+        Ok(self.look.camera.camera(of_scene, &bounds, aspect))
     }
 
     /// Footage at a time \[s\].

@@ -90,7 +90,7 @@ fn lit(surface: Surface) -> vec3<f32> {
     let skylight = light_through(globals.sky_from_eye * vec4<f32>(off_sky, 1.0), 1, 5.0);
 
     let upward = 0.5 + 0.5 * n.y;
-    let from_sky = mix(globals.horizon.rgb, globals.zenith.rgb, 0.5) * (0.45 + 0.55 * skylight);
+    let from_sky = mix(globals.horizon.rgb, globals.zenith.rgb, 0.5) * (0.68 + 0.32 * skylight);
     let ambient = mix(globals.ground.rgb * 0.55, from_sky, upward);
     let direct = globals.sun.rgb * max(facing, 0.0) * sunlight;
     var color = surface.color * (0.66 * ambient + 0.95 * direct);

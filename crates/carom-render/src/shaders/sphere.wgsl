@@ -58,7 +58,7 @@ fn fragment(in: Varying) -> Pixel {
     let along = dot(direction, center);
     let miss = length(center - along * direction);
     // Part of the pixel inside the outline.
-    let width = max(fwidth(miss), 1e-9);
+    let width = max(fwidth(miss), 1e-7 * along);
     let coverage = clamp((radius - miss) / width + 0.5, 0.0, 1.0);
     let enough = select(0.5, 0.05, globals.horizon.w > 0.5);
     if coverage < enough || along <= 0.0 {

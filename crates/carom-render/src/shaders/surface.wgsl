@@ -44,6 +44,11 @@ fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
+    // Where a pixel has one sample, every other one shows what can be seen through.
+    let odd = (i32(in.clip.x) + i32(in.clip.y)) % 2 != 0;
+    if in.color.w < 1.0 && globals.horizon.w < 0.5 && odd {
+        discard;
+    }
     let is_front = dot(in.normal, in.point) < 0.0;
     // The two coordinates on the face, and how far it reaches along them.
     var place = in.local.xz;
@@ -55,8 +60,8 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
         place = in.local.xy;
         reach = in.extent.xy;
     }
-    let pixel = max(fwidth(place), vec2<f32>(1e-6));
     let distance = length(in.point);
+    let pixel = max(fwidth(place), vec2<f32>(1e-7 * distance));
 
     var color = in.color.rgb;
     if is_front {
@@ -82,7 +87,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     if in.kind == HALF_SPACE {
         // Fades into the haze before its edge.
         let haze = smoothstep(0.12, 0.75, distance / in.extent.x);
-        shown = mix(shown, sky(normalize(vec3<f32>(in.point.x, 0.0, in.point.z))), haze);
+        shown = mix(shown, sky(in.point / max(distance, 1e-12)), haze);
     }
     return vec4<f32>(encoded(shown), in.color.w);
 }

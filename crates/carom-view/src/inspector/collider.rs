@@ -37,9 +37,12 @@ fn slider(ui: &mut Ui, title: &str, text: &str, restitution: &mut f64) -> bool {
     ui.horizontal(|ui| {
         name(ui, title);
         let before = *restitution;
-        let response = ui.add(Slider::new(restitution, 0.0..=1.0).max_decimals(3));
+        let response = ui.add(Slider::new(restitution, 0.0..=1.0));
+        let is_handled = response.dragged() || response.clicked() || response.has_focus();
+        let is_handled = is_handled || response.lost_focus() || response.drag_stopped();
         response.widget_info(|| egui::WidgetInfo::slider(true, *restitution, text));
-        *restitution != before
+        // A slider rounds what it shows; only a hand changes anything.
+        is_handled && *restitution != before
     })
     .inner
 }

@@ -2,6 +2,10 @@
 
 use egui::{DragValue, Response, RichText, Ui};
 
+/// Smallest positive number that can be dragged to: lengths, masses and times below it are typed
+/// into scene files, not found with a mouse.
+const SMALLEST: f64 = 1e-9;
+
 /// What numbers may be, and what they are called.
 #[derive(Clone, Copy)]
 pub(super) struct Field<'a> {
@@ -17,7 +21,7 @@ impl<'a> Field<'a> {
     }
 
     pub fn positive(name: &'a str, unit: &'a str) -> Self {
-        Self { min: f64::MIN_POSITIVE, ..Self::any(name, unit) }
+        Self { min: SMALLEST, ..Self::any(name, unit) }
     }
 
     pub fn not_negative(name: &'a str, unit: &'a str) -> Self {
@@ -82,8 +86,13 @@ fn drag(ui: &mut Ui, field: Field, value: &mut f64) -> bool {
 }
 
 fn dragged(ui: &mut Ui, field: Field, value: &mut f64) -> Response {
-    let speed = (0.01 * value.abs()).max(0.005);
-    let drag = DragValue::new(value).speed(speed).range(field.min..=field.max).max_decimals(6);
+    let speed = if *value == 0.0 { 0.01 } else { 0.01 * value.abs() };
+    let drag = DragValue::new(value)
+        .speed(speed)
+        .range(field.min..=field.max)
+        .max_decimals(9)
+        // Half a number is none yet.
+        .update_while_editing(false);
     let response: Response = ui.add(drag);
     let text = field.name;
     response.widget_info(|| egui::WidgetInfo {

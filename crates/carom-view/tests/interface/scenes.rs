@@ -1,7 +1,9 @@
 //! Choosing scenes, and changing them while they run.
 
-use carom_scene::Library;
+use carom_scene::scene::{Collider, Scene, Shape};
+use carom_scene::{Library, Source};
 use carom_view::session::{Command, Edit};
+use carom_view::{Setup, Start};
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
 
@@ -62,6 +64,58 @@ fn restitution_changes_while_the_scene_runs() {
     let (_, plane) = &view.setup.colliders[0];
     assert_eq!(plane.restitution, 0.05);
     assert!(view.playback.playing && view.time > 0.3, "it went on");
+}
+
+#[test]
+fn looking_at_values_changes_none() {
+    let mut scene_file = Scene::new("odd");
+    for restitution in [2.0 / 3.0, 0.123_456_789] {
+        scene_file.colliders.push(Collider {
+            name: String::new(),
+            shape: Shape::HalfSpace,
+            position: [0.0, -1.0, 0.0],
+            rotation: [0.0, 0.0, 0.0, 1.0],
+            velocity: [0.0; 3],
+            angular_velocity: [0.0; 3],
+            restitution,
+            trigger: false,
+            visible: true,
+            color: None,
+        });
+    }
+    let start = Some(Start::Scene(Box::new(scene_file.clone()), Source::Registered));
+    let mut desk = desk(Setup { start, ..setup() });
+    desk.run_steps(6);
+    assert_eq!(scene(&desk).view().setup.colliders[0].1, scene_file.colliders[0]);
+    assert_eq!(scene(&desk).view().setup.colliders[1].1, scene_file.colliders[1]);
+}
+
+#[test]
+fn a_key_that_is_held_plays_or_pauses_once() {
+    let mut desk = watching("simtest1");
+    for repeat in [false, true, true] {
+        desk.event(egui::Event::Key {
+            key: Key::P,
+            physical_key: None,
+            pressed: true,
+            repeat,
+            modifiers: egui::Modifiers::NONE,
+        });
+        desk.run_steps(2);
+    }
+    assert!(scene(&desk).view().playback.playing);
+}
+
+#[test]
+fn an_error_that_is_closed_stays_closed() {
+    let mut desk = watching("simtest1");
+    let mut simulation = scene(&desk).view().setup.simulation.clone();
+    simulation.frame_time = -1.0;
+    desk.state_mut().command(Command::Edit(Edit::Simulation(Box::new(simulation))));
+    desk.run_steps(4);
+    desk.get_by_label("Close").click();
+    desk.run_steps(4);
+    assert!(!desk.state().notices().any_error());
 }
 
 #[test]
