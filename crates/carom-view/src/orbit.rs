@@ -26,7 +26,8 @@ impl Orbit {
 
     /// A preset for what lies in `bounds`, seen in a picture of this width to height.
     pub fn preset(preset: Preset, of_scene: Option<Camera>, bounds: &Bounds, aspect: f64) -> Self {
-        Self::about(preset.camera(of_scene, bounds, aspect), bounds)
+        // Narrower pictures are widened when they are drawn.
+        Self::about(preset.camera(of_scene, bounds, aspect.max(16.0 / 9.0)), bounds)
     }
 
     /// The point about which it turns \[m\].
