@@ -578,9 +578,8 @@ impl eframe::App for App {
         for action in asked {
             self.act(action);
         }
-        match self.chooser.show(&context, &mut self.studio) {
-            Some((scene, source)) => self.open(scene, source),
-            None => {}
+        if let Some((scene, source)) = self.chooser.show(&context, &mut self.studio) {
+            self.open(scene, source);
         }
         help::show(&context, &mut self.help);
         self.notices.show(ui);

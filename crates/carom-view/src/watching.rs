@@ -373,10 +373,10 @@ impl Watching {
         let blend = self.driver.blend();
         let view = side_of(self.driver.view(), side);
         let picked = look::sphere_at(view, blend, origin, direction);
-        if response.double_clicked() {
-            if let Some(index) = picked.and_then(|id| view.spheres.index_of(id)) {
-                orbit.center_on(look::place(view, index, blend));
-            }
+        if response.double_clicked()
+            && let Some(index) = picked.and_then(|id| view.spheres.index_of(id))
+        {
+            orbit.center_on(look::place(view, index, blend));
         }
         self.followed = None;
         self.commands.push(Command::Pick(picked));
