@@ -15,7 +15,7 @@ const WALL_COLOR: Color = [0.42, 0.55, 0.71];
 const END_WALL_COLOR: Color = [0.80, 0.25, 0.22];
 const GROUND_COLOR: Color = [0.86, 0.86, 0.84];
 const COLLECTIBLE_COLOR: Color = [0.95, 0.76, 0.2];
-const BALL_COLOR: Color = [0.90, 0.92, 0.95];
+const BALL_COLOR: Color = [0.66, 0.24, 0.52];
 
 /// What a collider is in the game.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -106,7 +106,8 @@ fn a_ball_shades_the_floor_away_from_the_sun() {
     drawing.add_collider(shape, Pose::at(DVec3::ZERO), [0.8, 0.8, 0.8], false);
     drawing.light.to_sun = DVec3::new(1.0, 1.0, 0.0).normalize();
     let bare = drawing.clone();
-    drawing.balls.push(ball(DVec3::new(0.0, 2.0, 0.0), 0.5, [1.0, 0.0, 0.0]));
+    let above = ball(DVec3::new(0.0, 2.0, 0.0), 0.5, [1.0, 0.0, 0.0]);
+    drawing.balls.push(Ball { material: Material::Plain, ..above });
     let camera = Camera::looking_at(DVec3::Y * 15.0, DVec3::ZERO, 0.8);
     for quality in [Quality::DRAFT, Quality::FINE] {
         let (with, without) = (drawn(&drawing, &camera, quality), drawn(&bare, &camera, quality));
@@ -123,6 +124,13 @@ fn a_ball_shades_the_floor_away_from_the_sun() {
         let (shaded, lit) = at(DVec3::new(2.3, 0.0, 0.1));
         assert!(shaded.abs_diff(lit) <= 3, "towards the sun: {shaded} and {lit}");
     }
+    // A mark glows, and shades nothing.
+    drawing.balls[0].material = Material::Glowing;
+    drawing.balls[0].radius = 1e-3;
+    let marked = drawn(&drawing, &camera, Quality::DRAFT);
+    let bare = drawn(&bare, &camera, Quality::DRAFT);
+    let differing = marked.pixels.chunks(4).zip(bare.pixels.chunks(4)).filter(|(a, b)| a != b);
+    assert!(differing.count() <= 4, "but for the mark itself");
 }
 
 #[test]
