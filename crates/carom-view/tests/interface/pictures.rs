@@ -58,13 +58,15 @@ fn the_window_with_plots() {
 #[test]
 fn two_rules() {
     let mut results = SnapshotResults::new();
-    let mut desk = watching("tutorial3");
-    set_theme(&mut desk, Theme::Light);
-    press(&mut desk, Key::X);
-    press(&mut desk, Key::I);
-    press(&mut desk, Key::G);
-    go_to(&mut desk, 3.0);
-    compare(&mut desk, "two_rules_light", &mut results);
+    for (theme, name) in [(Theme::Light, "two_rules_light"), (Theme::Dark, "two_rules_dark")] {
+        let mut desk = watching("tutorial3");
+        set_theme(&mut desk, theme);
+        for key in [Key::X, Key::I, Key::G] {
+            press(&mut desk, key);
+        }
+        go_to(&mut desk, 3.0);
+        compare(&mut desk, name, &mut results);
+    }
     results.unwrap();
 }
 
@@ -82,9 +84,11 @@ fn the_maze() {
 #[test]
 fn the_win_screen() {
     let mut results = SnapshotResults::new();
-    let mut desk = playing(Maze::from_text(SHORT, "short").expect("a maze"));
-    set_theme(&mut desk, Theme::Light);
-    win(&mut desk);
-    compare(&mut desk, "won_light", &mut results);
+    for (theme, name) in [(Theme::Light, "won_light"), (Theme::Dark, "won_dark")] {
+        let mut desk = playing(Maze::from_text(SHORT, "short").expect("a maze"));
+        set_theme(&mut desk, theme);
+        win(&mut desk);
+        compare(&mut desk, name, &mut results);
+    }
     results.unwrap();
 }
