@@ -194,8 +194,8 @@ impl App {
 
     /// Opens a file that was dropped on the window: a scene, or a maze drawn with characters.
     #[cfg(not(target_arch = "wasm32"))]
-    fn open_dropped(&mut self, context: &Context) {
-        let files = context.input(|input| input.raw.dropped_files.clone());
+    fn open_dropped(&mut self) {
+        let files = self.context.input(|input| input.raw.dropped_files.clone());
         for file in files {
             let path = file.path().to_owned();
             let text = file.bytes().map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
@@ -230,11 +230,11 @@ impl App {
 
     /// Reads a scene file anew that was changed on the disk.
     #[cfg(not(target_arch = "wasm32"))]
-    fn reload_changed(&mut self, context: &Context) {
-        let now = context.input(|input| input.time);
+    fn reload_changed(&mut self) {
+        let now = self.context.input(|input| input.time);
         let Screen::Watching(watching) = &mut self.screen else { return };
         if self.watched_file.is_any() {
-            context.request_repaint_after_secs(crate::watched_file::INTERVAL as f32);
+            self.context.request_repaint_after_secs(crate::watched_file::INTERVAL as f32);
         }
         let Some(path) = self.watched_file.changed(now) else { return };
         let reloaded = Scene::from_file(&path, &[]).and_then(|scene| watching.reload(scene));
@@ -249,20 +249,19 @@ impl App {
 
     /// Does what was asked for by a key or button.
     pub fn act(&mut self, action: Action) {
-        let context = &self.context.clone();
         match action {
             Action::Choose => self.open_chooser(),
             Action::Help => self.help ^= true,
             Action::Theme => {
-                let dark = context.theme() == Theme::Dark;
-                context.set_theme(if dark { Theme::Light } else { Theme::Dark });
+                let dark = self.context.theme() == Theme::Dark;
+                self.context.set_theme(if dark { Theme::Light } else { Theme::Dark });
             }
             Action::Close => {
                 self.help = false;
                 self.chooser.close();
             }
-            Action::Screenshot => self.screenshot(context),
-            Action::Record => self.record(context),
+            Action::Screenshot => self.screenshot(),
+            Action::Record => self.record(),
             Action::Save => self.save(),
             _ => match &mut self.screen {
                 Screen::Watching(watching) => watching.act(action),
@@ -273,12 +272,12 @@ impl App {
     }
 
     /// How the interface works now.
-    fn manner(&self, context: &Context) -> Manner {
+    fn manner(&self) -> Manner {
         #[cfg(feature = "film")]
         let recording = self.recorder.is_some();
         #[cfg(not(feature = "film"))]
         let recording = false;
-        Manner { dark: context.theme() == Theme::Dark, recording }
+        Manner { dark: self.context.theme() == Theme::Dark, recording }
     }
 
     /// Name and time of what is shown \[s\].
@@ -294,8 +293,8 @@ impl App {
         }
     }
 
-    fn snapshot(&mut self, size: [u32; 2], context: &Context) -> Option<Picture> {
-        let manner = self.manner(context);
+    fn snapshot(&mut self, size: [u32; 2]) -> Option<Picture> {
+        let manner = self.manner();
         let drawn = match &mut self.screen {
             Screen::Watching(watching) => watching.snapshot(&mut self.studio, manner, size),
             Screen::Maze(screen) => screen.snapshot(&mut self.studio, size),
@@ -305,12 +304,12 @@ impl App {
     }
 
     /// Saves a picture with the simulation time on it, of the size of the window at least.
-    fn screenshot(&mut self, context: &Context) {
+    fn screenshot(&mut self) {
         let Some((name, time)) = self.shown() else { return };
-        let window = context.content_rect().size() * context.pixels_per_point();
+        let window = self.context.content_rect().size() * self.context.pixels_per_point();
         let [width, height] = SMALLEST_PICTURE;
         let size = [width.max(window.x as u32), height.max(window.y as u32)];
-        let Some(mut picture) = self.snapshot(size, context) else { return };
+        let Some(mut picture) = self.snapshot(size) else { return };
         stamp(&mut picture, &picture_files::stamp_text(&name, time));
         #[cfg(not(target_arch = "wasm32"))]
         {
@@ -342,12 +341,12 @@ impl App {
     }
 
     #[cfg(not(feature = "film"))]
-    fn record(&mut self, _context: &Context) {
+    fn record(&mut self) {
         self.notices.complain("this build of Carom makes no films");
     }
 
     #[cfg(feature = "film")]
-    fn record(&mut self, context: &Context) {
+    fn record(&mut self) {
         use crate::recorder::Recorder;
         if self.recorder.is_some() {
             self.finish_film();
@@ -360,7 +359,7 @@ impl App {
             Ok(recorder) => self.recorder = Some(recorder),
             Err(error) => self.notices.complain(error),
         }
-        context.request_repaint();
+        self.context.request_repaint();
     }
 
     /// Completes the film that is being recorded, if one is.
@@ -385,10 +384,10 @@ impl App {
 
     /// Adds the frames of the film that are due at the time shown.
     #[cfg(feature = "film")]
-    fn film(&mut self, context: &Context) {
+    fn film(&mut self) {
         let Some(mut recorder) = self.recorder.take() else { return };
         let time = self.film_clock();
-        let added = recorder.add_due(time, |size| self.snapshot(size, context));
+        let added = recorder.add_due(time, |size| self.snapshot(size));
         match added {
             Ok(()) => self.recorder = Some(recorder),
             Err(error) => {
@@ -487,7 +486,7 @@ impl App {
     }
 
     fn screen(&mut self, ui: &mut Ui) {
-        let manner = self.manner(ui.ctx());
+        let manner = self.manner();
         let margin = egui::Frame::NONE;
         let mut wish = None;
         match &mut self.screen {
@@ -565,12 +564,12 @@ impl eframe::App for App {
         }
         #[cfg(not(target_arch = "wasm32"))]
         {
-            self.open_dropped(&context);
-            self.reload_changed(&context);
+            self.open_dropped();
+            self.reload_changed();
         }
         self.advance(ui);
         #[cfg(feature = "film")]
-        self.film(&context);
+        self.film();
         self.complain_of_session();
         self.complain_of_studio();
         let asked = egui::Panel::top("bar").show(ui, |ui| self.bar(ui)).inner;
