@@ -12,6 +12,9 @@ pub struct Bounds {
 }
 
 impl Bounds {
+    /// Around a sphere of radius 1 at the origin: for where there is nothing to see.
+    pub const UNIT: Self = Self { min: DVec3::NEG_ONE, max: DVec3::ONE };
+
     /// The box around a sphere.
     pub fn of_sphere(center: DVec3, radius: f64) -> Self {
         Self { min: center - radius, max: center + radius }

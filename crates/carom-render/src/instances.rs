@@ -36,33 +36,41 @@ impl Instances {
         faces.clear();
         boxes.clear();
         arrows.clear();
-        // Marks have no shadow, nor have surfaces that can be seen through.
-        let (casts, marks): (Vec<&Ball>, Vec<&Ball>) =
-            drawing.balls.iter().partition(|ball| ball.material != Material::Glowing);
-        casting[0] = casts.len();
-        balls.extend(casts.into_iter().chain(marks).map(|ball| packed_ball(ball, eye)));
+        // What casts shadows comes first: not marks, nor surfaces that can be seen through.
+        let is_mark = |ball: &&Ball| ball.material == Material::Glowing;
+        let packed = |ball| packed_ball(ball, eye);
+        balls.extend(drawing.balls.iter().filter(|ball| !is_mark(ball)).map(packed));
+        casting[0] = balls.len();
+        balls.extend(drawing.balls.iter().filter(is_mark).map(packed));
+        let is_clear = |panel: &&Panel| panel.opacity < 1.0;
+        for panel in drawing.panels.iter().filter(|panel| !is_clear(panel)) {
+            add_panel(panel, eye, radius, faces, boxes);
+        }
+        casting[1..].copy_from_slice(&[faces.len(), boxes.len()]);
+        for panel in drawing.panels.iter().filter(is_clear) {
+            add_panel(panel, eye, radius, faces, boxes);
+        }
         arrows.extend(drawing.arrows.iter().map(|arrow| packed_arrow(arrow, eye)));
-        let (opaque, others): (Vec<&Panel>, Vec<&Panel>) =
-            drawing.panels.iter().partition(|panel| panel.opacity >= 1.0);
-        for (i, panel) in opaque.iter().chain(&others).enumerate() {
-            if i <= opaque.len() {
-                casting[1..].copy_from_slice(&[faces.len(), boxes.len()]);
-            }
-            match panel.shape {
-                Shape::Box { size } => boxes.push(packed_box(panel, size, eye)),
-                Shape::Rectangle { size_x, size_z } => {
-                    let half = 0.5 * DVec3::new(size_x, 0.0, size_z);
-                    let size = (half, grid_distance(2.0 * half.max_element()));
-                    faces.push(packed_panel(panel, panel.pose.position - eye, 0.0, size));
-                }
-                Shape::HalfSpace => faces.push(packed_half_space(panel, eye, radius)),
-                // Spheres are balls.
-                _ => {}
-            }
+    }
+}
+
+fn add_panel(
+    panel: &Panel,
+    eye: DVec3,
+    radius: f64,
+    faces: &mut Vec<PackedPanel>,
+    boxes: &mut Vec<PackedPanel>,
+) {
+    match panel.shape {
+        Shape::Box { size } => boxes.push(packed_box(panel, size, eye)),
+        Shape::Rectangle { size_x, size_z } => {
+            let half = 0.5 * DVec3::new(size_x, 0.0, size_z);
+            let size = (half, grid_distance(2.0 * half.max_element()));
+            faces.push(packed_panel(panel, panel.pose.position - eye, 0.0, size));
         }
-        if others.is_empty() {
-            casting[1..].copy_from_slice(&[faces.len(), boxes.len()]);
-        }
+        Shape::HalfSpace => faces.push(packed_half_space(panel, eye, radius)),
+        // Spheres are balls.
+        _ => {}
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::target::{COLOR_FORMAT, DEPTH_FORMAT};
 
 const LIGHT: &str = include_str!("shaders/light.wgsl");
-const CORNERS: &str = include_str!("shaders/corners.wgsl");
+const PLACES: &str = include_str!("shaders/places.wgsl");
 
 /// Numbers in the uniforms of a picture.
 pub(crate) const GLOBALS: usize = 3 * 16 + 9 * 4;
@@ -41,7 +41,7 @@ impl Pipelines {
             let writes = label != "sky";
             Parts {
                 label,
-                source: format!("{LIGHT}{CORNERS}{source}"),
+                source: format!("{LIGHT}{PLACES}{source}"),
                 entries: ["vertex", "fragment"],
                 attributes,
                 stride: attributes,
@@ -55,7 +55,7 @@ impl Pipelines {
         let shadow = |label, entries, attributes, stride, topology| {
             let parts = Parts {
                 label,
-                source: format!("{CORNERS}{}", include_str!("shaders/shadow.wgsl")),
+                source: format!("{PLACES}{}", include_str!("shaders/shadow.wgsl")),
                 entries,
                 attributes,
                 stride,

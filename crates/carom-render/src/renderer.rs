@@ -92,7 +92,7 @@ impl Renderer {
         camera: &Camera,
         target: &Target,
     ) {
-        let bounds = drawing.bounds().unwrap_or(Bounds::of_sphere(DVec3::ZERO, 1.0));
+        let bounds = drawing.bounds().unwrap_or(Bounds::UNIT);
         let seen = shadowed(drawing, camera, &bounds);
         let [sun, sky] = [drawing.light.to_sun, DVec3::Y].map(|to_light| {
             let (center, radius) = seen;

@@ -1,6 +1,5 @@
 //! The dialog in which a scene is chosen.
 
-use carom::DVec3;
 use carom_render::{Bounds, Camera, Drawing};
 use carom_scene::scene::Scene;
 use carom_scene::{Entry, Library, Source};
@@ -266,7 +265,7 @@ fn drawing_of(scene: &Scene) -> Option<(Drawing, Camera)> {
     let mut drawing = Drawing::default();
     let look = Look { marks: Marks::default(), dark: false, blend: 1.0 };
     look::draw(&view, &look, &mut drawing);
-    let bounds = drawing.bounds().unwrap_or(Bounds::of_sphere(DVec3::ZERO, 1.0));
+    let bounds = drawing.bounds().unwrap_or(Bounds::UNIT);
     let aspect = f64::from(THUMBNAIL.x / THUMBNAIL.y);
     let orbit = Orbit::preset(Preset::Scene, Camera::of_scene(scene), &bounds, aspect);
     Some((drawing, orbit.camera))

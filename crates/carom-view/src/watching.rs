@@ -183,7 +183,7 @@ impl Watching {
         let mut drawing = Drawing::default();
         let look = Look { marks: Marks::default(), dark: false, blend: 1.0 };
         look::draw(self.view(), &look, &mut drawing);
-        let bounds = drawing.bounds().unwrap_or(carom_render::Bounds::of_sphere(DVec3::ZERO, 1.0));
+        let bounds = drawing.bounds().unwrap_or(carom_render::Bounds::UNIT);
         Some(Orbit::preset(preset, Camera::of_scene(&self.view().scene), &bounds, aspect))
     }
 

@@ -27,10 +27,6 @@ struct Globals {
 @group(0) @binding(1) var shadow_maps: texture_depth_2d_array;
 @group(0) @binding(2) var shadow_sampler: sampler_comparison;
 
-fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
-    return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
-}
-
 fn tap(place: vec2<f32>, layer: i32, depth: f32) -> f32 {
     return textureSampleCompareLevel(shadow_maps, shadow_sampler, place, layer, depth);
 }

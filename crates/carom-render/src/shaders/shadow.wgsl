@@ -10,10 +10,6 @@ struct Light {
 
 @group(0) @binding(0) var<uniform> light: Light;
 
-fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
-    return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
-}
-
 struct SphereVarying {
     @builtin(position) clip: vec4<f32>,
     @location(0) corner: vec2<f32>,

@@ -7,7 +7,7 @@ use carom_view::{Setup, Start};
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
 
-use crate::desk::{desk, press, scene, setup, watching};
+use crate::desk::{Desk, desk, press, scene, setup, watching};
 
 #[test]
 fn the_chooser_is_there_at_the_start_and_comes_back_on_enter() {
@@ -106,13 +106,18 @@ fn a_key_that_is_held_plays_or_pauses_once() {
     assert!(scene(&desk).view().playback.playing);
 }
 
-#[test]
-fn an_error_that_is_closed_stays_closed() {
-    let mut desk = watching("simtest1");
-    let mut simulation = scene(&desk).view().setup.simulation.clone();
+/// Asks for what is refused.
+fn ask_for_negative_frames(desk: &mut Desk) {
+    let mut simulation = scene(desk).view().setup.simulation.clone();
     simulation.frame_time = -1.0;
     desk.state_mut().command(Command::Edit(Edit::Simulation(Box::new(simulation))));
     desk.run_steps(4);
+}
+
+#[test]
+fn an_error_that_is_closed_stays_closed() {
+    let mut desk = watching("simtest1");
+    ask_for_negative_frames(&mut desk);
     desk.get_by_label("Close").click();
     desk.run_steps(4);
     assert!(!desk.state().notices().any_error());
@@ -121,10 +126,7 @@ fn an_error_that_is_closed_stays_closed() {
 #[test]
 fn a_refused_change_is_told_and_changes_nothing() {
     let mut desk = watching("simtest1");
-    let mut simulation = scene(&desk).view().setup.simulation.clone();
-    simulation.frame_time = -1.0;
-    desk.state_mut().command(Command::Edit(Edit::Simulation(Box::new(simulation))));
-    desk.run_steps(4);
+    ask_for_negative_frames(&mut desk);
     assert!(desk.state().notices().any_error());
     assert_eq!(scene(&desk).view().setup.simulation.frame_time, 0.02);
 }

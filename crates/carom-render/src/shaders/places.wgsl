@@ -1,4 +1,8 @@
-// Corners of the triangles of a rectangle or box, by their number.
+// Where things are: rotations, and corners of the triangles of a rectangle or box by their number.
+
+fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
+    return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
+}
 
 struct Corner {
     place: vec3<f32>,
