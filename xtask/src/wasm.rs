@@ -8,7 +8,8 @@ const TARGET: &str = "wasm32-unknown-unknown";
 /// Checks the physics, the scenes, the renderer and the interface for the browser's target.
 pub fn check() -> Outcome {
     setup::browser_target(TARGET)?;
-    let packages = ["carom", "carom-scene", "carom-render", "carom-maze", "carom-view"];
+    let packages =
+        ["carom", "carom-scene", "carom-render", "carom-maze", "carom-session", "carom-view"];
     for package in packages {
         cargo(&[
             "check",

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use carom_render::Quality;
 use carom_scene::scene::{Generator, Scene, Sphere};
 use carom_scene::{Library, Source};
-use carom_view::session::Command;
+use carom_session::Command;
 use carom_view::{Action, App, Setup, Start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use egui_kittest::Harness;

@@ -17,10 +17,10 @@ use crate::chooser::Chooser;
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
 use crate::orbit::Preset;
-use crate::session::{Command, SessionError};
 use crate::studio::Studio;
 use crate::watching::{Manner, Watching};
 use crate::{help, picture_files};
+use carom_session::{Command, SessionError};
 
 /// What the interface starts with.
 #[derive(Debug, Clone)]

@@ -10,8 +10,8 @@ use egui::{
 
 use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
-use crate::session::{Session, View};
 use crate::studio::{Canvas, Studio};
+use carom_session::{Session, View};
 
 /// The dialog; scenes are read anew each time it opens.
 #[derive(Default)]

@@ -3,7 +3,7 @@
 use carom::Participants;
 use egui::{Grid, ScrollArea, Ui};
 
-use crate::session::{Command, View};
+use carom_session::{Command, View};
 
 /// Rows shown: those that can be taken in.
 const ROWS: usize = 60;

@@ -1,7 +1,7 @@
 //! The interface of Carom, one for desktop window and browser.
 //!
 //! [`App`] is the interface: hosted by a window ([`window::open`]), a page or a test. It shows a
-//! scene being watched - whose physics is in [`session`] - or a maze being played. A key or a
+//! scene being watched - whose physics is in [`carom_session`] - or a maze being played. A key or a
 //! button asks for an [`Action`]; every panel reads the session's view and answers with commands.
 
 #![warn(clippy::unwrap_used)]
@@ -22,7 +22,6 @@ pub mod picture_files;
 mod plots;
 #[cfg(feature = "film")]
 mod recorder;
-pub mod session;
 mod studio;
 mod transport;
 #[cfg(not(target_arch = "wasm32"))]

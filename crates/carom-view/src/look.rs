@@ -5,7 +5,7 @@ use carom_render::{Arrow, Ball, Drawing, Light, Material};
 use carom_scene::Palette;
 use carom_scene::scene::{self, Color};
 
-use crate::session::View;
+use carom_session::View;
 
 /// What is drawn besides spheres and surfaces.
 #[derive(Debug, Clone, Copy, PartialEq)]

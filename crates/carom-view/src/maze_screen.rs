@@ -7,8 +7,8 @@ use carom_scene::Palette;
 use egui::{Align2, Area, Frame, Id, Image, Key, Pos2, RichText, Sense, Ui, Vec2};
 
 use crate::orbit::{Orbit, Preset};
-use crate::session::Pace;
 use crate::studio::{Canvas, Studio};
+use carom_session::Pace;
 
 /// A game being played.
 pub struct MazeScreen {

@@ -3,7 +3,7 @@
 use egui::{Color32, ScrollArea, Ui};
 use egui_plot::{AxisHints, Legend, Line, Plot, PlotPoint, PlotPoints, VLine};
 
-use crate::session::View;
+use carom_session::View;
 
 /// Which plots are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

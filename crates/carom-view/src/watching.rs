@@ -12,9 +12,9 @@ use crate::inspector::{self, Throw};
 use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
 use crate::plots;
-use crate::session::{Command, Driver, Edit, Session, SessionError, View, Watched};
 use crate::studio::{Canvas, Studio};
 use crate::{impact_list, transport};
+use carom_session::{Command, Driver, Edit, Session, SessionError, View, Watched};
 
 /// A scene being watched.
 pub struct Watching {

@@ -4,7 +4,7 @@ use carom::DVec3;
 use egui::Ui;
 
 use super::value::{Field, number, vector};
-use crate::session::{Command, Edit, SphereChange, View};
+use carom_session::{Command, Edit, SphereChange, View};
 
 /// A ball that is thrown into the scene with the mouse.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,7 @@
 use egui::{Slider, Ui};
 
 use super::value::name;
-use crate::session::{Command, Edit, View};
+use carom_session::{Command, Edit, View};
 
 /// Surfaces that get a slider of their own; more are changed together.
 const LISTED: usize = 24;

@@ -5,7 +5,7 @@ use carom_scene::scene;
 use egui::{DragValue, Ui};
 
 use super::value::{Field, name, number, number_at_last, vector};
-use crate::session::{Command, Edit, View};
+use carom_session::{Command, Edit, View};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     for (id, described) in &view.setup.emitters {

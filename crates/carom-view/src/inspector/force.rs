@@ -4,7 +4,7 @@ use carom_scene::scene::Force;
 use egui::Ui;
 
 use super::value::{Field, number, vector};
-use crate::session::{Command, Edit, View};
+use carom_session::{Command, Edit, View};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     for (id, force) in &view.setup.forces {

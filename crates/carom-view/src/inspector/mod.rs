@@ -9,7 +9,7 @@ mod value;
 
 use egui::{CollapsingHeader, ScrollArea, Ui};
 
-use crate::session::{Command, View};
+use carom_session::{Command, View};
 
 pub use ball::Throw;
 

@@ -4,7 +4,7 @@ use carom_scene::scene::{ImpactLaw, Integrator, RestitutionRule, Rule, Simulatio
 use egui::{ComboBox, Ui};
 
 use super::value::{Field, name, number};
-use crate::session::{Command, Edit, View};
+use carom_session::{Command, Edit, View};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     let mut simulation: Simulation = view.setup.simulation.clone();

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use carom_render::Quality;
 use carom_scene::{Library, Source};
-use carom_view::session::Command;
+use carom_session::Command;
 use carom_view::{App, Setup, Start, Watching};
 use egui_kittest::Harness;
 

@@ -2,7 +2,7 @@
 
 use carom_scene::scene::{Collider, Scene, Shape};
 use carom_scene::{Library, Source};
-use carom_view::session::{Command, Edit};
+use carom_session::{Command, Edit};
 use carom_view::{Setup, Start};
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable};

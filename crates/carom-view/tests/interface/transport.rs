@@ -1,6 +1,6 @@
 //! Playing, stepping, going back.
 
-use carom_view::session::Command;
+use carom_session::Command;
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 

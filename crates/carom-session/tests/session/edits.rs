@@ -2,7 +2,7 @@
 
 use carom::{ConstantForce, DVec3, Rule, Sphere};
 use carom_scene::scene::{self, Color, Force, ImpactLaw, Integrator};
-use carom_view::session::{Edit, Session, SphereChange, View};
+use carom_session::{Edit, Session, SphereChange, View};
 
 use crate::{busy, busy_scene, hashes};
 

@@ -2,8 +2,8 @@
 
 use carom::{DVec3, SphereId, World};
 
-use super::impacts::{LastImpacts, ListedImpact};
-use super::series::Series;
+use crate::impacts::{LastImpacts, ListedImpact};
+use crate::series::Series;
 
 /// Time over which impacts are counted for their rate \[s\]: long enough for a number that can be
 /// read, short enough to follow what happens.

@@ -2,11 +2,11 @@
 
 use carom::{SphereId, StateHash};
 
-use super::Session;
-use super::comparison::Comparison;
-use super::edit::Edit;
-use super::error::SessionError;
-use super::view::View;
+use crate::Session;
+use crate::comparison::Comparison;
+use crate::edit::Edit;
+use crate::error::SessionError;
+use crate::view::View;
 
 /// What a driver drives.
 #[derive(Debug)]

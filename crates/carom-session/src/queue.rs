@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use super::command::Command;
-use super::error::SessionError;
+use crate::command::Command;
+use crate::error::SessionError;
 
 /// Most commands that wait: far more than anyone sends on purpose while a frame is taken, far less
 /// than would be felt in memory.

@@ -2,7 +2,7 @@
 
 use carom::{DVec3, SphereId};
 use carom_scene::scene::Rule;
-use carom_view::session::{Edit, Session, SessionError, SphereChange};
+use carom_session::{Edit, Session, SessionError, SphereChange};
 
 use crate::{built_in, busy, busy_scene, hashes};
 

@@ -6,9 +6,7 @@ use std::time::{Duration, Instant};
 
 use carom_scene::Scene;
 use carom_scene::scene::Rule;
-use carom_view::session::{
-    Command, Comparison, Driver, Edit, FASTEST, Session, SessionError, View,
-};
+use carom_session::{Command, Comparison, Driver, Edit, FASTEST, Session, SessionError, View};
 
 use crate::{built_in, busy, busy_scene, hashes};
 

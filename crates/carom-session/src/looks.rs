@@ -5,7 +5,7 @@ use std::sync::Arc;
 use carom::{EmitterId, Rule, Sphere, SphereId, StepReport, World};
 use carom_scene::scene::{self, Color, Generator, Scene};
 
-use super::setup::Setup;
+use crate::setup::Setup;
 
 /// Spheres whose densities differ by no more than this part are of one density: a mass was made of
 /// it and the volume, with three roundings each way.

@@ -12,7 +12,7 @@ mod saving;
 
 use carom::StateHash;
 use carom_scene::{Library, Scene};
-use carom_view::session::Session;
+use carom_session::Session;
 
 /// Spheres that fall onto a floor and hit each other, and emitters that add some: everything that
 /// a past has to bring back. Colours are red where single, blue by density, green and yellow where

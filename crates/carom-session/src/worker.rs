@@ -4,11 +4,11 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use super::command::Command;
-use super::error::SessionError;
-use super::player::Player;
-use super::queue::Queue;
-use super::view::View;
+use crate::command::Command;
+use crate::error::SessionError;
+use crate::player::Player;
+use crate::queue::Queue;
+use crate::view::View;
 
 /// Work between two looks at what was sent: commands and new views come at least so often, frames
 /// permitting.

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use carom::{DVec3, Pose, SphereId, StateHash};
 use carom_scene::scene::{Color, Scene, Sphere};
 
-use super::Session;
-use super::comparison::Distance;
-use super::error::SessionError;
-use super::impacts::ListedImpact;
-use super::readings::{PickedReading, Reading};
-use super::setup::Setup;
+use crate::Session;
+use crate::comparison::Distance;
+use crate::error::SessionError;
+use crate::impacts::ListedImpact;
+use crate::readings::{PickedReading, Reading};
+use crate::setup::Setup;
 
 /// Time for which the marks of impacts last \[simulated s\].
 pub const MARKED: f64 = 0.1;

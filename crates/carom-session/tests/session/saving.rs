@@ -3,7 +3,7 @@
 use carom::World;
 use carom_scene::scene::Rule;
 use carom_scene::{Library, Scene};
-use carom_view::session::{Edit, Session, View};
+use carom_session::{Edit, Session, View};
 
 use crate::{built_in, busy, busy_scene, hashes};
 

@@ -2,7 +2,7 @@
 
 use carom::{DVec3, Participants};
 use carom_scene::scene::{Rule, Scene, Sphere};
-use carom_view::session::{Edit, MARKED, MAX_POINTS, REMEMBERED, Session, SphereChange, View};
+use carom_session::{Edit, MARKED, MAX_POINTS, REMEMBERED, Session, SphereChange, View};
 
 use crate::{busy, busy_scene, hashes};
 

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use super::Session;
-use super::command::Command;
-use super::comparison::Comparison;
-use super::error::SessionError;
-use super::pace::Pace;
-use super::queue::Queue;
-use super::view::{Playback, View};
-use super::watched::Watched;
+use crate::Session;
+use crate::command::Command;
+use crate::comparison::Comparison;
+use crate::error::SessionError;
+use crate::pace::Pace;
+use crate::queue::Queue;
+use crate::view::{Playback, View};
+use crate::watched::Watched;
 
 /// What both forms of a driver have in common: it knows neither clock nor thread.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! The pace of simulated time beside that of a clock.
 
-use carom_view::session::{FASTEST, LONGEST_DELAY, Pace, SLOWEST};
+use carom_session::{FASTEST, LONGEST_DELAY, Pace, SLOWEST};
 
 const FRAME: f64 = 1.0 / 60.0;
 

@@ -1,12 +1,12 @@
 //! Moves a session at the pace of a clock.
 
-use super::command::Command;
-use super::error::SessionError;
-use super::player::Player;
-use super::view::View;
-use super::watched::Watched;
+use crate::command::Command;
+use crate::error::SessionError;
+use crate::player::Player;
+use crate::view::View;
+use crate::watched::Watched;
 #[cfg(not(target_arch = "wasm32"))]
-use super::worker::Worker;
+use crate::worker::Worker;
 
 /// Moves a session at the pace of a clock, does what it is told by [`Command`]s, and publishes
 /// [`View`]s. An interface owns one and calls [`Self::update`] before each picture.

@@ -32,7 +32,7 @@ impl Setup {
     }
 
     /// The scene `opened`, changed to this, without any sphere.
-    pub(crate) fn scene(&self, opened: &Scene) -> Scene {
+    pub fn scene(&self, opened: &Scene) -> Scene {
         Scene {
             simulation: self.simulation.clone(),
             forces: self.forces.iter().map(|(_, force)| force.clone()).collect(),

@@ -3,7 +3,7 @@
 use carom::SphereId;
 use carom_scene::scene::{Rule, Scene};
 
-use super::edit::Edit;
+use crate::edit::Edit;
 
 /// What a driver can be told. Commands are obeyed in the order in which they are sent; one that
 /// fails says why in the next view, and changes nothing.
@@ -25,8 +25,8 @@ pub enum Command {
     Seek(f64),
     /// Give up going elsewhere: stay where it has come to.
     StopSeeking,
-    /// Simulated seconds per second, between [`SLOWEST`](super::SLOWEST) and
-    /// [`FASTEST`](super::FASTEST).
+    /// Simulated seconds per second, between [`SLOWEST`](crate::SLOWEST) and
+    /// [`FASTEST`](crate::FASTEST).
     Speed(f64),
     /// Make a change.
     Edit(Edit),

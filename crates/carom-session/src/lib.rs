@@ -9,7 +9,7 @@
 //!
 //! ```
 //! use carom_scene::Library;
-//! use carom_view::session::{Command, Driver, Session};
+//! use carom_session::{Command, Driver, Session};
 //!
 //! let (scene, _) = Library::new().find("simtest1", &[])?;
 //! let mut driver = Driver::inline(Session::new(scene)?);
@@ -22,6 +22,8 @@
 //! # assert!(driver.view().time > 0.9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+
+#![warn(clippy::unwrap_used)]
 
 mod command;
 mod comparison;

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use carom::{Rule, Snapshot, World};
 
-use super::edit::Edit;
-use super::looks::Looks;
-use super::setup::Setup;
+use crate::edit::Edit;
+use crate::looks::Looks;
+use crate::setup::Setup;
 
 /// Memory that the moments kept may take, unless told otherwise \[bytes\].
 pub const DEFAULT_MEMORY: usize = 256 << 20;

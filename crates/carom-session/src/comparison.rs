@@ -4,13 +4,13 @@ use carom::{Boundary, DVec3, SphereId, World};
 use carom_scene::SceneError;
 use carom_scene::scene::{Rule, Scene};
 
-use super::Session;
-use super::edit::Edit;
-use super::error::SessionError;
-use super::history::DEFAULT_MEMORY;
-use super::periodic;
-use super::series::Series;
-use super::view::{View, replace};
+use crate::Session;
+use crate::edit::Edit;
+use crate::error::SessionError;
+use crate::history::DEFAULT_MEMORY;
+use crate::periodic;
+use crate::series::Series;
+use crate::view::{View, replace};
 
 /// How far apart the spheres are that both worlds have.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -2,7 +2,7 @@
 
 use carom::{DVec3, Sphere};
 use carom_scene::scene::{Force, Rule};
-use carom_view::session::{Comparison, Edit, Session, SessionError, View};
+use carom_session::{Comparison, Edit, Session, SessionError, View};
 
 use crate::busy_scene;
 

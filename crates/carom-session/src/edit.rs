@@ -8,9 +8,9 @@ use carom::{
 use carom_scene::SceneError;
 use carom_scene::scene::{self, Color, Force, Scene, Simulation};
 
-use super::error::SessionError;
-use super::looks::{self, Looks};
-use super::setup::{Setup, describe_emitter};
+use crate::error::SessionError;
+use crate::looks::{self, Looks};
+use crate::setup::{Setup, describe_emitter};
 
 /// A change from outside.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use carom::{Boundary, DVec3, SphereId, World};
 
-use super::periodic;
+use crate::periodic;
 
 /// Positions a frame ago, one for each sphere there is now.
 #[derive(Debug, Clone)]
