@@ -1,0 +1,20 @@
+// Files for whoever watches.
+
+/** How long a browser may take to begin with a download [ms]. */
+const PATIENCE = 60_000;
+
+/**
+ * Saves a file as the browser saves downloads.
+ *
+ * @param {string} name
+ * @param {string} type media type
+ * @param {BlobPart} bytes
+ */
+export function save(name, type, bytes) {
+  const url = URL.createObjectURL(new Blob([bytes], { type }));
+  const link = document.createElement("a");
+  link.href = url;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), PATIENCE);
+}
