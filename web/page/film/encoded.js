@@ -29,7 +29,8 @@ export class Encoded {
     const { source, VideoSample } = await this.#output;
     const { rowBytes, width, height, framesPerSecond } = this.#format;
     const sample = new VideoSample(pixels, {
-      format: "RGBA",
+      // Opacity does not count: what is behind a film?
+      format: "RGBX",
       codedWidth: width,
       codedHeight: height,
       layout: [{ offset: 0, stride: rowBytes }],

@@ -34,7 +34,7 @@ export class Recorded {
     const canvas = document.createElement("canvas");
     canvas.width = format.width;
     canvas.height = format.height;
-    this.#context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    this.#context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
     // No frames but those that are asked for.
     const stream = canvas.captureStream(0);
     this.#track = /** @type {CanvasCaptureMediaStreamTrack} */ (stream.getVideoTracks()[0]);
