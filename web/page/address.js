@@ -17,7 +17,7 @@ export function address() {
  *
  * @param {string} fragment
  */
-export function show(fragment) {
+export function showFragment(fragment) {
   const isOnItsWay = waiting !== null;
   waiting = fragment;
   if (!isOnItsWay) {

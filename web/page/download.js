@@ -8,10 +8,12 @@ const PATIENCE = 60_000;
  *
  * @param {string} name
  * @param {string} type media type
- * @param {BlobPart} bytes
+ * @param {Uint8Array | Blob} content
  */
-export function save(name, type, bytes) {
-  const url = URL.createObjectURL(new Blob([bytes], { type }));
+export function save(name, type, content) {
+  // Copied: the module's memory is shared with nobody, whatever its type allows.
+  const part = /** @type {BlobPart} */ (content);
+  const url = URL.createObjectURL(new Blob([part], { type }));
   const link = document.createElement("a");
   link.href = url;
   link.download = name;

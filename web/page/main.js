@@ -3,13 +3,13 @@
 import init, { Page } from "carom-web";
 
 import { address, onAddressChange } from "./address.js";
+import { watchForTheEnd } from "./end.js";
 import { fetchModule } from "./fetch_module.js";
 import { canDraw } from "./graphics.js";
-import { host } from "./host.js";
 import { keepKeysFromScrolling } from "./keys.js";
 import { loading } from "./loading.js";
+import { services } from "./services.js";
 import { Trouble, inWords } from "./trouble.js";
-import { watchForTheEnd } from "./end.js";
 
 const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById("carom"));
 
@@ -25,7 +25,7 @@ async function start() {
   }
   await init({ module_or_path: await fetchModule(loading.show) });
   keepKeysFromScrolling(canvas);
-  const page = await Page.start(canvas, host, address());
+  const page = await Page.start(canvas, services, address());
   onAddressChange((fragment) => page.openFragment(fragment));
   watchForTheEnd(canvas, loading.fail);
   // For scripts and the curious: `carom.status()` in the console.

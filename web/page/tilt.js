@@ -1,15 +1,19 @@
 // How the device is held.
 
+import { noteTrouble } from "./trouble.js";
+
 /** The sine of an angle that tilts fully: 20 degrees, which a hand does without effort. */
 const FULL = Math.sin((20 * Math.PI) / 180);
 
 /** How long a device with sensors takes at most until it tells of them [ms]. */
 const PATIENCE = 1000;
 
-/** @typedef {[right: number, up: number]} Slope */
+/** @typedef {[right: number, down: number]} Slope where a ball would roll on the screen */
+
+let isUsed = false;
 
 /**
- * Where a ball would roll on the screen, as sines of the angles of the slope; null until known.
+ * The slope now, as sines of its angles; null until known.
  *
  * @type {Slope | null}
  */
@@ -20,44 +24,82 @@ let slope = null;
  *
  * @type {Slope | null}
  */
-let neutral = null;
+let level = null;
 
-/**
- * Asks for leave to feel how the device is held, and begins to; the present pose is level.
- *
- * Some browsers ask whoever watches, and allow that only in answer to a click or touch.
- *
- * @returns {Promise<boolean>} whether the device tells
- */
-export async function askForTilt() {
-  if (!("DeviceOrientationEvent" in globalThis) || !(await isAllowed())) {
-    return false;
-  }
-  addEventListener("deviceorientation", feel);
-  neutral = null;
-  slope = null;
-  const isFelt = await isFeltWithin(PATIENCE);
-  if (!isFelt) {
-    removeEventListener("deviceorientation", feel);
-  }
-  return isFelt;
+/** Whether this may be a device that is held in a hand, and knows how. */
+export function offersTilt() {
+  return "DeviceOrientationEvent" in globalThis && navigator.maxTouchPoints > 0;
 }
 
 /**
- * How far the device is tilted from where it was level, to the right and to the upper edge of the
+ * Begins or ends to feel how the device is held; the pose it begins with is level.
+ *
+ * @param {boolean} on
+ */
+export function useTilt(on) {
+  isUsed = on;
+  slope = null;
+  level = null;
+  removeEventListener("deviceorientation", feel);
+  if (on) {
+    askForLeave().then(
+      () => begin(),
+      () => refused("The browser does not let Carom feel how this device is held."),
+    );
+  }
+}
+
+/**
+ * How far the device is tilted from where it was level, to the right and to the lower edge of the
  * screen, each in [-1, 1]; null if it does not tell.
  *
  * @returns {Slope | null}
  */
 export function tilt() {
-  if (slope === null || neutral === null) {
+  if (slope === null || level === null) {
     return null;
   }
-  const part = (/** @type {0 | 1} */ i) => {
-    const way = /** @type {Slope} */ (slope)[i] - /** @type {Slope} */ (neutral)[i];
-    return Math.max(-1, Math.min(1, way / FULL));
+  const [right, down] = [slope[0] - level[0], slope[1] - level[1]];
+  const part = (/** @type {number} */ way) => Math.max(-1, Math.min(1, way / FULL));
+  return [part(right), part(down)];
+}
+
+/** Some browsers ask whoever watches, and do so only in answer to a touch. */
+async function askForLeave() {
+  const { requestPermission } =
+    /** @type {{ requestPermission?: () => Promise<string> }} */ (
+      /** @type {unknown} */ (DeviceOrientationEvent)
+    );
+  if (requestPermission === undefined) {
+    return;
+  }
+  const ask = async () => {
+    if ((await requestPermission()) !== "granted") {
+      throw new Error("denied");
+    }
   };
-  return [part(0), part(1)];
+  await ask().catch(async () => {
+    // The interface answers to a touch a frame later, which may be too late: so with the next one.
+    await new Promise((resolve) => addEventListener("touchend", resolve, { once: true }));
+    await ask();
+  });
+}
+
+async function begin() {
+  if (!isUsed) {
+    return;
+  }
+  addEventListener("deviceorientation", feel);
+  await new Promise((resolve) => setTimeout(resolve, PATIENCE));
+  if (isUsed && slope === null) {
+    refused("This device does not tell how it is held.");
+  }
+}
+
+/** @param {string} text */
+function refused(text) {
+  removeEventListener("deviceorientation", feel);
+  noteTrouble(text);
 }
 
 /** @param {DeviceOrientationEvent} event */
@@ -67,11 +109,11 @@ function feel({ beta, gamma }) {
     return;
   }
   slope = onScreen(inDevice(beta, gamma), screen.orientation?.angle ?? 0);
-  neutral ??= slope;
+  level ??= slope;
 }
 
 /**
- * The direction of gravity along the device's own x and y.
+ * The direction of gravity along the device's x, to its right, and against its y, downwards.
  *
  * Of the world's down, (0, 0, -1), after the rotations by beta about x and gamma about y, as
  * W3C's "Device Orientation" orders them; alpha, about the vertical, does not change it.
@@ -82,42 +124,19 @@ function feel({ beta, gamma }) {
  */
 export function inDevice(beta, gamma) {
   const [b, g] = [beta, gamma].map((degrees) => (degrees * Math.PI) / 180);
-  return [Math.cos(b) * Math.sin(g), -Math.sin(b)];
+  return [Math.cos(b) * Math.sin(g), Math.sin(b)];
 }
 
 /**
- * Turned from the device's axes to those of the screen, which browsers turn in steps of 90 degrees.
+ * Turned from the device's axes to those of the screen, which turns in steps of 90 degrees against
+ * the device.
  *
  * @param {Slope} slope
- * @param {number} angle [degrees]
+ * @param {number} angle of the screen [degrees]; 90 with the device's right edge up
  * @returns {Slope}
  */
-export function onScreen([x, y], angle) {
+export function onScreen([right, down], angle) {
   const a = (angle * Math.PI) / 180;
-  return [x * Math.cos(a) - y * Math.sin(a), x * Math.sin(a) + y * Math.cos(a)];
-}
-
-async function isAllowed() {
-  const { requestPermission } =
-    /** @type {{ requestPermission?: () => Promise<string> }} */ (
-      /** @type {unknown} */ (DeviceOrientationEvent)
-    );
-  if (requestPermission === undefined) {
-    return true;
-  }
-  try {
-    return (await requestPermission()) === "granted";
-  } catch {
-    // Not asked from a click or touch.
-    return false;
-  }
-}
-
-/** @param {number} time [ms] */
-async function isFeltWithin(time) {
-  const end = performance.now() + time;
-  while (slope === null && performance.now() < end) {
-    await new Promise((resolve) => setTimeout(resolve, 20));
-  }
-  return slope !== null;
+  const [cos, sin] = [Math.cos(a), Math.sin(a)];
+  return [right * cos + down * sin, down * cos - right * sin];
 }

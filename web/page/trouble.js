@@ -1,4 +1,4 @@
-// What keeps the page from working, told to people.
+// What goes wrong, told to people.
 
 /** Its message is a sentence or two for people; `cause` may say more. */
 export class Trouble extends Error {}
@@ -19,4 +19,21 @@ export function inWords(error) {
   }
   // The module's own words, which are for people.
   return [error instanceof Error ? error.message : String(error), null];
+}
+
+/** @type {string[]} */
+const noted = [];
+
+/**
+ * Notes what went wrong after it was said to be done, for the interface to tell.
+ *
+ * @param {string} text for people
+ */
+export function noteTrouble(text) {
+  noted.push(text);
+}
+
+/** What was noted first, and is not taken yet. */
+export function takeTrouble() {
+  return noted.shift() ?? null;
 }

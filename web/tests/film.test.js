@@ -43,36 +43,30 @@ async function open(without = []) {
  * Films a square that moves to the right by two pixels a frame, on grey.
  *
  * @param {import("playwright-core").Page} page
- * @param {{ width: number, height: number, times: number[] }} film times of the frames [s]
+ * @param {{ width: number, height: number, frames: number }} film
  * @returns {Promise<string>} the path of the file
  */
-async function film(page, { width, height, times }) {
+async function film(page, film) {
   const download = page.waitForEvent("download");
-  await page.evaluate(
-    ({ width, height, times }) => {
-      const film = /** @type {any} */ (globalThis).carom.host.beginFilm(width, height, 30);
-      Object.assign(globalThis, { film });
-      // One buffer for all frames, as the module has it: the page must have copied it.
-      const pixels = new Uint8Array(width * height * 4);
-      times.forEach((time, frame) => {
-        pixels.fill(128);
-        for (let y = 20; y < 40; y += 1) {
-          const left = (y * width + 2 * frame) * 4;
-          pixels.fill(255, left, left + 20 * 4);
-        }
-        film.add(pixels, time);
-      });
-      pixels.fill(0);
-      film.finish("square.mp4");
-    },
-    { width, height, times },
-  );
+  await page.evaluate(({ width, height, frames }) => {
+    const film = /** @type {any} */ (globalThis).carom.services.beginFilm(width, height, 30);
+    // One buffer for all frames, as the module has it: the page must have copied it.
+    const pixels = new Uint8Array(width * height * 4);
+    for (let frame = 0; frame < frames; frame += 1) {
+      pixels.fill(128);
+      for (let y = 20; y < 40; y += 1) {
+        const left = (y * width + 2 * frame) * 4;
+        pixels.fill(255, left, left + 20 * 4);
+      }
+      film.add(pixels, frame);
+    }
+    pixels.fill(0);
+    film.finish("square-2.5s");
+  }, film);
   const file = await download;
-  const name = await page.evaluate(() => {
-    const { saved, error, waiting } = /** @type {any} */ (globalThis).film;
-    return waiting === 0 && error === null ? saved : error;
-  });
-  assert.equal(name, file.suggestedFilename());
+  assert.match(file.suggestedFilename(), /^square-2\.5s\.(mp4|webm)$/);
+  const trouble = await page.evaluate(() => /** @type {any} */ (globalThis).carom.services.trouble());
+  assert.equal(trouble, null);
   return file.path();
 }
 
@@ -98,18 +92,15 @@ function lastBrightness(path, x, y) {
   return execFileSync("ffmpeg", args).at(-1) ?? NaN;
 }
 
-const steps = (/** @type {number} */ frames) => Array.from({ length: frames }, (_, i) => i / 30);
-
 test("every frame is in the film, at its own time, and the last is the last", async () => {
   const { page, heard } = await open();
-  const times = steps(90);
-  const path = await film(page, { width: 640, height: 360, times: times.map((time) => 7.5 + time) });
+  const path = await film(page, { width: 640, height: 360, frames: 90 });
   const found = probe(path);
   assert.deepEqual([found.codec_name, found.width, found.height], ["h264", 640, 360]);
   assert.equal(found.times.length, 90);
-  // Films count time in ticks of 1/57600 s or finer.
   found.times.forEach((/** @type {number} */ time, /** @type {number} */ i) =>
-    assert.ok(Math.abs(time - times[i]) < 1e-4, `frame ${i} at ${time}`),
+    // The file counts time in whole ticks, of a ten-thousandth of a second or less.
+    assert.ok(Math.abs(time - i / 30) < 1e-4, `frame ${i} at ${time}`),
   );
   assert.ok(lastBrightness(path, 2 * 89 + 10, 30) > 230);
   assert.ok(lastBrightness(path, 2 * 89 - 10, 30) < 150);
@@ -119,7 +110,7 @@ test("every frame is in the film, at its own time, and the last is the last", as
 
 test("frames of odd size lose their odd row and column", async () => {
   const { page } = await open();
-  const { width, height } = probe(await film(page, { width: 321, height: 201, times: steps(3) }));
+  const { width, height } = probe(await film(page, { width: 321, height: 201, frames: 3 }));
   assert.deepEqual([width, height], [320, 200]);
   await page.close();
 });
@@ -133,14 +124,14 @@ test("without an encoder of H.264 the film is WebM", async () => {
         ? { config, supported: false }
         : isSupported.call(VideoEncoder, config);
   });
-  const found = probe(await film(page, { width: 320, height: 200, times: steps(10) }));
+  const found = probe(await film(page, { width: 320, height: 200, frames: 10 }));
   assert.deepEqual([found.codec_name, found.times.length], ["vp9", 10]);
   await page.close();
 });
 
 test("without WebCodecs the film is recorded, and lasts as long", async () => {
   const { page, heard } = await open(["VideoEncoder"]);
-  const { times } = probe(await film(page, { width: 320, height: 200, times: steps(30) }));
+  const { times } = probe(await film(page, { width: 320, height: 200, frames: 30 }));
   const length = times[times.length - 1] - times[0];
   // A recorder takes the time of frames from a clock, and may miss one at the end.
   assert.ok(length > 0.8 && length < 1.5, `${length} s in ${times.length} frames`);
@@ -152,7 +143,7 @@ test("a browser that cannot make films says so", async () => {
   const { page } = await open(["VideoEncoder", "MediaRecorder"]);
   const said = await page.evaluate(() => {
     try {
-      return /** @type {any} */ (globalThis).carom.host.beginFilm(320, 200, 30);
+      return /** @type {any} */ (globalThis).carom.services.beginFilm(320, 200, 30);
     } catch (error) {
       return /** @type {Error} */ (error).message;
     }
@@ -161,43 +152,55 @@ test("a browser that cannot make films says so", async () => {
   await page.close();
 });
 
-test("an encoder that fails is told of, and nothing is saved", async () => {
+test("an encoder that fails is told of when the next frame comes, or the film ends", async () => {
   const { page } = await open();
-  const { error, saved } = await page.evaluate(async () => {
+  const said = await page.evaluate(async () => {
     VideoEncoder.prototype.encode = () => {
       throw new Error("the encoder is on fire");
     };
-    const film = /** @type {any} */ (globalThis).carom.host.beginFilm(320, 200, 30);
-    film.add(new Uint8Array(320 * 200 * 4), 0);
-    film.finish("square.mp4");
-    while (film.error === null) {
-      await new Promise((resolve) => setTimeout(resolve, 10));
+    const { services } = /** @type {any} */ (globalThis).carom;
+    const pixels = new Uint8Array(320 * 200 * 4);
+    const pause = () => new Promise((resolve) => setTimeout(resolve, 20));
+    const ended = services.beginFilm(320, 200, 30);
+    ended.add(pixels, 0);
+    ended.finish("ended");
+    let noted = null;
+    for (; noted === null; noted = services.trouble()) {
+      await pause();
     }
-    return film;
+    const failing = services.beginFilm(320, 200, 30);
+    try {
+      for (let frame = 0; ; frame += 1) {
+        failing.add(pixels, frame);
+        await pause();
+      }
+    } catch (error) {
+      return [noted, /** @type {Error} */ (error).message];
+    }
   });
-  assert.match(error, /^The film cannot be made: .*on fire/);
-  assert.equal(saved, null);
+  assert.match(said[0], /^ended\.mp4: The film cannot be made: .*on fire/);
+  assert.match(said[1], /^The film cannot be made: .*on fire/);
   await page.close();
 });
 
-test("frames that come faster than they are encoded ask for a pause, and end the film in time", async () => {
+test("frames that come faster than they are encoded end the film before memory does", async () => {
   const { page } = await open();
-  const { busyAt, error, endedAt } = await page.evaluate(() => {
-    const film = /** @type {any} */ (globalThis).carom.host.beginFilm(1920, 1080, 30);
+  const download = page.waitForEvent("download");
+  const { said, frames } = await page.evaluate(() => {
+    const film = /** @type {any} */ (globalThis).carom.services.beginFilm(1920, 1080, 30);
     const pixels = new Uint8Array(1920 * 1080 * 4);
-    let busyAt = NaN;
-    let frame = 0;
     // Nothing is encoded while this runs.
-    for (; film.error === null && frame < 1000; frame += 1) {
-      film.add(pixels, frame / 30);
-      if (film.busy && Number.isNaN(busyAt)) {
-        busyAt = frame;
+    for (let frames = 0; ; frames += 1) {
+      try {
+        film.add(pixels, frames);
+      } catch (error) {
+        film.finish("early");
+        return { said: /** @type {Error} */ (error).message, frames };
       }
     }
-    return { busyAt, error: film.error, endedAt: frame };
   });
-  assert.ok(busyAt > 0 && busyAt < 20, `busy at ${busyAt}`);
-  assert.ok(endedAt < 100, `ended at ${endedAt}`);
-  assert.match(error, /^The film ends early/);
+  assert.match(said, /^The film ends early/);
+  assert.ok(frames < 100, `after ${frames} frames`);
+  assert.equal(probe(await (await download).path()).times.length, frames);
   await page.close();
 });

@@ -176,7 +176,7 @@ describe("the page", () => {
   });
 });
 
-describe("the host", () => {
+describe("the page, for the module,", () => {
   test("gives the module what stands behind # and what is put there later", async () => {
     const { page, close } = await open("#scene=simtest1");
     await page.evaluate(() => void (location.hash = "scene=simtest2"));
@@ -189,10 +189,10 @@ describe("the host", () => {
   test("shows fragments at a pace that browsers bear, and the last one for good", async () => {
     const { page, heard, close } = await open("");
     const [steps, hash] = await page.evaluate(async () => {
-      const { host } = /** @type {any} */ (globalThis).carom;
+      const { services } = /** @type {any} */ (globalThis).carom;
       const before = history.length;
       for (let i = 0; i < 1000; i += 1) {
-        host.showFragment(`t=${i}`);
+        services.showFragment(`t=${i}`);
       }
       await new Promise((resolve) => setTimeout(resolve, 900));
       return [history.length - before, location.hash];
@@ -208,7 +208,7 @@ describe("the host", () => {
     const waiting = page.waitForEvent("download");
     await page.evaluate(() => {
       const bytes = new TextEncoder().encode("name = \"mine\"\n");
-      /** @type {any} */ (globalThis).carom.host.save("mine.toml", "text/plain", bytes);
+      /** @type {any} */ (globalThis).carom.services.save("mine.toml", "text/plain", bytes);
     });
     const download = await waiting;
     assert.equal(download.suggestedFilename(), "mine.toml");
@@ -217,34 +217,41 @@ describe("the host", () => {
     await close();
   });
 
-  test("feels how the device is held against how it was when asked", async () => {
+  test("feels how the device is held against how it was when tilting began", async () => {
     const { page, close } = await open("");
     const tilts = await page.evaluate(async () => {
-      const { host } = /** @type {any} */ (globalThis).carom;
+      const { services } = /** @type {any} */ (globalThis).carom;
       const hold = (/** @type {number} */ beta, /** @type {number} */ gamma) =>
         dispatchEvent(new DeviceOrientationEvent("deviceorientation", { alpha: 0, beta, gamma }));
-      const before = host.tilt();
-      const asked = host.askForTilt();
-      setTimeout(() => hold(30, 0), 50);
-      const isFelt = await asked;
-      const level = host.tilt();
+      const before = services.tilt();
+      services.useTilt(true);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+      hold(30, 0);
+      const level = services.tilt();
       hold(30, 90);
-      const right = host.tilt();
-      hold(10, 0);
-      return { before, isFelt, level, right, up: host.tilt() };
+      const right = services.tilt();
+      hold(45, 0);
+      const down = services.tilt();
+      services.useTilt(false);
+      return { before, level, right, down, after: services.tilt() };
     });
     assert.equal(tilts.before, null);
-    assert.equal(tilts.isFelt, true);
     assert.deepEqual(tilts.level, [0, 0]);
     assert.equal(tilts.right[0], 1);
-    assert.ok(tilts.up[1] > 0.9, `${tilts.up}`);
+    assert.ok(tilts.down[1] > 0.5 && tilts.down[1] < 0.7, `${tilts.down}`);
+    assert.equal(tilts.after, null);
     await close();
   });
 
   test("says that a desk does not tilt", async () => {
     const { page, close } = await open("");
-    const isFelt = await page.evaluate(() => /** @type {any} */ (globalThis).carom.host.askForTilt());
-    assert.equal(isFelt, false);
+    const said = await page.evaluate(async () => {
+      const { services } = /** @type {any} */ (globalThis).carom;
+      services.useTilt(true);
+      await new Promise((resolve) => setTimeout(resolve, 1500));
+      return [services.offersTilt(), services.trouble(), services.trouble()];
+    });
+    assert.deepEqual(said, [false, "This device does not tell how it is held.", null]);
     await close();
   });
 });

@@ -8,25 +8,25 @@ export default async function init({ module_or_path }) {
 export class Page {
   /**
    * @param {HTMLCanvasElement} canvas
-   * @param {import("../page/interface").Host} host
+   * @param {import("carom-web").Services} services
    * @param {string} fragment
    */
-  constructor(canvas, host, fragment) {
+  constructor(canvas, services, fragment) {
     this.canvas = canvas;
-    this.host = host;
+    this.services = services;
     this.fragments = [fragment];
   }
 
   /**
    * @param {HTMLCanvasElement} canvas
-   * @param {import("../page/interface").Host} host
+   * @param {import("carom-web").Services} services
    * @param {string} fragment
    */
-  static async start(canvas, host, fragment) {
+  static async start(canvas, services, fragment) {
     if (fragment === "refuse") {
       throw new Error("The graphics of this browser are not enough.");
     }
-    return new Page(canvas, host, fragment);
+    return new Page(canvas, services, fragment);
   }
 
   /** @param {string} fragment */

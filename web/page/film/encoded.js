@@ -13,28 +13,30 @@ const CODECS = ["avc", "vp9", "vp8"];
 
 /** @implements {Maker} */
 export class Encoded {
+  /** @type {string | null} */
+  extension = null;
   #format;
-  #output;
+  #begun;
 
   /** @param {Format} format */
   constructor(format) {
     this.#format = format;
-    this.#output = begin(format);
-    // What went wrong is told to whoever adds the first frame.
-    this.#output.catch(() => {});
+    this.#begun = this.#begin();
+    // What went wrong is told to whoever adds a frame.
+    this.#begun.catch(() => {});
   }
 
   /** @param {Frame} frame */
-  async add({ pixels, time }) {
-    const { source, VideoSample } = await this.#output;
+  async add({ pixels, number }) {
+    const { source, media } = await this.#begun;
     const { rowBytes, width, height, framesPerSecond } = this.#format;
-    const sample = new VideoSample(pixels, {
+    const sample = new media.VideoSample(pixels, {
       // Opacity does not count: what is behind a film?
       format: "RGBX",
       codedWidth: width,
       codedHeight: height,
       layout: [{ offset: 0, stride: rowBytes }],
-      timestamp: time,
+      timestamp: number / framesPerSecond,
       duration: 1 / framesPerSecond,
     });
     // Waits while the encoder has enough to do.
@@ -43,39 +45,32 @@ export class Encoded {
   }
 
   async finish() {
-    const { output, target, extension, type } = await this.#output;
+    const { output, target } = await this.#begun;
     await output.finalize();
     if (target.buffer === null) {
       throw new Trouble("It holds no frames.");
     }
-    return { content: new Blob([target.buffer], { type }), extension };
+    return new Blob([target.buffer], { type: `video/${this.extension}` });
   }
-}
 
-/** @param {Format} format */
-async function begin({ width, height, framesPerSecond }) {
-  // Only films need it: it is fetched with the first.
-  const media = await import("mediabunny");
-  const quality = new media.Quality("high");
-  const codec = await media.getFirstEncodableVideoCodec(CODECS, { width, height, quality });
-  if (codec === null) {
-    throw new Trouble(`This browser has no encoder for ${width} by ${height} pixels.`);
+  async #begin() {
+    const media = await import("./media.js");
+    const { width, height, framesPerSecond } = this.#format;
+    const quality = new media.Quality("high");
+    const codec = await media.getFirstEncodableVideoCodec(CODECS, { width, height, quality });
+    if (codec === null) {
+      throw new Trouble(`This browser has no encoder for ${width} by ${height} pixels.`);
+    }
+    const isMp4 = codec === "avc";
+    this.extension = isMp4 ? "mp4" : "webm";
+    const target = new media.BufferTarget();
+    const format = isMp4
+      ? new media.Mp4OutputFormat({ fastStart: "in-memory" })
+      : new media.WebMOutputFormat();
+    const output = new media.Output({ format, target });
+    const source = new media.VideoSampleSource({ codec, quality });
+    output.addVideoTrack(source, { frameRate: framesPerSecond });
+    await output.start();
+    return { media, output, source, target };
   }
-  const isMp4 = codec === "avc";
-  const target = new media.BufferTarget();
-  const format = isMp4
-    ? new media.Mp4OutputFormat({ fastStart: "in-memory" })
-    : new media.WebMOutputFormat();
-  const output = new media.Output({ format, target });
-  const source = new media.VideoSampleSource({ codec, quality });
-  output.addVideoTrack(source, { frameRate: framesPerSecond });
-  await output.start();
-  return {
-    output,
-    source,
-    target,
-    VideoSample: media.VideoSample,
-    extension: isMp4 ? "mp4" : "webm",
-    type: isMp4 ? "video/mp4" : "video/webm",
-  };
 }

@@ -1,24 +1,22 @@
 // Films of what is shown: frames in, a download out.
 
 import { save } from "../download.js";
-import { Trouble, inWords } from "../trouble.js";
+import { Trouble, inWords, noteTrouble } from "../trouble.js";
 import { Encoded } from "./encoded.js";
 import { Recorded } from "./recorded.js";
 
 /** Frames that wait take no more memory than this [bytes]; browsers end pages at about 2 GB. */
 const ROOM = 768e6;
 
-/** From here on, more frames should wait where they come from [bytes]. */
-const COMFORT = 128e6;
-
 /**
  * @typedef {object} Frame
  * @property {Uint8Array<ArrayBuffer>} pixels rows of RGBA, as wide as the film was begun
- * @property {number} time since the first frame [s]
+ * @property {number} number from 0 on
  *
  * @typedef {object} Maker makes a file of frames
+ * @property {string | null} extension of the file's name; null while it is not known
  * @property {(frame: Frame) => Promise<void>} add takes a frame; done when the next may come
- * @property {() => Promise<{ content: Blob, extension: string }>} finish
+ * @property {() => Promise<Blob>} finish
  *
  * @typedef {object} Format of the frames that are added, and of the film
  * @property {number} rowBytes
@@ -28,12 +26,12 @@ const COMFORT = 128e6;
  */
 
 /**
- * Begins a film; see `Host` in `interface.d.ts`.
+ * Begins a film of pictures of this size in pixels; throws an error in words for people if this
+ * browser cannot make films.
  *
  * @param {number} width
  * @param {number} height
  * @param {number} framesPerSecond
- * @returns {import("../interface").Film}
  */
 export function beginFilm(width, height, framesPerSecond) {
   // Films store colours at half the resolution, and so are of even size: an odd row is left out.
@@ -60,19 +58,18 @@ function makerOf(format) {
 
 /** Lets frames wait until their maker has time for them. */
 class Film {
-  waiting = 0;
-  /** @type {string | null} */
-  saved = null;
-  /** @type {string | null} */
-  error = null;
-
   #frameBytes;
   #maker;
+  /** Frames that wait. */
+  #waiting = 0;
   /** What is being done, one thing after another. */
   #work = Promise.resolve();
-  #isBroken = false;
-  /** Time of the first frame [s]. */
-  #start = NaN;
+  /**
+   * Why it cannot be made.
+   *
+   * @type {string | null}
+   */
+  #failure = null;
 
   /**
    * @param {number} frameBytes
@@ -83,58 +80,63 @@ class Film {
     this.#maker = maker;
   }
 
-  get busy() {
-    return (this.waiting + 1) * this.#frameBytes > COMFORT;
-  }
-
   /**
+   * Adds a frame, a copy of these rows of RGBA from above. Throws an error in words for people if
+   * it cannot be added; the film can still be finished if frames only came too fast.
+   *
    * @param {Uint8Array} pixels
-   * @param {number} seconds
+   * @param {number} number from 0 on
    */
-  add(pixels, seconds) {
+  add(pixels, number) {
+    this.#check();
     if (pixels.byteLength !== this.#frameBytes) {
       throw new RangeError(`a frame of ${pixels.byteLength} bytes, not ${this.#frameBytes}`);
     }
-    if (this.error !== null) {
-      return;
+    if ((this.#waiting + 1) * this.#frameBytes > ROOM) {
+      throw new Trouble("The film ends early: this browser encodes more slowly than it draws.");
     }
-    if ((this.waiting + 1) * this.#frameBytes > ROOM) {
-      this.error = "The film ends early: this browser encodes more slowly than it draws.";
-      return;
-    }
-    if (Number.isNaN(this.#start)) {
-      this.#start = seconds;
-    }
-    const frame = { pixels: pixels.slice(), time: seconds - this.#start };
-    this.waiting += 1;
+    const frame = { pixels: pixels.slice(), number };
+    this.#waiting += 1;
     this.#next(async () => {
       await this.#maker.add(frame);
-      this.waiting -= 1;
+      this.#waiting -= 1;
     });
   }
 
-  /** @param {string} name */
+  /**
+   * Encodes the frames that wait, then saves the film. Throws an error in words for people if it
+   * cannot be made; what goes wrong later is noted.
+   *
+   * @param {string} name
+   * @returns {string} the file's name
+   */
   finish(name) {
+    this.#check();
+    const named = () => [name, this.#maker.extension].filter(Boolean).join(".");
     this.#next(async () => {
-      const { content, extension } = await this.#maker.finish();
-      const file = `${name.replace(/\.[^.]*$/, "")}.${extension}`;
-      save(file, content.type, content);
-      this.saved = file;
+      const content = await this.#maker.finish();
+      save(named(), content.type, content);
     });
+    this.#work.then(() => this.#failure && noteTrouble(`${named()}: ${this.#failure}`));
+    return named();
+  }
+
+  #check() {
+    if (this.#failure !== null) {
+      throw new Trouble(this.#failure);
+    }
   }
 
   /** @param {() => Promise<void>} step */
   #next(step) {
     this.#work = this.#work.then(async () => {
-      if (this.#isBroken) {
+      if (this.#failure !== null) {
         return;
       }
       try {
         await step();
       } catch (error) {
-        this.#isBroken = true;
-        this.waiting = 0;
-        this.error = `The film cannot be made: ${inWords(error).filter(Boolean).join(" ")}`;
+        this.#failure = `The film cannot be made: ${inWords(error).filter(Boolean).join(" ")}`;
       }
     });
   }

@@ -17,6 +17,7 @@ const BITS_PER_SECOND = 8e6;
  * @implements {Maker}
  */
 export class Recorded {
+  extension;
   #format;
   #context;
   #track;
@@ -30,11 +31,13 @@ export class Recorded {
     if (mimeType === undefined) {
       throw new Trouble("This browser cannot make films: it records neither MP4 nor WebM.");
     }
+    this.extension = mimeType.startsWith("video/mp4") ? "mp4" : "webm";
     this.#format = format;
     const canvas = document.createElement("canvas");
     canvas.width = format.width;
     canvas.height = format.height;
-    this.#context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
+    const context = canvas.getContext("2d", { alpha: false });
+    this.#context = /** @type {CanvasRenderingContext2D} */ (context);
     // No frames but those that are asked for.
     const stream = canvas.captureStream(0);
     this.#track = /** @type {CanvasCaptureMediaStreamTrack} */ (stream.getVideoTracks()[0]);
@@ -64,8 +67,6 @@ export class Recorded {
     const stopped = new Promise((resolve) => this.#recorder.addEventListener("stop", resolve));
     this.#recorder.stop();
     await stopped;
-    const type = this.#recorder.mimeType;
-    const extension = type.startsWith("video/mp4") ? "mp4" : "webm";
-    return { content: new Blob(this.#pieces, { type }), extension };
+    return new Blob(this.#pieces, { type: this.#recorder.mimeType });
   }
 }
