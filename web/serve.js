@@ -1,12 +1,10 @@
-// Serves a folder of static files on this machine: `node serve.js FOLDER [PORT]`.
+// Serves a folder of static files on this machine: `node serve.js FOLDER PORT`.
 
 import { createReadStream } from "node:fs";
 import { stat } from "node:fs/promises";
 import { createServer } from "node:http";
 import { extname, join, normalize, sep } from "node:path";
 import { fileURLToPath } from "node:url";
-
-const PORT = 8042;
 
 /** Media types by the end of the name. */
 const TYPES = new Map([
@@ -121,7 +119,7 @@ function refuse(response, code, text) {
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
   const [folder, port] = process.argv.slice(2);
   try {
-    const { url } = await serve(folder, port === undefined ? PORT : Number(port));
+    const { url } = await serve(folder, Number(port));
     console.log(`Carom is at ${url} (Ctrl + C ends it)`);
   } catch (error) {
     console.error(`serve: ${error instanceof Error ? error.message : error}`);
