@@ -366,9 +366,6 @@ impl App {
         if self.exports.collect(&self.studio, &mut outlet) {
             self.context.request_repaint();
         }
-        if let Some(trouble) = self.host.trouble() {
-            self.notices.complain(trouble);
-        }
     }
 
     /// Says what went wrong in the physics.
@@ -406,7 +403,7 @@ impl App {
         {
             self.notices.complain(error);
         }
-        if self.host.offers_tilt()
+        if self.host.offers_tilt(&self.context)
             && ui.checkbox(&mut self.tilts_device, "Tilt the device").changed()
         {
             self.host.use_tilt(self.tilts_device);

@@ -90,9 +90,15 @@ impl Exports {
         }
         if let Some(recorder) = self.recorder.take_if(|it| it.is_complete()) {
             match recorder.finish() {
-                Ok(text) => to.notices.tell(text),
+                Ok(Some(text)) => to.notices.tell(text),
+                Ok(None) => {}
                 Err(error) => to.notices.complain(error),
             }
+        }
+        match to.host.news() {
+            Some(Ok(text)) => to.notices.tell(text),
+            Some(Err(error)) => to.notices.complain(error),
+            None => {}
         }
         !self.pictures.is_empty() || self.recorder.is_some()
     }
