@@ -101,9 +101,8 @@ impl Replay {
         let frame = self.frame;
         while let Some(past) = self.changes.get(self.made).filter(|it| it.frame == frame) {
             let Self { scene, world, setup, looks, .. } = self;
-            edit::make(&past.change, scene, Subjects { world, setup, looks }).map_err(
-                |error| SessionError::Repeat { frame, source: Box::new(error) },
-            )?;
+            edit::make(&past.change, scene, Subjects { world, setup, looks })
+                .map_err(|error| SessionError::Repeat { frame, source: Box::new(error) })?;
             self.made += 1;
         }
         Ok(())

@@ -41,11 +41,11 @@ pub use packed::MAX_UNPACKED;
 /// ```
 /// use carom_session::{Link, Session};
 ///
-/// let link: Link = "http://127.0.0.1:8042/#scene=simtest1&rule=discrete&t=0.5".parse()?;
+/// let link: Link = "http://127.0.0.1:8042/#scene=simtest1&rule=exact&t=0.5".parse()?;
 /// let mut session = Session::replay(link.open()?, &link)?;
 /// session.advance_seek(u64::MAX)?;
-/// assert_eq!(session.frame(), 30);
-/// assert_eq!(session.link().to_fragment(), "scene=simtest1&rule=discrete&t=0.5");
+/// assert_eq!(session.frame(), 25);
+/// assert_eq!(session.link().to_fragment(), "scene=simtest1&rule=exact&t=0.5");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -100,6 +100,14 @@ impl Link {
     pub fn with_time(mut self, seconds: f64) -> Result<Self, LinkError> {
         self.time = Some(parse::checked_time(seconds)?);
         Ok(self)
+    }
+
+    /// The same, come to a frame, where each lasts for `frame_time` \[s\].
+    ///
+    /// # Errors
+    /// [`LinkError::Time`] if the time of that frame is none.
+    pub fn with_frame(self, frame: u64, frame_time: f64) -> Result<Self, LinkError> {
+        self.with_time(address::readable(frame as f64 * frame_time, frame_time))
     }
 
     /// The same scene, come to where this view of it is, by the same changes.

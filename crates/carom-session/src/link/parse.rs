@@ -38,7 +38,7 @@ pub fn link(text: &str) -> Result<Link, LinkError> {
     let text = text.trim();
     let fragment = match text.split_once('#') {
         Some((_, fragment)) => fragment,
-        None if text.contains("://") => "",
+        None if is_address(text) => "",
         None => text,
     };
     let mut once = Once::default();
@@ -73,6 +73,12 @@ pub fn link(text: &str) -> Result<Link, LinkError> {
         changes: Arc::new(once.edits.map(edits).transpose()?.unwrap_or_default()),
         time: once.t.map(time).transpose()?,
     })
+}
+
+/// Whether a text begins with the scheme of an address.
+fn is_address(text: &str) -> bool {
+    let scheme = text.split_once("://").map_or("", |(scheme, _)| scheme);
+    !scheme.is_empty() && scheme.bytes().all(|it| it.is_ascii_alphanumeric())
 }
 
 fn source(once: &Once) -> Result<LinkSource, LinkError> {
@@ -142,9 +148,14 @@ fn decoded(part: &'static str, text: &str) -> Result<String, LinkError> {
 
 /// The beginning of what a link says.
 fn quoted(text: &str) -> String {
-    let mut quoted: String = text.chars().take(LONGEST_QUOTATION).collect();
-    if quoted.len() < text.len() {
-        quoted.push_str("...");
+    shortened(text, LONGEST_QUOTATION)
+}
+
+/// A text, or the beginning of one with more than `longest` characters.
+pub fn shortened(text: &str, longest: usize) -> String {
+    let mut shortened: String = text.chars().take(longest).collect();
+    if shortened.len() < text.len() {
+        shortened.push_str("...");
     }
-    quoted
+    shortened
 }

@@ -12,8 +12,12 @@ use carom::{ColliderId, DQuat, DVec3, EmitterId, ForceId, Mass, SphereId};
 use carom_scene::scene::{Color, Force, Quaternion, Simulation, Vector};
 use serde::{Deserialize, Serialize};
 
+use super::parse::shortened;
 use crate::change::{Change, PastChange};
 use crate::edit::{Edit, SphereChange};
+
+/// Longest account of what is wrong \[characters\]: enough for all kinds of edits there are.
+const LONGEST_PROBLEM: usize = 300;
 
 /// Changes as TOML.
 pub fn to_toml(changes: &[PastChange]) -> String {
@@ -24,8 +28,9 @@ pub fn to_toml(changes: &[PastChange]) -> String {
 /// Changes from TOML, or one line on what is wrong with them.
 pub fn from_toml(text: &str) -> Result<Vec<PastChange>, String> {
     let document: Document = toml::from_str(text).map_err(|error| {
-        let line = error.span().map_or(1, |span| text[..span.start].lines().count().max(1));
-        let problem = error.message().lines().next().unwrap_or_default().to_owned();
+        let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
+        let problem = error.message().lines().next().unwrap_or_default();
+        let problem = shortened(problem, LONGEST_PROBLEM);
         format!("in line {line}, {problem}")
     })?;
     if !document.changes.is_sorted_by_key(|it| it.frame) {
