@@ -403,7 +403,7 @@ impl App {
         {
             self.notices.complain(error);
         }
-        if self.host.offers_tilt(&self.context)
+        if self.host.offers_tilt()
             && ui.checkbox(&mut self.tilts_device, "Tilt the device").changed()
         {
             self.host.use_tilt(self.tilts_device);

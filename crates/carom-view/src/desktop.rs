@@ -117,9 +117,9 @@ mod film {
             self.film.add(picture).map_err(|error| error.to_string())
         }
 
-        fn finish(self: Box<Self>) -> Result<Option<String>, String> {
+        fn finish(self: Box<Self>) -> Result<String, String> {
             self.film.finish().map_err(|error| error.to_string())?;
-            Ok(Some(self.path.display().to_string()))
+            Ok(self.path.display().to_string())
         }
     }
 }

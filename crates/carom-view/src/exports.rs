@@ -90,15 +90,12 @@ impl Exports {
         }
         if let Some(recorder) = self.recorder.take_if(|it| it.is_complete()) {
             match recorder.finish() {
-                Ok(Some(text)) => to.notices.tell(text),
-                Ok(None) => {}
+                Ok(text) => to.notices.tell(text),
                 Err(error) => to.notices.complain(error),
             }
         }
-        match to.host.news() {
-            Some(Ok(text)) => to.notices.tell(text),
-            Some(Err(error)) => to.notices.complain(error),
-            None => {}
+        if let Some(trouble) = to.host.trouble() {
+            to.notices.complain(trouble);
         }
         !self.pictures.is_empty() || self.recorder.is_some()
     }

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 
 use carom_render::Picture;
 use carom_scene::Source;
-use egui::{Context, DroppedFileHandle, Vec2};
+use egui::{DroppedFileHandle, Vec2};
 
 /// The program that the interface runs in. Texts of errors are for people.
 pub trait Host {
@@ -44,8 +44,8 @@ pub trait Host {
         None
     }
 
-    /// What was done, or went wrong, after a call had returned: each is told once.
-    fn news(&mut self) -> Option<Result<String, String>> {
+    /// What went wrong after it was said to be done: each is told once.
+    fn trouble(&mut self) -> Option<String> {
         None
     }
 
@@ -55,7 +55,7 @@ pub trait Host {
     }
 
     /// Whether the user can be asked to tilt the device itself.
-    fn offers_tilt(&self, _context: &Context) -> bool {
+    fn offers_tilt(&self) -> bool {
         false
     }
 
@@ -71,16 +71,11 @@ pub trait FilmMaker {
     /// If it cannot be added; the film can still be finished.
     fn add(&mut self, picture: &Picture, frame: u32) -> Result<(), String>;
 
-    /// Whether the next picture had better wait.
-    fn is_busy(&self) -> bool {
-        false
-    }
-
-    /// Completes the film. Returns what it is called, or nothing where [`Host::news`] will tell.
+    /// Completes the film. Returns what it is called.
     ///
     /// # Errors
     /// If it cannot be written.
-    fn finish(self: Box<Self>) -> Result<Option<String>, String>;
+    fn finish(self: Box<Self>) -> Result<String, String>;
 }
 
 /// Where files arrive that were dropped on the interface.

@@ -52,7 +52,7 @@ impl Recorder {
             self.start += way;
         }
         self.last = time;
-        if self.is_ending || self.film.is_busy() || self.drawn.len() >= MOST_DRAWN {
+        if self.is_ending || self.drawn.len() >= MOST_DRAWN {
             return None;
         }
         let due = ((time - self.start) * f64::from(FRAMES_PER_SECOND)).floor() + 1.0;
@@ -97,13 +97,13 @@ impl Recorder {
         self.is_ending
     }
 
-    /// Completes the film. Returns what to tell, if the host does not do so later.
+    /// Completes the film. Returns what to tell.
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn finish(self) -> Result<Option<String>, String> {
+    pub fn finish(self) -> Result<String, String> {
         let seconds = f64::from(self.frames) / f64::from(FRAMES_PER_SECOND);
         let name = self.film.finish()?;
-        Ok(name.map(|name| format!("saved {name} ({seconds:.1} s)")))
+        Ok(format!("saved {name} ({seconds:.1} s)"))
     }
 }

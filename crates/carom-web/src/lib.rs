@@ -106,7 +106,7 @@ fn started_on(
     let setup = Setup {
         library: Library::new(),
         start: None,
-        host: Box::new(PageHost::new(Rc::new(services), context.clone())),
+        host: Box::new(PageHost::new(services, context.clone())),
         quality: Quality::default(),
         threaded: false,
     };

@@ -1,6 +1,6 @@
 //! What is shown, as plain data: for scripts of the page and for tests.
 
-use carom_view::{App, MazeScreen, Watching};
+use carom_view::App;
 use egui::Context;
 use serde::Serialize;
 
@@ -10,13 +10,8 @@ use serde::Serialize;
 pub struct Status {
     /// `"empty"`, `"scene"` or `"maze"`.
     screen: &'static str,
-    /// The scene or maze, where there is one.
-    #[serde(flatten)]
-    shown: Option<Shown>,
-    /// The maze that is played.
-    maze: Option<Maze>,
-    /// Whether the dialog is open in which scenes are chosen.
-    chooser: bool,
+    /// Whether a scene is being chosen.
+    choosing: bool,
     /// Names of all scenes that can be chosen.
     scenes: Vec<String>,
     /// Messages to the user, oldest first.
@@ -28,13 +23,17 @@ pub struct Status {
     /// Pictures of the interface so far.
     pictures: u64,
     /// Time of the processor for the last of them \[s\].
-    frame_seconds: Option<f32>,
+    cpu_seconds: Option<f32>,
+    /// The scene that is watched.
+    watching: Option<Watching>,
+    /// The maze that is played.
+    maze: Option<Maze>,
 }
 
-/// A scene, watched or played.
-#[derive(Debug, Default, Serialize)]
+/// A scene that is watched.
+#[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Shown {
+struct Watching {
     scene: String,
     /// Where it comes from: `"built-in"`, a file's name, or else.
     source: String,
@@ -51,7 +50,7 @@ struct Shown {
     impacts: u64,
     /// Of all spheres \[J\].
     energy: f64,
-    /// Coefficients of restitution of all surfaces.
+    /// Of all surfaces.
     restitutions: Vec<f64>,
     /// The state as a number, where it is shown.
     state_hash: Option<String>,
@@ -59,16 +58,18 @@ struct Shown {
     comparing: bool,
 }
 
-/// What there is in a maze besides.
+/// A maze that is played.
 #[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 struct Maze {
+    scene: String,
     collected: usize,
-    /// All that there are to collect.
-    of: usize,
-    won: bool,
+    /// All there are to collect.
+    collectibles: usize,
     /// \[s\]
     elapsed: f64,
-    /// Centre of the ball in the maze \[m\].
+    won: bool,
+    /// The ball in the maze \[m\].
     ball: [f64; 3],
 }
 
@@ -76,66 +77,51 @@ impl Status {
     /// Of an interface.
     pub fn of(app: &App, context: &Context, graphics: &'static str) -> Self {
         let entries = app.library().entries().unwrap_or_default();
-        let (screen, shown) = match (app.watching(), app.maze()) {
-            (Some(watching), _) => ("scene", Some(watched(watching))),
-            (None, Some(screen)) => ("maze", Some(played(screen))),
-            (None, None) => ("empty", None),
-        };
+        let maze = app.maze().map(|screen| {
+            let game = screen.game();
+            Maze {
+                scene: game.scene().name.clone(),
+                collected: game.collected(),
+                collectibles: game.maze().collectibles().count(),
+                elapsed: game.elapsed(),
+                won: screen.is_won(),
+                ball: game.ball_in_maze().0.to_array(),
+            }
+        });
+        let watching = app.watching().map(|watching| {
+            let view = watching.view();
+            Watching {
+                scene: view.scene.name.clone(),
+                source: watching.source.to_string(),
+                rule: view.setup.simulation.rule.to_string(),
+                time: view.time,
+                frame: view.frame,
+                playing: view.playback.playing,
+                seeking: view.seeking.is_some(),
+                speed: view.playback.speed,
+                spheres: view.spheres.ids.len(),
+                impacts: view.now.impacts,
+                energy: view.now.total_energy(),
+                restitutions: view.setup.colliders.iter().map(|it| it.1.restitution).collect(),
+                state_hash: view.playback.state_hash.map(|hash| hash.to_string()),
+                comparing: view.other.is_some(),
+            }
+        });
         Self {
-            screen,
-            shown,
-            maze: app.maze().map(maze),
-            chooser: app.is_choosing(),
+            screen: match (&watching, &maze) {
+                (Some(_), _) => "scene",
+                (None, Some(_)) => "maze",
+                (None, None) => "empty",
+            },
+            choosing: app.is_choosing(),
             scenes: entries.into_iter().map(|entry| entry.name).collect(),
             notices: app.notices().texts().map(str::to_owned).collect(),
             recording: app.is_recording(),
             graphics,
             pictures: context.cumulative_frame_nr(),
-            frame_seconds: app.cpu_seconds(),
+            cpu_seconds: app.cpu_seconds(),
+            watching,
+            maze,
         }
-    }
-}
-
-fn watched(watching: &Watching) -> Shown {
-    let view = watching.view();
-    Shown {
-        scene: view.scene.name.clone(),
-        source: watching.source.to_string(),
-        rule: view.setup.simulation.rule.to_string(),
-        time: view.time,
-        frame: view.frame,
-        playing: view.playback.playing,
-        seeking: view.seeking.is_some(),
-        speed: view.playback.speed,
-        spheres: view.spheres.ids.len(),
-        impacts: view.now.impacts,
-        energy: view.now.total_energy(),
-        restitutions: view.setup.colliders.iter().map(|it| it.1.restitution).collect(),
-        state_hash: view.playback.state_hash.map(|hash| hash.to_string()),
-        comparing: view.other.is_some(),
-    }
-}
-
-fn played(screen: &MazeScreen) -> Shown {
-    let (scene, world) = (screen.game().scene(), screen.game().world());
-    Shown {
-        scene: scene.name.clone(),
-        rule: scene.simulation.rule.to_string(),
-        time: screen.game().elapsed(),
-        playing: screen.is_playing(),
-        speed: 1.0,
-        spheres: world.spheres().len(),
-        ..Shown::default()
-    }
-}
-
-fn maze(screen: &MazeScreen) -> Maze {
-    let game = screen.game();
-    Maze {
-        collected: game.collected(),
-        of: game.maze().collectibles().count(),
-        won: screen.is_won(),
-        elapsed: game.elapsed(),
-        ball: game.ball_in_maze().0.to_array(),
     }
 }
