@@ -366,9 +366,6 @@ impl App {
         if self.exports.collect(&self.studio, &mut outlet) {
             self.context.request_repaint();
         }
-        if let Some(trouble) = self.host.trouble() {
-            self.notices.complain(trouble);
-        }
     }
 
     /// Says what went wrong in the physics.

@@ -44,7 +44,7 @@ pub trait Host {
         None
     }
 
-    /// What went wrong, once: what was said to be done, and then could not be.
+    /// What went wrong after it was said to be done: each is told once.
     fn trouble(&mut self) -> Option<String> {
         None
     }

@@ -154,6 +154,11 @@ impl MazeScreen {
         self.clock
     }
 
+    /// Whether the game goes on.
+    pub fn is_playing(&self) -> bool {
+        self.pace.is_playing()
+    }
+
     /// Lets the game stand still, or go on.
     pub fn play_or_pause(&mut self) {
         self.pace.set_playing(!self.pace.is_playing());

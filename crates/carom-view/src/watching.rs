@@ -67,6 +67,10 @@ pub struct Manner {
     pub recording: bool,
 }
 
+/// Below this width the inspector would leave too little of the picture, and is closed at first, in
+/// points.
+const NARROW: f32 = 640.0;
+
 /// Longest time for frames before a picture, where both share a thread \[s\].
 const INLINE_BUDGET: f64 = 0.02;
 
@@ -196,6 +200,9 @@ impl Watching {
 
     /// The panels around the picture. Returns what their buttons ask for.
     pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
+        if self.drawn[0].is_none() && ui.available_width() < NARROW {
+            self.panels.inspector = false;
+        }
         let Self { driver, commands, panels, plots, throw, .. } = self;
         let view = driver.view();
         let transport = egui::Panel::bottom("transport").show(ui, |ui| {
@@ -309,7 +316,7 @@ impl Watching {
         }
         if self.view().other.is_some() {
             let view = side_of(self.view(), side);
-            let rule = format!("{:?}", view.setup.simulation.rule).to_lowercase();
+            let rule = view.setup.simulation.rule.to_string();
             let painter = ui.painter_at(rect);
             let place = rect.left_top() + Vec2::new(12.0, 10.0);
             let font = egui::FontId::proportional(20.0);

@@ -5,6 +5,7 @@
 mod comparison;
 mod driver;
 mod edits;
+mod link;
 mod pace;
 mod past;
 mod readings;

@@ -76,6 +76,18 @@ pub struct SphereState {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ForceId(pub(crate) usize);
 
+impl ForceId {
+    /// The id with this number. One that a world has not given names nothing there.
+    pub fn from_number(number: usize) -> Self {
+        Self(number)
+    }
+
+    /// Place in the order in which forces entered the world, from 0.
+    pub fn number(self) -> usize {
+        self.0
+    }
+}
+
 impl Display for ForceId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         Display::fmt(&self.0, f)
