@@ -4,13 +4,10 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use carom_scene::{Library, Source};
-use carom_session::{LinkSource, Replay};
+use carom_session::{LOCAL_PAGE, LinkSource, Replay};
 
 use crate::args::{Choice, RULES, whole_frames};
 use crate::failure::Failure;
-
-/// Where `cargo xtask web --serve` serves the page.
-const PAGE: &str = "http://127.0.0.1:8042/";
 
 /// Print a link.
 #[derive(Debug, clap::Args)]
@@ -73,8 +70,7 @@ fn file(path: &Path) -> Result<LinkSource, Failure> {
 
 /// Address of the page that opens links.
 fn page(args: &Link) -> Result<String, Failure> {
-    let from_environment = || std::env::var("CAROM_PAGE").ok().filter(|page| !page.is_empty());
-    let page = args.page.clone().or_else(from_environment).unwrap_or_else(|| PAGE.to_owned());
+    let page = args.page.clone().unwrap_or_else(usual_page);
     if page.contains('#') {
         let message = format!("the address of a page must have no #, as {page} has");
         return Err(Failure::Usage(message));
@@ -82,9 +78,15 @@ fn page(args: &Link) -> Result<String, Failure> {
     Ok(page)
 }
 
+/// The page that opens links unless another is asked for.
+pub fn usual_page() -> String {
+    let from_environment = std::env::var("CAROM_PAGE").ok().filter(|page| !page.is_empty());
+    from_environment.unwrap_or_else(|| LOCAL_PAGE.to_owned())
+}
+
 /// What a link leads to, at the beginning of its run, and how many frames of it to take.
 pub fn begin(link: &str) -> Result<(Replay, u64), Failure> {
-    let link = carom_session::Link::parse(&written(link)?)?;
+    let link = read(link)?;
     let scene = link.open()?;
     let (duration, h) = (scene.simulation.duration, scene.simulation.frame_time);
     let replay = Replay::of(&link, scene)?;
@@ -93,6 +95,11 @@ pub fn begin(link: &str) -> Result<(Replay, u64), Failure> {
         None => whole_frames(duration, h)?,
     };
     Ok((replay, frames))
+}
+
+/// Reads a link; `-` stands for one on the standard input.
+pub fn read(link: &str) -> Result<carom_session::Link, Failure> {
+    Ok(carom_session::Link::parse(&written(link)?)?)
 }
 
 /// A link as it is written: `-` stands for the standard input.

@@ -20,6 +20,7 @@ pub enum Action {
     Screenshot,
     Record,
     Save,
+    Link,
     Inspector,
     Plots,
     Impacts,
@@ -77,6 +78,7 @@ shortcuts! {
     Screenshot: [key(Key::Space)], "save a picture with the time on it";
     Record: [key(Key::R)], "start or stop recording a film";
     Save: [command(Key::S)], "save the present state as a scene file";
+    Link: [key(Key::U)], "a link to this run, for others";
     SceneCamera: [key(Key::Num1)], "the scene's camera";
     FrontCamera: [key(Key::Num2)], "camera in front";
     TopCamera: [key(Key::Num3)], "camera above";

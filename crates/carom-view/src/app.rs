@@ -7,11 +7,12 @@ use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
 use carom_render::Quality;
 use carom_scene::scene::Scene;
 use carom_scene::{Library, Source};
-use carom_session::{Command, SessionError};
+use carom_session::{Command, Link, SessionError};
 use eframe::CreationContext;
 use egui::{Context, Pos2, Rect, Theme, Ui};
 
 use crate::action::{self, Action};
+use crate::address::{Address, LinkDialog};
 use crate::chooser::Chooser;
 use crate::exports::{Exports, Outlet};
 use crate::help;
@@ -44,6 +45,8 @@ pub enum Start {
     Scene(Box<Scene>, Source),
     /// A maze to play.
     Maze(Box<Maze>),
+    /// The run of a link.
+    Link(Box<Link>),
 }
 
 /// The interface: hosted by a window, a page or a test.
@@ -67,6 +70,8 @@ pub struct App {
     /// Seed of the last random maze.
     random_mazes: u64,
     exports: Exports,
+    address: Address,
+    link: LinkDialog,
 }
 
 /// What fills the window.
@@ -103,10 +108,13 @@ impl App {
             tilts_device: false,
             random_mazes: 0,
             exports: Exports::default(),
+            address: Address::default(),
+            link: LinkDialog::default(),
         };
         match setup.start {
             Some(Start::Scene(scene, source)) => app.watch(*scene, source),
             Some(Start::Maze(maze)) => app.play(*maze),
+            Some(Start::Link(link)) => app.follow(&link),
             None => app.open_chooser(),
         }
         Ok(app)
@@ -135,9 +143,36 @@ impl App {
     pub fn play(&mut self, maze: Maze) {
         match MazeScreen::new(maze) {
             Ok(screen) => {
+                self.host.show_link(&Link::to_scene(screen.game().scene()));
                 self.show(Screen::Maze(Box::new(screen)));
             }
             Err(error) => self.notices.complain(error),
+        }
+    }
+
+    /// Shows the run of a link: a maze without a past is played, anything else watched. Where it
+    /// cannot be, says so; the chooser opens if there is nothing else.
+    pub fn follow(&mut self, link: &Link) {
+        let scene = match link.open() {
+            Ok(scene) => scene,
+            Err(error) => return self.refuse_link(&error.to_string()),
+        };
+        let is_beginning = link.time().is_none() && link.changes().is_empty();
+        if is_beginning && let Ok(maze) = Maze::from_scene(&scene) {
+            self.play(maze);
+            return;
+        }
+        match Watching::replay(link, scene, self.threaded, &self.context) {
+            Ok(watching) => self.show(Screen::Watching(Box::new(watching))),
+            Err(error) => self.refuse_link(&error.to_string()),
+        }
+    }
+
+    /// Says why a link cannot be followed.
+    pub fn refuse_link(&mut self, why: &str) {
+        self.notices.complain(why);
+        if matches!(self.screen, Screen::Empty) {
+            self.open_chooser();
         }
     }
 
@@ -270,16 +305,45 @@ impl App {
             }
             Action::Close => {
                 self.help = false;
+                self.link.close();
                 self.chooser.close();
             }
             Action::Screenshot => self.screenshot(),
             Action::Record => self.record(),
             Action::Save => self.save(),
+            Action::Link => self.open_link(),
             _ => match &mut self.screen {
                 Screen::Watching(watching) => watching.act(action),
                 Screen::Maze(screen) => act_in_maze(screen, action),
                 Screen::Empty => {}
             },
+        }
+    }
+
+    /// Opens the dialog with a link to what is shown, which stands still meanwhile.
+    fn open_link(&mut self) {
+        self.link.toggle();
+        if let Screen::Watching(watching) = &mut self.screen
+            && self.link.is_open()
+        {
+            watching.commands.extend([Command::Pause, Command::ShowStateHash(true)]);
+        }
+    }
+
+    /// Tells the host the link to what is shown, and shows it in its dialog.
+    fn links(&mut self) {
+        let Self { address, link, host, context, screen, .. } = self;
+        match screen {
+            Screen::Empty => link.close(),
+            Screen::Watching(watching) => {
+                let (view, base) = watching.linked();
+                address.tell(view, base, &mut **host, context);
+                link.show(context, Some(view), || format!("{}#{}", host.page(), base.at(view)));
+            }
+            Screen::Maze(screen) => {
+                let scene = screen.game().scene();
+                link.show(context, None, || format!("{}#{}", host.page(), Link::to_scene(scene)));
+            }
         }
     }
 
@@ -448,6 +512,7 @@ impl App {
             for (text, action) in [
                 ("Picture", Action::Screenshot),
                 ("Film", Action::Record),
+                ("Link", Action::Link),
                 ("Light/dark", Action::Theme),
                 ("Keys", Action::Help),
             ] {
@@ -549,6 +614,7 @@ impl eframe::App for App {
             self.open(scene, source);
         }
         help::show(&context, &mut self.help);
+        self.links();
         self.notices.show(ui);
     }
 }

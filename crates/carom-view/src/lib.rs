@@ -7,6 +7,7 @@
 #![warn(clippy::unwrap_used)]
 
 mod action;
+mod address;
 mod app;
 mod chooser;
 #[cfg(not(target_arch = "wasm32"))]

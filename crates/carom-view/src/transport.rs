@@ -40,6 +40,9 @@ pub fn show(
             ui.colored_label(Color32::from_rgb(214, 40, 40), "⏺ recording");
         }
         pace(ui, view);
+        if let Some(hash) = view.playback.state_hash {
+            ui.monospace(hash.to_string()).on_hover_text("the state as a number: see Link");
+        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if view.seeking.is_some() && ui.button("Stop").clicked() {
                 commands.push(Command::StopSeeking);

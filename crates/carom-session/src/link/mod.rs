@@ -20,6 +20,9 @@ use crate::view::View;
 pub use error::{LinkError, PackedError};
 pub use packed::MAX_UNPACKED;
 
+/// Address of the page that opens links, where it is served on this machine.
+pub const LOCAL_PAGE: &str = "http://127.0.0.1:8042/";
+
 /// A run that can be had again elsewhere, to the bit: which scene, what is different in it, what
 /// was changed on the way, and the time it has come to.
 ///
