@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::shell::{Outcome, finish, target_folder};
+use crate::shell::{Outcome, cargo, finish, target_folder};
 use crate::web_tools::{folder, node, npm_packages, wasm_bindgen};
 use crate::{setup, wasm};
 
@@ -44,8 +44,12 @@ pub fn test() -> Outcome {
     build()?;
     setup::browser()?;
     node(&["node_modules/typescript/bin/tsc", "--project", "."], &[])?;
+    // What a run gives outside of browsers.
+    cargo(&["build", "--release", "--package", "carom-cli", "--no-default-features", "--quiet"])?;
+    let carom = target_folder().join("release/carom");
+    let carom = carom.to_string_lossy();
     // One file after another: frame times are measured, and a browser uses all there is.
-    node(&["--test", "--test-concurrency=1"], &[])
+    node(&["--test", "--test-concurrency=1"], &[("CAROM", &carom)])
 }
 
 /// Has `wasm-bindgen` make a module of JavaScript around one of WebAssembly.
