@@ -20,6 +20,9 @@ use crate::view::View;
 pub use error::{LinkError, PackedError};
 pub use packed::MAX_UNPACKED;
 
+/// What errors call a scene file without a name.
+const NAMELESS: &str = "scene file";
+
 /// A run that can be had again elsewhere, to the bit: which scene, what is different in it, what
 /// was changed on the way, and the time it has come to.
 ///
@@ -145,7 +148,10 @@ impl Link {
     pub fn open(&self) -> Result<Scene, LinkError> {
         let scene = match &self.source {
             LinkSource::BuiltIn(name) => built_in(name, &self.overrides),
-            LinkSource::File { name, text } => Scene::from_toml_with(text, name, &self.overrides),
+            LinkSource::File { name, text } => {
+                let name = if name.is_empty() { NAMELESS } else { name };
+                Scene::from_toml_with(text, name, &self.overrides)
+            }
         };
         Ok(scene?)
     }

@@ -410,9 +410,12 @@ fn a_scene_is_found_by_its_title_and_in_any_case() {
 fn a_broken_file_in_a_link_is_told_with_its_line() {
     let text = "name = \"two\"\n\n[[spheres]]\nradius = -1\n".to_owned();
     let name = "my scene.toml".to_owned();
-    let link = Link::new(LinkSource::File { name, text });
+    let link = Link::new(LinkSource::File { name, text: text.clone() });
     let error = copied(&link).open().unwrap_err().to_string();
     assert!(error.starts_with("my scene.toml:4: spheres[0].radius: must be"), "{error}");
+    let link = Link::new(LinkSource::File { name: String::new(), text });
+    let error = copied(&link).open().unwrap_err().to_string();
+    assert!(error.starts_with("scene file:4: spheres[0].radius: must be"), "{error}");
 }
 
 mod refused {
@@ -513,6 +516,28 @@ mod refused {
             error,
             "file of the link unpacks to more than 16 MiB, which is more than is taken"
         );
+    }
+
+    #[test]
+    fn what_would_end_the_stack_is_refused() {
+        let deep = 100_000;
+        let (dots, brackets) = (vec!["a"; deep].join("."), "[".repeat(deep));
+        let text = |text: &str| packed(text.as_bytes());
+        for refused in [
+            format!("scene=simtest1&set={dots}=1"),
+            format!("scene=simtest1&edits={}", text(&format!("{dots}=1"))),
+            format!("scene=simtest1&edits={}", text(&format!("changes={brackets}"))),
+        ] {
+            Link::parse(&refused).unwrap_err();
+        }
+        // These are found out when the scene is read.
+        for broken in [
+            format!("scene=simtest1&set=title={brackets}"),
+            format!("file={}", text(&format!("[{dots}]"))),
+            format!("file={}", text(&format!("a={brackets}"))),
+        ] {
+            let _ = Link::parse(&broken).unwrap().open();
+        }
     }
 
     #[test]
