@@ -76,6 +76,13 @@ pub struct SphereState {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ForceId(pub(crate) usize);
 
+impl ForceId {
+    /// Place in the order in which forces entered the world, from 0.
+    pub fn number(self) -> usize {
+        self.0
+    }
+}
+
 impl Display for ForceId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         Display::fmt(&self.0, f)
