@@ -35,7 +35,7 @@ pub use world::World;
 
 /// The memory of this module, a `WebAssembly.Memory`: what pointers point into. When it grows, its
 /// `buffer` is another one.
-#[wasm_bindgen]
+#[wasm_bindgen(js_name = engineMemory)]
 pub fn memory() -> JsValue {
     wasm_bindgen::memory()
 }
