@@ -9,6 +9,9 @@ mod setup;
 mod shell;
 mod test;
 mod wasm;
+mod wasm_toolchain;
+mod web;
+mod web_tools;
 
 use std::process::ExitCode;
 
@@ -17,6 +20,8 @@ Usage: cargo xtask COMMAND
 
   demo      set up, run every built-in scene, make pictures and a film in out/, open the window
   test      set up, then every check: format, clippy, tests, documents, schema, the browser's target
+  web       make the page in web/dist; `web --serve [PORT]` also serves it on this machine,
+            `web --sizes` says what takes the space, `web --test` tests it in a browser
   schema    write scenes/scene.schema.json anew from the scene types
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
             pictures and of the interface";
@@ -27,6 +32,11 @@ fn main() -> ExitCode {
     let result = match arguments[..] {
         ["demo"] => demo::demo(),
         ["test"] => test::test(),
+        ["web"] => web::build(),
+        ["web", "--serve"] => web::serve(web::PORT),
+        ["web", "--serve", port] => web::serve(port),
+        ["web", "--sizes"] => web::sizes(),
+        ["web", "--test"] => web::test(),
         ["schema"] => schema::write(),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "pictures"] => {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::shell::{Outcome, run, succeeds};
+use crate::shell::{Outcome, output, run, succeeds};
 
 /// Adds the toolchain's formatter and linter where they are missing.
 pub fn toolchain() -> Outcome {
@@ -12,11 +12,6 @@ pub fn toolchain() -> Outcome {
         }
     }
     Ok(())
-}
-
-/// Adds the standard library of another target where it is missing.
-pub fn browser_target(target: &str) -> Outcome {
-    run("rustup", &["target", "add", target])
 }
 
 /// Something outside of Rust: how to tell that it is there, and the Debian packages that bring it.
@@ -41,6 +36,25 @@ const GRAPHICS: &[Need] = &[
 const FILM_TESTS: &[Need] =
     &[Need { is_met: || succeeds("ffprobe", &["-version"]), packages: &["ffmpeg"] }];
 
+/// What puts the page together.
+const PAGE: &[Need] = &[Need { is_met: has_node, packages: &["nodejs", "npm"] }];
+
+/// What tests of the page look at it with: a browser, graphics in software, letters.
+const BROWSER: &[Need] = &[
+    Need { is_met: || succeeds("/usr/bin/chromium", &["--version"]), packages: &["chromium"] },
+    Need {
+        is_met: has_opengl_driver,
+        packages: &["libegl1", "libgles2", "libegl-mesa0", "libgl1-mesa-dri"],
+    },
+    Need { is_met: || has_files("/usr/share/fonts"), packages: &["fonts-dejavu-core"] },
+];
+
+/// What compiles for browsers where the standard library for them cannot be fetched.
+const DEBIAN_WASM: &[Need] = &[Need {
+    is_met: || succeeds("/usr/bin/wasm-ld-22", &["--version"]) && has_files("/usr/lib/rustlib/src"),
+    packages: &["rustc-web", "cargo-web", "rust-web-src", "lld-22"],
+}];
+
 /// Installs what pictures, films and windows need.
 pub fn graphics() -> Outcome {
     install(GRAPHICS)
@@ -49,6 +63,26 @@ pub fn graphics() -> Outcome {
 /// Installs what the tests need besides.
 pub fn film_tests() -> Outcome {
     install(FILM_TESTS)
+}
+
+/// Installs what puts the page together.
+pub fn page() -> Outcome {
+    install(PAGE)?;
+    if has_node() {
+        Ok(())
+    } else {
+        Err(format!("the page needs Node.js {NODE} or newer, and npm"))
+    }
+}
+
+/// Installs what the tests of the page need besides.
+pub fn browser() -> Outcome {
+    install(BROWSER)
+}
+
+/// Installs Debian's compiler for browsers.
+pub fn debian_wasm() -> Outcome {
+    install(DEBIAN_WASM)
 }
 
 /// Installs what is missing with the system's package manager, if that is Debian's or one like it;
@@ -81,8 +115,24 @@ fn install(needs: &[Need]) -> Outcome {
 
 /// Whether the loader of Vulkan finds a driver.
 fn has_vulkan_driver() -> bool {
-    let folders = ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d"];
-    folders
-        .iter()
-        .any(|folder| Path::new(folder).read_dir().is_ok_and(|mut files| files.next().is_some()))
+    has_files("/usr/share/vulkan/icd.d") || has_files("/etc/vulkan/icd.d")
+}
+
+/// Whether the loader of EGL finds a driver.
+fn has_opengl_driver() -> bool {
+    has_files("/usr/share/glvnd/egl_vendor.d")
+}
+
+fn has_files(folder: &str) -> bool {
+    Path::new(folder).read_dir().is_ok_and(|mut files| files.next().is_some())
+}
+
+/// Oldest version of Node.js whose test runner takes files one after another.
+const NODE: u32 = 20;
+
+/// Whether Node.js is there, new enough, with its package manager.
+fn has_node() -> bool {
+    let major = output("node", &["--version"])
+        .and_then(|text| text.trim_start_matches('v').split('.').next()?.parse::<u32>().ok());
+    major.is_some_and(|major| major >= NODE) && succeeds("npm", &["--version"])
 }

@@ -1,6 +1,6 @@
 //! Running other programs, in the root of the repository.
 
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -13,6 +13,19 @@ pub fn root() -> PathBuf {
     own.parent().unwrap_or(own).to_owned()
 }
 
+/// Where cargo puts what it builds.
+pub fn target_folder() -> PathBuf {
+    match std::env::var_os("CARGO_TARGET_DIR") {
+        Some(folder) => root().join(folder),
+        None => root().join("target"),
+    }
+}
+
+/// The cargo that runs this.
+pub fn cargo_program() -> OsString {
+    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
+}
+
 /// Runs `cargo` with these arguments, and says so.
 pub fn cargo(arguments: &[&str]) -> Outcome {
     cargo_with(arguments, &[])
@@ -20,27 +33,38 @@ pub fn cargo(arguments: &[&str]) -> Outcome {
 
 /// Runs `cargo` with these arguments and environment variables, and says so.
 pub fn cargo_with(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
-    let line = format!("cargo {}", arguments.join(" "));
-    eprintln!("\n== {line}");
-    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut command = Command::new(program);
-    command.args(arguments).envs(variables.iter().copied()).current_dir(root());
-    let status = command.status().map_err(|error| format!("{line}: {error}"))?;
-    if status.success() { Ok(()) } else { Err(format!("{line} failed")) }
+    let mut command = Command::new(cargo_program());
+    command.args(arguments).envs(variables.iter().copied());
+    finish("cargo", &mut command)
 }
 
 /// Whether a program runs and succeeds; says nothing.
 pub fn succeeds(program: impl AsRef<OsStr>, arguments: &[&str]) -> bool {
+    output(program, arguments).is_some()
+}
+
+/// What a program prints, if it runs and succeeds; says nothing.
+pub fn output(program: impl AsRef<OsStr>, arguments: &[&str]) -> Option<String> {
     let mut command = Command::new(program);
-    command.args(arguments).current_dir(root()).stdout(Stdio::null()).stderr(Stdio::null());
-    command.status().is_ok_and(|status| status.success())
+    command.args(arguments).current_dir(root()).stdin(Stdio::null());
+    let output = command.output().ok().filter(|output| output.status.success())?;
+    String::from_utf8(output.stdout).ok()
 }
 
 /// Runs a program, and says so.
 pub fn run(program: &str, arguments: &[&str]) -> Outcome {
-    let line = format!("{program} {}", arguments.join(" "));
+    finish(program, Command::new(program).args(arguments))
+}
+
+/// Runs a command in the root of the repository unless it is to run elsewhere, and says so; `name`
+/// is what people call its program.
+pub fn finish(name: &str, command: &mut Command) -> Outcome {
+    let arguments: Vec<_> = command.get_args().map(OsStr::to_string_lossy).collect();
+    let line = format!("{name} {}", arguments.join(" "));
     eprintln!("\n== {line}");
-    let status = Command::new(program).args(arguments).current_dir(root()).status();
-    let status = status.map_err(|error| format!("{line}: {error}"))?;
+    if command.get_current_dir().is_none() {
+        command.current_dir(root());
+    }
+    let status = command.status().map_err(|error| format!("{line}: {error}"))?;
     if status.success() { Ok(()) } else { Err(format!("{line} failed")) }
 }

@@ -1,25 +1,33 @@
-//! That everything which a browser is to run builds for it.
+//! What a browser runs: checked, and built.
 
-use crate::setup;
-use crate::shell::{Outcome, cargo};
+use std::path::PathBuf;
 
-const TARGET: &str = "wasm32-unknown-unknown";
+use crate::shell::{Outcome, target_folder};
+use crate::wasm_toolchain::{TARGET, WasmToolchain};
 
-/// Checks the physics, the scenes, the renderer and the interface for the browser's target.
+/// Checks all that a browser is to run for its target.
 pub fn check() -> Outcome {
-    setup::browser_target(TARGET)?;
-    let packages =
-        ["carom", "carom-scene", "carom-render", "carom-maze", "carom-session", "carom-view"];
+    let toolchain = WasmToolchain::find()?;
+    let packages = [
+        "carom",
+        "carom-scene",
+        "carom-render",
+        "carom-maze",
+        "carom-session",
+        "carom-view",
+        "carom-web",
+    ];
     for package in packages {
-        cargo(&[
-            "check",
-            "--quiet",
-            "--package",
-            package,
-            "--target",
-            TARGET,
-            "--no-default-features",
-        ])?;
+        toolchain.cargo(&["check", "--quiet", "--package", package, "--no-default-features"])?;
     }
     Ok(())
+}
+
+/// Builds a package for browsers, as small as may be. Returns the module.
+pub fn build(package: &str) -> Outcome<PathBuf> {
+    const PROFILE: &str = "web";
+    let toolchain = WasmToolchain::find()?;
+    toolchain.cargo(&["build", "--package", package, "--profile", PROFILE])?;
+    let file = format!("{}.wasm", package.replace('-', "_"));
+    Ok(target_folder().join(TARGET).join(PROFILE).join(file))
 }

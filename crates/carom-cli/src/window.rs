@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use carom_maze::Maze;
 use carom_render::Quality;
 use carom_scene::{Library, Scene, Source};
-use carom_view::{Setup, Start, picture_files, window};
+use carom_view::{Desktop, Setup, Start, default_folder, window};
 
 use crate::args::{Changes, RULES};
 use crate::failure::Failure;
@@ -62,7 +62,7 @@ fn open(
     folder: Option<PathBuf>,
     quality: Quality,
 ) -> Result<(), Failure> {
-    let folder = folder.unwrap_or_else(picture_files::default_folder);
-    let setup = Setup { library, start, folder, quality, threaded: true };
+    let host = Box::new(Desktop::new(folder.unwrap_or_else(default_folder)));
+    let setup = Setup { library, start, host, quality, threaded: true };
     window::open(setup).map_err(|error| Failure::Fault(error.to_string()))
 }

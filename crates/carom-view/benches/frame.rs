@@ -3,13 +3,11 @@
 
 #![allow(missing_docs)]
 
-use std::path::PathBuf;
-
 use carom_render::Quality;
 use carom_scene::scene::{Generator, Scene, Sphere};
 use carom_scene::{Library, Source};
 use carom_session::Command;
-use carom_view::{Action, App, Setup, Start};
+use carom_view::{Action, App, Desktop, Setup, Start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use egui_kittest::Harness;
 
@@ -37,7 +35,7 @@ fn frame(criterion: &mut Criterion) {
             let setup = Setup {
                 library: Library::new(),
                 start: Some(Start::Scene(scene, Source::Registered)),
-                folder: PathBuf::new(),
+                host: Box::new(Desktop::default()),
                 quality: Quality::DRAFT,
                 threaded: true,
             };

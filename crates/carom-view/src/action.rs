@@ -101,6 +101,8 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("Ctrl + click", "throw a new ball that way"),
     ("double click", "turn about what was clicked"),
     ("drop a file", "open it as a scene or maze"),
+    ("one finger", "turn the camera; in a maze: tilt it"),
+    ("two fingers", "move the camera, come nearer or go away; in a maze: turn it"),
 ];
 
 /// The actions whose keys were pressed; the keys are taken, so that no button sees them. None

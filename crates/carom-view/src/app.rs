@@ -1,36 +1,36 @@
 //! The interface as a whole.
 
-#[cfg(not(target_arch = "wasm32"))]
 use std::path::Path;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
-use carom_render::{Picture, Quality, stamp};
+use carom_render::Quality;
 use carom_scene::scene::Scene;
 use carom_scene::{Library, Source};
+use carom_session::{Command, SessionError};
 use eframe::CreationContext;
 use egui::{Context, Pos2, Rect, Theme, Ui};
 
 use crate::action::{self, Action};
 use crate::chooser::Chooser;
+use crate::exports::{Exports, Outlet};
+use crate::help;
+use crate::host::{Host, Inbox, ReadFile};
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
 use crate::orbit::Preset;
+use crate::snapshot::Snapshot;
 use crate::studio::Studio;
 use crate::watching::{Manner, Watching};
-use crate::{help, picture_files};
-use carom_session::{Command, SessionError};
 
 /// What the interface starts with.
-#[derive(Debug, Clone)]
 pub struct Setup {
     /// All scenes that can be chosen.
     pub library: Library,
     /// What is open at the start; the chooser without it.
     pub start: Option<Start>,
-    /// Where pictures and films go.
-    pub folder: PathBuf,
+    /// The program that it runs in.
+    pub host: Box<dyn Host>,
     /// How much work goes into the pictures on the screen.
     pub quality: Quality,
     /// Whether the physics has a thread of its own.
@@ -50,23 +50,23 @@ pub enum Start {
 pub struct App {
     context: Context,
     library: Library,
-    folder: PathBuf,
+    host: Box<dyn Host>,
+    inbox: Inbox,
     threaded: bool,
     studio: Studio,
     screen: Screen,
     chooser: Chooser,
     notices: Notices,
     help: bool,
+    /// Time of the processor for the last picture of the interface \[s\].
+    cpu_seconds: Option<f32>,
     /// What went wrong in the physics and was told.
     told: Option<Arc<SessionError>>,
+    /// Whether mazes are tilted by tilting the device.
+    tilts_device: bool,
     /// Seed of the last random maze.
     random_mazes: u64,
-    #[cfg(feature = "film")]
-    recorder: Option<crate::recorder::Recorder>,
-    #[cfg(not(target_arch = "wasm32"))]
-    watched_file: crate::watched_file::WatchedFile,
-    #[cfg(feature = "gamepad")]
-    gamepad: crate::gamepad::Gamepad,
+    exports: Exports,
 }
 
 /// What fills the window.
@@ -90,21 +90,19 @@ impl App {
         let mut app = Self {
             context: host.egui_ctx.clone(),
             library: setup.library,
-            folder: setup.folder,
+            host: setup.host,
+            inbox: Inbox::default(),
             threaded: setup.threaded,
             studio: Studio::new(state, setup.quality),
             screen: Screen::Empty,
             chooser: Chooser::default(),
             notices: Notices::default(),
             help: false,
+            cpu_seconds: None,
             told: None,
+            tilts_device: false,
             random_mazes: 0,
-            #[cfg(feature = "film")]
-            recorder: None,
-            #[cfg(not(target_arch = "wasm32"))]
-            watched_file: Default::default(),
-            #[cfg(feature = "gamepad")]
-            gamepad: Default::default(),
+            exports: Exports::default(),
         };
         match setup.start {
             Some(Start::Scene(scene, source)) => app.watch(*scene, source),
@@ -126,8 +124,7 @@ impl App {
     pub fn watch(&mut self, scene: Scene, source: Source) {
         match Watching::new(scene, source, self.threaded, &self.context) {
             Ok(watching) => {
-                #[cfg(not(target_arch = "wasm32"))]
-                self.watched_file.watch(&watching.source);
+                self.host.watch(&watching.source);
                 self.show(Screen::Watching(Box::new(watching)));
             }
             Err(error) => self.notices.complain(error),
@@ -148,8 +145,7 @@ impl App {
     fn show(&mut self, screen: Screen) {
         self.notices.clear();
         self.chooser.close();
-        #[cfg(feature = "film")]
-        self.finish_film();
+        self.exports.end_film();
         self.screen = screen;
     }
 
@@ -181,6 +177,27 @@ impl App {
         }
     }
 
+    /// All scenes that can be chosen.
+    pub fn library(&self) -> &Library {
+        &self.library
+    }
+
+    /// Whether a scene is being chosen.
+    pub fn is_choosing(&self) -> bool {
+        self.chooser.is_open()
+    }
+
+    /// Whether a film is being recorded.
+    pub fn is_recording(&self) -> bool {
+        self.exports.is_recording()
+    }
+
+    /// Time of the processor for the last picture of the interface \[s\]; `None` before there was
+    /// one.
+    pub fn cpu_seconds(&self) -> Option<f32> {
+        self.cpu_seconds
+    }
+
     /// What it tells the user.
     pub fn notices(&self) -> &Notices {
         &self.notices
@@ -192,15 +209,14 @@ impl App {
         }
     }
 
-    /// Opens a file that was dropped on the window: a scene, or a maze drawn with characters.
-    #[cfg(not(target_arch = "wasm32"))]
+    /// Opens files that were dropped on the window: scenes, or mazes drawn with characters.
     fn open_dropped(&mut self) {
-        let files = self.context.input(|input| input.raw.dropped_files.clone());
-        for file in files {
-            let path = file.path().to_owned();
-            let text = file.bytes().map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-            match text {
-                Ok(text) => self.open_text(&text, &path),
+        for file in self.context.input(|input| input.raw.dropped_files.clone()) {
+            self.host.read(&file, &self.inbox);
+        }
+        for ReadFile { path, content } in self.inbox.take() {
+            match content {
+                Ok(content) => self.open_text(&String::from_utf8_lossy(&content), &path),
                 Err(error) => {
                     self.notices.complain(format!("cannot read {}: {error}", path.display()));
                 }
@@ -209,7 +225,6 @@ impl App {
     }
 
     /// Opens the text of a file.
-    #[cfg(not(target_arch = "wasm32"))]
     fn open_text(&mut self, text: &str, path: &Path) {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if path.extension().is_some_and(|ending| ending == "txt") {
@@ -221,22 +236,19 @@ impl App {
             return;
         }
         match Scene::from_toml(text, &name) {
-            Ok(scene) => {
-                self.open(scene, Source::File(path.to_owned()));
-            }
+            Ok(scene) => self.open(scene, Source::File(path.to_owned())),
             Err(error) => self.notices.complain(error),
         }
     }
 
     /// Reads a scene file anew that was changed on the disk.
-    #[cfg(not(target_arch = "wasm32"))]
     fn reload_changed(&mut self) {
         let now = self.context.input(|input| input.time);
         let Screen::Watching(watching) = &mut self.screen else { return };
-        if self.watched_file.is_any() {
-            self.context.request_repaint_after_secs(crate::watched_file::INTERVAL as f32);
+        if let Some(seconds) = self.host.seconds_to_look() {
+            self.context.request_repaint_after_secs(seconds as f32);
         }
-        let Some(path) = self.watched_file.changed(now) else { return };
+        let Some(path) = self.host.changed_file(now) else { return };
         let reloaded = Scene::from_file(&path, &[]).and_then(|scene| watching.reload(scene));
         match reloaded {
             Ok(()) => {
@@ -273,10 +285,7 @@ impl App {
 
     /// How the interface works now.
     fn manner(&self) -> Manner {
-        #[cfg(feature = "film")]
-        let recording = self.recorder.is_some();
-        #[cfg(not(feature = "film"))]
-        let recording = false;
+        let recording = self.exports.is_recording();
         Manner { dark: self.context.theme() == Theme::Dark, recording }
     }
 
@@ -293,7 +302,7 @@ impl App {
         }
     }
 
-    fn snapshot(&mut self, size: [u32; 2]) -> Option<Picture> {
+    fn snapshot(&mut self, size: [u32; 2]) -> Option<Snapshot> {
         let manner = self.manner();
         let drawn = match &mut self.screen {
             Screen::Watching(watching) => watching.snapshot(&mut self.studio, manner, size),
@@ -309,15 +318,8 @@ impl App {
         let window = self.context.content_rect().size() * self.context.pixels_per_point();
         let [width, height] = SMALLEST_PICTURE;
         let size = [width.max(window.x as u32), height.max(window.y as u32)];
-        let Some(mut picture) = self.snapshot(size) else { return };
-        stamp(&mut picture, &picture_files::stamp_text(&name, time));
-        #[cfg(not(target_arch = "wasm32"))]
-        {
-            let path = picture_files::new_name(&self.folder, &name, time, "png");
-            match picture.save_png(&path) {
-                Ok(()) => self.notices.tell(format!("saved {}", path.display())),
-                Err(error) => self.notices.complain(error),
-            }
+        if let Some(snapshot) = self.snapshot(size) {
+            self.exports.save_picture(snapshot, name, time);
         }
     }
 
@@ -328,52 +330,23 @@ impl App {
             return;
         };
         let view = watching.view();
-        let path = picture_files::new_name(&self.folder, &view.scene.name, view.time, "toml");
-        let text = view.scene_now().to_toml();
-        let saved =
-            std::fs::create_dir_all(&self.folder).and_then(|()| std::fs::write(&path, text));
-        match saved {
-            Ok(()) => self.notices.tell(format!("saved {}", path.display())),
-            Err(error) => {
-                self.notices.complain(format!("cannot write {}: {error}", path.display()));
-            }
-        }
+        let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
+        outlet.save_scene(&view.scene_now(), view.time);
     }
 
-    #[cfg(not(feature = "film"))]
+    /// Begins to record a film, or ends it.
     fn record(&mut self) {
-        self.notices.complain("this build of Carom makes no films");
-    }
-
-    #[cfg(feature = "film")]
-    fn record(&mut self) {
-        use crate::recorder::Recorder;
-        if self.recorder.is_some() {
-            self.finish_film();
+        if self.exports.is_recording() {
+            self.exports.end_film();
             return;
         }
         let Some((name, _)) = self.shown() else { return };
         let time = self.film_clock();
-        let path = picture_files::new_name(&self.folder, &name, time, "mp4");
-        match Recorder::begin(path, SMALLEST_PICTURE, time) {
-            Ok(recorder) => self.recorder = Some(recorder),
-            Err(error) => self.notices.complain(error),
-        }
-        self.context.request_repaint();
-    }
-
-    /// Completes the film that is being recorded, if one is.
-    #[cfg(feature = "film")]
-    fn finish_film(&mut self) {
-        match self.recorder.take().map(crate::recorder::Recorder::finish) {
-            Some(Ok(text)) => self.notices.tell(text),
-            Some(Err(error)) => self.notices.complain(error),
-            None => {}
-        }
+        let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
+        self.exports.begin_film(&name, time, &mut outlet);
     }
 
     /// The time by which films go on \[s\].
-    #[cfg(feature = "film")]
     fn film_clock(&self) -> f64 {
         match &self.screen {
             Screen::Watching(watching) => watching.view().time,
@@ -382,20 +355,19 @@ impl App {
         }
     }
 
-    /// Adds the frames of the film that are due at the time shown.
-    #[cfg(feature = "film")]
-    fn film(&mut self) {
-        let Some(mut recorder) = self.recorder.take() else { return };
-        let time = self.film_clock();
-        let added = recorder.add_due(time, |size| self.snapshot(size));
-        match added {
-            Ok(()) => self.recorder = Some(recorder),
-            Err(error) => {
-                // What was recorded until then is kept.
-                self.recorder = Some(recorder);
-                self.finish_film();
-                self.notices.complain(error);
-            }
+    /// Adds the frames of the film that are due, and saves what has been drawn.
+    fn export(&mut self) {
+        if let Some((size, frames)) = self.exports.film_due(self.film_clock())
+            && let Some(snapshot) = self.snapshot(size)
+        {
+            self.exports.add_to_film(snapshot, frames);
+        }
+        let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
+        if self.exports.collect(&self.studio, &mut outlet) {
+            self.context.request_repaint();
+        }
+        if let Some(trouble) = self.host.trouble() {
+            self.notices.complain(trouble);
         }
     }
 
@@ -433,6 +405,11 @@ impl App {
             && let Err(error) = screen.set_levels_back(levels_back)
         {
             self.notices.complain(error);
+        }
+        if self.host.offers_tilt()
+            && ui.checkbox(&mut self.tilts_device, "Tilt the device").changed()
+        {
+            self.host.use_tilt(self.tilts_device);
         }
         ui.separator();
         let mut chosen = None;
@@ -527,10 +504,7 @@ impl App {
             // A game waits behind the dialog.
             Screen::Maze(_) if self.chooser.is_open() => {}
             Screen::Maze(screen) => {
-                #[cfg(feature = "gamepad")]
-                {
-                    screen.stick = self.gamepad.stick();
-                }
+                screen.stick = self.host.stick();
                 let steering = screen.steering(ui);
                 if let Err(error) = screen.advance(ui, steering) {
                     self.notices.complain(error);
@@ -552,7 +526,8 @@ fn act_in_maze(screen: &mut MazeScreen, action: Action) {
 }
 
 impl eframe::App for App {
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
+        self.cpu_seconds = frame.info().cpu_usage;
         let context = ui.ctx().clone();
         self.studio.begin_frame();
         // A dialog has the keys for itself; on the win screen Enter plays again.
@@ -562,14 +537,10 @@ impl eframe::App for App {
                 self.act(action);
             }
         }
-        #[cfg(not(target_arch = "wasm32"))]
-        {
-            self.open_dropped();
-            self.reload_changed();
-        }
+        self.open_dropped();
+        self.reload_changed();
         self.advance(ui);
-        #[cfg(feature = "film")]
-        self.film();
+        self.export();
         self.complain_of_session();
         self.complain_of_studio();
         let asked = egui::Panel::top("bar").show(ui, |ui| self.bar(ui)).inner;

@@ -3,6 +3,7 @@
 use carom_render::{Bounds, Camera, Drawing};
 use carom_scene::scene::Scene;
 use carom_scene::{Entry, Library, Source};
+use carom_session::{Session, View};
 use egui::{
     Align, Context, Id, Image, Key, Layout, Modal, Modifiers, RichText, ScrollArea, Sense,
     TextEdit, Ui, Vec2,
@@ -11,7 +12,6 @@ use egui::{
 use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
 use crate::studio::{Canvas, Studio};
-use carom_session::{Session, View};
 
 /// The dialog; scenes are read anew each time it opens.
 #[derive(Default)]

@@ -1,9 +1,8 @@
 //! The last impacts as a table.
 
 use carom::Participants;
-use egui::{Grid, ScrollArea, Ui};
-
 use carom_session::{Command, View};
+use egui::{Grid, ScrollArea, Ui};
 
 /// Rows shown: those that can be taken in.
 const ROWS: usize = 60;

@@ -9,19 +9,23 @@
 mod action;
 mod app;
 mod chooser;
+#[cfg(not(target_arch = "wasm32"))]
+mod desktop;
+mod exports;
 #[cfg(feature = "gamepad")]
 mod gamepad;
 mod help;
+mod host;
 mod impact_list;
 mod inspector;
 mod look;
 mod maze_screen;
+mod naming;
 mod notices;
 mod orbit;
-pub mod picture_files;
 mod plots;
-#[cfg(feature = "film")]
 mod recorder;
+mod snapshot;
 mod studio;
 mod transport;
 #[cfg(not(target_arch = "wasm32"))]
@@ -32,6 +36,9 @@ pub mod window;
 
 pub use action::{Action, SHORTCUTS, Shortcut};
 pub use app::{App, Setup, Start};
+#[cfg(not(target_arch = "wasm32"))]
+pub use desktop::{Desktop, default_folder};
+pub use host::{FilmMaker, Host, Inbox, ReadFile};
 pub use maze_screen::MazeScreen;
 pub use notices::Notices;
 pub use watching::Watching;

@@ -4,7 +4,6 @@ use carom::{DQuat, DVec3, Shape, SphereId};
 use carom_render::{Arrow, Ball, Drawing, Light, Material};
 use carom_scene::Palette;
 use carom_scene::scene::{self, Color};
-
 use carom_session::View;
 
 /// What is drawn besides spheres and surfaces.

@@ -2,13 +2,14 @@
 
 use carom::DVec3;
 use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Steering, Tilt};
-use carom_render::{Camera, Drawing, GpuError, Picture, Roll, draw_world};
+use carom_render::{Camera, Drawing, GpuError, Roll, draw_world};
 use carom_scene::Palette;
-use egui::{Align2, Area, Frame, Id, Image, Key, Pos2, RichText, Sense, Ui, Vec2};
+use carom_session::Pace;
+use egui::{Align2, Area, Frame, Id, Image, Key, Pos2, Response, RichText, Sense, Ui, Vec2};
 
 use crate::orbit::{Orbit, Preset};
+use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
-use carom_session::Pace;
 
 /// A game being played.
 pub struct MazeScreen {
@@ -22,6 +23,8 @@ pub struct MazeScreen {
     dark: bool,
     /// Tilt by a gamepad or a tilted device, each part in \[-1, 1\].
     pub stick: Option<Vec2>,
+    /// How far a finger has been dragged in the picture, in points.
+    finger: Option<Vec2>,
     /// Time played, standing at the win screen included \[s\].
     clock: f64,
     /// How long to say what happened last, by the clock of the interface \[s\].
@@ -67,6 +70,7 @@ impl MazeScreen {
             drawing: Drawing::default(),
             dark: false,
             stick: None,
+            finger: None,
             clock: 0.0,
             message: None,
         })
@@ -131,10 +135,10 @@ impl MazeScreen {
             let press = input.pointer.press_origin().filter(|_| input.pointer.secondary_down());
             press.zip(input.pointer.latest_pos())
         });
-        if let Some((from, to)) = by_mouse {
+        if let Some(way) = self.finger.or(by_mouse.map(|(from, to)| to - from)) {
             // A fifth of the picture is a full tilt.
             let full = 0.2 * ui.available_height().max(100.0);
-            let way = ((to - from) / full).clamp(Vec2::splat(-1.0), Vec2::splat(1.0));
+            let way = (way / full).clamp(Vec2::splat(-1.0), Vec2::splat(1.0));
             return towards(f64::from(way.x), f64::from(way.y));
         }
         let held = ui.input(|input| {
@@ -212,16 +216,7 @@ impl MazeScreen {
             Some(orbit) => orbit,
             None => self.preset(Preset::Scene, aspect),
         };
-        if response.hovered() {
-            let (scrolled, pinched) =
-                ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
-            orbit.zoom(f64::from(pinched) * (f64::from(scrolled) / 300.0).exp());
-        }
-        if response.dragged_by(egui::PointerButton::Primary) {
-            let drag = response.drag_delta() / rect.height().max(1.0);
-            let [right, up] = [drag.x, -drag.y].map(|it| std::f64::consts::PI * f64::from(it));
-            orbit.turn(right, up);
-        }
+        self.hand(ui, &response, &mut orbit);
         self.orbit = Some(orbit);
         self.draw();
         studio.draw(&mut self.canvas, size, &self.drawing, &orbit.camera.in_picture(aspect));
@@ -231,6 +226,30 @@ impl MazeScreen {
         self.counts(ui, rect.left_top());
         self.messages(ui, rect.center_top());
         self.won(ui)
+    }
+
+    /// What the mouse or fingers do in the picture.
+    fn hand(&mut self, ui: &Ui, response: &Response, orbit: &mut Orbit) {
+        let (is_touched, fingers) = ui.input(|input| (input.any_touches(), input.multi_touch()));
+        self.finger = None;
+        let drag = if let Some(fingers) = fingers {
+            fingers.translation_delta
+        } else if is_touched {
+            self.finger = response.total_drag_delta();
+            Vec2::ZERO
+        } else if response.dragged_by(egui::PointerButton::Primary) {
+            response.drag_delta()
+        } else {
+            Vec2::ZERO
+        };
+        let drag = drag / response.rect.height().max(1.0);
+        let [right, up] = [drag.x, -drag.y].map(|it| std::f64::consts::PI * f64::from(it));
+        orbit.turn(right, up);
+        if response.hovered() {
+            let (scrolled, pinched) =
+                ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+            orbit.zoom(f64::from(pinched) * (f64::from(scrolled) / 300.0).exp());
+        }
     }
 
     /// Collectibles and times, at the upper left.
@@ -248,7 +267,11 @@ impl MazeScreen {
                     for line in lines {
                         ui.label(RichText::new(line).size(17.0));
                     }
-                    ui.weak("Arrow keys or WASD tilt the maze; so does the right mouse button.");
+                    ui.weak(if ui.input(|input| input.has_touch_screen()) {
+                        "Drag with a finger to tilt the maze."
+                    } else {
+                        "Arrow keys or WASD tilt the maze; so does the right mouse button."
+                    });
                 });
             },
         );
@@ -314,13 +337,14 @@ impl MazeScreen {
         &mut self,
         studio: &mut Studio,
         [width, height]: [u32; 2],
-    ) -> Result<Picture, GpuError> {
+    ) -> Result<Snapshot, GpuError> {
         self.draw();
         let aspect = f64::from(width) / f64::from(height);
         let orbit = match self.orbit {
             Some(orbit) => orbit,
             None => self.preset(Preset::Scene, aspect),
         };
-        studio.picture([width, height], &self.drawing, &orbit.camera.in_picture(aspect))
+        let camera = orbit.camera.in_picture(aspect);
+        Ok(Snapshot { parts: vec![studio.picture([width, height], &self.drawing, &camera)?] })
     }
 }

@@ -40,6 +40,11 @@ impl Notices {
         self.list.iter().any(|notice| notice.is_error)
     }
 
+    /// What is told now, oldest first.
+    pub fn texts(&self) -> impl Iterator<Item = &str> {
+        self.list.iter().map(|notice| notice.text.as_str())
+    }
+
     /// Takes away all messages.
     pub fn clear(&mut self) {
         self.list.clear();

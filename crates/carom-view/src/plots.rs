@@ -1,9 +1,8 @@
 //! Plots of what is measured.
 
+use carom_session::View;
 use egui::{Color32, ScrollArea, Ui};
 use egui_plot::{AxisHints, Legend, Line, Plot, PlotPoint, PlotPoints, VLine};
-
-use carom_session::View;
 
 /// Which plots are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

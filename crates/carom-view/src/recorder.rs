@@ -1,73 +1,109 @@
 //! A film of what is shown.
 
-use std::path::PathBuf;
+use std::collections::VecDeque;
+use std::ops::Range;
 
-use carom_render::{Film, FilmError, Picture};
+use egui_wgpu::wgpu::Device;
+
+use crate::host::FilmMaker;
+use crate::snapshot::Snapshot;
 
 /// Frames of a film in a second of simulated time.
-const FRAMES_PER_SECOND: u32 = 30;
+pub const FRAMES_PER_SECOND: u32 = 30;
 
-/// A film in the making: its frames are shown at equal distances of simulated time.
-pub struct Recorder {
-    film: Film,
-    path: PathBuf,
-    size: [u32; 2],
-    /// Time of the first frame \[s\]; moved along with jumps of time.
-    start: f64,
-    /// Time shown last \[s\].
-    last: f64,
-    frames: u32,
-}
+/// Width and height of a film \[px\].
+pub const SIZE: [u32; 2] = [1280, 720];
 
 /// More than this between two pictures of the interface is a jump to another time \[s\]: the fastest
 /// speed on a machine that draws three pictures a second. Time that goes back is one, too.
 const JUMP: f64 = 3.5;
 
+/// Most pictures that are drawn at one time: enough to keep the device busy, few enough for memory.
+const MOST_DRAWN: usize = 4;
+
+/// A film in the making: its frames are shown at equal distances of simulated time.
+pub struct Recorder {
+    film: Box<dyn FilmMaker>,
+    /// Time of the first frame \[s\]; moved along with jumps of time.
+    start: f64,
+    /// Time shown last \[s\].
+    last: f64,
+    /// Frames that pictures were drawn for.
+    frames: u32,
+    /// Pictures under way, each with the frames that it is shown in.
+    drawn: VecDeque<(Snapshot, Range<u32>)>,
+    /// Whether no frame follows any more.
+    is_ending: bool,
+}
+
 impl Recorder {
-    /// Begins a film at a time of the simulation \[s\].
-    ///
-    /// # Errors
-    /// If the file cannot be written.
-    pub fn begin(path: PathBuf, size: [u32; 2], start: f64) -> Result<Self, FilmError> {
-        let film = Film::create(&path, size[0], size[1], FRAMES_PER_SECOND)?;
-        Ok(Self { film, path, size, start, last: start, frames: 0 })
+    /// A film that begins at a time of the simulation \[s\].
+    pub fn new(film: Box<dyn FilmMaker>, start: f64) -> Self {
+        let drawn = VecDeque::new();
+        Self { film, start, last: start, frames: 0, drawn, is_ending: false }
     }
 
-    /// Adds what is shown at `time` \[s\], as often as frames have become due since the last call:
-    /// a machine that cannot draw fast enough repeats frames, and the film keeps its time.
-    ///
-    /// # Errors
-    /// If a frame cannot be added.
-    pub fn add_due(
-        &mut self,
-        time: f64,
-        picture: impl FnOnce([u32; 2]) -> Option<Picture>,
-    ) -> Result<(), FilmError> {
+    /// Frames that are due at `time` \[s\]: one picture is to be drawn for all of them, so that the
+    /// film keeps its time on a machine that cannot draw fast enough.
+    pub fn due(&mut self, time: f64) -> Option<Range<u32>> {
         let way = time - self.last;
         if !(0.0..=JUMP).contains(&way) {
             // The film goes on with what is shown now.
             self.start += way;
         }
         self.last = time;
-        let due = ((time - self.start) * f64::from(FRAMES_PER_SECOND)).floor() + 1.0;
-        if due <= f64::from(self.frames) {
-            return Ok(());
+        if self.is_ending || self.drawn.len() >= MOST_DRAWN {
+            return None;
         }
-        if let Some(picture) = picture(self.size) {
-            while f64::from(self.frames) < due {
-                self.film.add(&picture)?;
-                self.frames += 1;
-            }
+        let due = ((time - self.start) * f64::from(FRAMES_PER_SECOND)).floor() + 1.0;
+        // A cast of a number that is too large gives the largest.
+        let due = due as u32;
+        (due > self.frames).then_some(self.frames..due)
+    }
+
+    /// Adds a picture that is being drawn for these frames.
+    pub fn add(&mut self, snapshot: Snapshot, frames: Range<u32>) {
+        self.frames = frames.end;
+        self.drawn.push_back((snapshot, frames));
+    }
+
+    /// Puts into the film what has been drawn.
+    ///
+    /// # Errors
+    /// If a picture was lost or cannot be added.
+    pub fn collect(&mut self, device: &Device) -> Result<(), String> {
+        while let Some((first, _)) = self.drawn.front()
+            && first.is_ready(device)
+        {
+            let Some((snapshot, mut frames)) = self.drawn.pop_front() else { break };
+            let picture = snapshot.picture().map_err(|error| error.to_string())?;
+            frames.try_for_each(|frame| self.film.add(&picture, frame))?;
         }
         Ok(())
     }
 
-    /// Completes the film, and says where it is.
+    /// Adds no more frames but those that are being drawn.
+    pub fn end(&mut self) {
+        self.is_ending = true;
+    }
+
+    /// Whether the film has all its frames.
+    pub fn is_complete(&self) -> bool {
+        self.is_ending && self.drawn.is_empty()
+    }
+
+    /// Whether no frame follows any more.
+    pub fn is_ending(&self) -> bool {
+        self.is_ending
+    }
+
+    /// Completes the film. Returns what it is called.
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn finish(self) -> Result<String, FilmError> {
-        let summary = self.film.finish()?;
-        Ok(format!("saved {} ({:.1} s)", self.path.display(), summary.seconds))
+    pub fn finish(self) -> Result<String, String> {
+        let seconds = f64::from(self.frames) / f64::from(FRAMES_PER_SECOND);
+        let name = self.film.finish()?;
+        Ok(format!("saved {name} ({seconds:.1} s)"))
     }
 }

@@ -2,7 +2,9 @@
 
 use std::sync::{Arc, Mutex};
 
-use carom_render::{Camera, Drawing, Gpu, GpuError, Offscreen, Picture, Quality, Renderer, Target};
+use carom_render::{
+    Camera, Drawing, Gpu, GpuError, Offscreen, Quality, Readback, Renderer, Target,
+};
 use egui::{TextureId, Vec2};
 use egui_wgpu::{RenderState, wgpu};
 
@@ -84,6 +86,11 @@ impl Studio {
         dropped.unwrap_or_default().iter().for_each(|texture| interface.free_texture(texture));
     }
 
+    /// The device that it draws with.
+    pub fn device(&self) -> &wgpu::Device {
+        &self.state.device
+    }
+
     /// What went wrong on the device since this was asked last: lost, or out of memory.
     pub fn failure(&self) -> Option<String> {
         self.failure.lock().ok()?.take()
@@ -110,16 +117,16 @@ impl Studio {
         }
     }
 
-    /// A picture of this size in pixels, as fine as can be.
+    /// Begins to draw a picture of this size in pixels, as fine as can be.
     ///
     /// # Errors
-    /// [`GpuError`] for a size that cannot be drawn, or a lost device.
+    /// [`GpuError::Size`]
     pub fn picture(
         &mut self,
         size: [u32; 2],
         drawing: &Drawing,
         camera: &Camera,
-    ) -> Result<Picture, GpuError> {
+    ) -> Result<Readback, GpuError> {
         let offscreen = match &mut self.offscreen {
             Some(offscreen) => {
                 offscreen.resize(size)?;
@@ -134,6 +141,6 @@ impl Studio {
                 self.offscreen.insert(Offscreen::on(gpu, size, Quality::FINE)?)
             }
         };
-        offscreen.draw(drawing, camera)
+        Ok(offscreen.begin(drawing, camera))
     }
 }

@@ -1,9 +1,9 @@
 //! Playing, stepping, and going through time.
 
+use carom_session::{Command, FASTEST, SLOWEST, View};
 use egui::{Align, Color32, Layout, RichText, Slider, Ui, Widget};
 
 use crate::action::Action;
-use carom_session::{Command, FASTEST, SLOWEST, View};
 
 /// Speeds that the keys go through.
 const SPEEDS: [f64; 9] = [SLOWEST, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, FASTEST];

@@ -1,9 +1,10 @@
 //! A scene being watched: its picture, and what is done with it by hand.
 
 use carom::{DVec3, Mass, Sphere};
-use carom_render::{Camera, Drawing, GpuError, Picture};
+use carom_render::{Camera, Drawing, GpuError};
 use carom_scene::scene::{Rule, Scene};
 use carom_scene::{SceneError, Source};
+use carom_session::{Command, Driver, Edit, Session, SessionError, View, Watched};
 use egui::{Image, Modifiers, PointerButton, Pos2, Rect, Response, Sense, Ui, Vec2};
 use web_time::Instant;
 
@@ -12,9 +13,9 @@ use crate::inspector::{self, Throw};
 use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
 use crate::plots;
+use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 use crate::{impact_list, transport};
-use carom_session::{Command, Driver, Edit, Session, SessionError, View, Watched};
 
 /// A scene being watched.
 pub struct Watching {
@@ -331,8 +332,11 @@ impl Watching {
         let height = f64::from(response.rect.height().max(1.0));
         let drag = response.drag_delta();
         let (right, down) = (f64::from(drag.x) / height, f64::from(drag.y) / height);
-        let modifiers = ui.input(|input| input.modifiers);
-        if response.dragged_by(PointerButton::Primary) && !modifiers.shift {
+        let (modifiers, fingers) = ui.input(|input| (input.modifiers, input.multi_touch()));
+        if let Some(fingers) = fingers.filter(|_| response.hovered()) {
+            let [right, down] = <[f32; 2]>::from(fingers.translation_delta).map(f64::from);
+            orbit.pan(right / height, -down / height);
+        } else if response.dragged_by(PointerButton::Primary) && !modifiers.shift {
             orbit.turn(std::f64::consts::PI * right, -std::f64::consts::PI * down);
         } else if response.dragged() {
             orbit.pan(right, -down);
@@ -410,7 +414,7 @@ impl Watching {
         studio: &mut Studio,
         manner: Manner,
         [width, height]: [u32; 2],
-    ) -> Result<Picture, GpuError> {
+    ) -> Result<Snapshot, GpuError> {
         if self.orbit.is_none() {
             self.orbit = self.preset(Preset::Scene, f64::from(width) / f64::from(height));
         }
@@ -421,12 +425,12 @@ impl Watching {
         let sides: Vec<&View> = [Some(view), view.other.as_deref()].into_iter().flatten().collect();
         let size = [width / sides.len() as u32, height];
         let camera = orbit.camera.in_picture(f64::from(size[0]) / f64::from(size[1]));
-        let mut pictures = Vec::new();
+        let mut parts = Vec::new();
         for side in sides {
             look::draw(side, &look, drawing);
-            pictures.push(studio.picture(size, drawing, &camera)?);
+            parts.push(studio.picture(size, drawing, &camera)?);
         }
-        Ok(Picture::side_by_side(&pictures))
+        Ok(Snapshot { parts })
     }
 }
 

@@ -1,10 +1,10 @@
 //! The picked ball, and those to be thrown.
 
 use carom::DVec3;
+use carom_session::{Command, Edit, SphereChange, View};
 use egui::Ui;
 
 use super::value::{Field, number, vector};
-use carom_session::{Command, Edit, SphereChange, View};
 
 /// A ball that is thrown into the scene with the mouse.
 #[derive(Debug, Clone, Copy, PartialEq)]

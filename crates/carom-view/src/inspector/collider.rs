@@ -1,9 +1,9 @@
 //! What balls bounce off.
 
+use carom_session::{Command, Edit, View};
 use egui::{Slider, Ui};
 
 use super::value::name;
-use carom_session::{Command, Edit, View};
 
 /// Surfaces that get a slider of their own; more are changed together.
 const LISTED: usize = 24;

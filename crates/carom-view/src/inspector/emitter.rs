@@ -2,10 +2,10 @@
 
 use carom::{DQuat, DVec3, Emitter, Mass, Sphere};
 use carom_scene::scene;
+use carom_session::{Command, Edit, View};
 use egui::{DragValue, Ui};
 
 use super::value::{Field, name, number, number_at_last, vector};
-use carom_session::{Command, Edit, View};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     for (id, described) in &view.setup.emitters {

@@ -1,10 +1,10 @@
 //! Forces on every ball.
 
 use carom_scene::scene::Force;
+use carom_session::{Command, Edit, View};
 use egui::Ui;
 
 use super::value::{Field, number, vector};
-use carom_session::{Command, Edit, View};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     for (id, force) in &view.setup.forces {

@@ -7,9 +7,8 @@ mod force;
 mod simulation;
 mod value;
 
-use egui::{CollapsingHeader, ScrollArea, Ui};
-
 use carom_session::{Command, View};
+use egui::{CollapsingHeader, ScrollArea, Ui};
 
 pub use ball::Throw;
 

@@ -1,10 +1,10 @@
 //! How a scene is stepped.
 
 use carom_scene::scene::{ImpactLaw, Integrator, RestitutionRule, Rule, Simulation};
+use carom_session::{Command, Edit, View};
 use egui::{ComboBox, Ui};
 
 use super::value::{Field, name, number};
-use carom_session::{Command, Edit, View};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     let mut simulation: Simulation = view.setup.simulation.clone();

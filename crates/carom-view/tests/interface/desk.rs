@@ -1,11 +1,9 @@
 //! A window without a screen, and what is done with it.
 
-use std::path::PathBuf;
-
 use carom_render::Quality;
 use carom_scene::{Library, Source};
 use carom_session::Command;
-use carom_view::{App, Setup, Start, Watching};
+use carom_view::{App, Desktop, Setup, Start, Watching};
 use egui_kittest::Harness;
 
 pub type Desk = Harness<'static, App>;
@@ -17,7 +15,7 @@ pub fn setup() -> Setup {
     Setup {
         library: Library::new(),
         start: None,
-        folder: PathBuf::new(),
+        host: Box::new(Desktop::default()),
         quality: Quality::GOOD,
         threaded: false,
     }

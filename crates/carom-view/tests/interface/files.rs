@@ -6,7 +6,7 @@ use std::sync::Arc;
 use carom_render::Picture;
 use carom_scene::scene::Scene;
 use carom_scene::{Library, Source};
-use carom_view::{Setup, Start};
+use carom_view::{Desktop, Setup, Start};
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 
@@ -25,6 +25,10 @@ impl egui::DroppedFile for Dropped {
     fn bytes(&self) -> Result<Vec<u8>, String> {
         std::fs::read(&self.0).map_err(|error| error.to_string())
     }
+}
+
+fn pictures_in(folder: &Path) -> Box<Desktop> {
+    Box::new(Desktop::new(folder.to_owned()))
 }
 
 fn drop_file(desk: &mut Desk, path: &Path) {
@@ -56,7 +60,7 @@ fn space_saves_a_stamped_picture_in_a_folder_that_was_missing() {
     let folder = folder.path().join("not").join("there");
     let (tutorial, _) = Library::new().find("tutorial1", &[]).expect("a built-in scene");
     let start = Some(Start::Scene(Box::new(tutorial), Source::BuiltIn));
-    let mut desk = desk(Setup { start, folder: folder.clone(), ..setup() });
+    let mut desk = desk(Setup { start, host: pictures_in(&folder), ..setup() });
     press(&mut desk, Key::Space);
     let file = only_file(&folder, "png");
     let picture = Picture::from_png(&std::fs::read(file).expect("readable")).expect("a picture");
@@ -72,7 +76,7 @@ fn a_folder_that_cannot_be_made_is_told() {
     let (tutorial, _) = Library::new().find("tutorial1", &[]).expect("a built-in scene");
     let start = Some(Start::Scene(Box::new(tutorial), Source::BuiltIn));
     let folder = file.path().join("below a file");
-    let mut desk = desk(Setup { start, folder, ..setup() });
+    let mut desk = desk(Setup { start, host: pictures_in(&folder), ..setup() });
     press(&mut desk, Key::Space);
     assert!(desk.state().notices().any_error());
     press(&mut desk, Key::Period);
@@ -84,7 +88,7 @@ fn the_present_is_saved_as_a_scene_that_opens_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let (tutorial, _) = Library::new().find("tutorial1", &[]).expect("a built-in scene");
     let start = Some(Start::Scene(Box::new(tutorial), Source::BuiltIn));
-    let mut desk = desk(Setup { start, folder: folder.path().to_owned(), ..setup() });
+    let mut desk = desk(Setup { start, host: pictures_in(folder.path()), ..setup() });
     go_to(&mut desk, 1.0);
     desk.key_press_modifiers(egui::Modifiers::COMMAND, Key::S);
     desk.run_steps(3);

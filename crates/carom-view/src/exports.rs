@@ -1,0 +1,127 @@
+//! What leaves the interface: pictures, films and scene files.
+
+use std::ops::Range;
+
+use carom_render::{Picture, stamp};
+use carom_scene::scene::Scene;
+
+use crate::host::Host;
+use crate::naming::{file_name, stamp_text};
+use crate::notices::Notices;
+use crate::recorder::{FRAMES_PER_SECOND, Recorder, SIZE};
+use crate::snapshot::Snapshot;
+use crate::studio::Studio;
+
+/// Pictures and films on their way out.
+#[derive(Default)]
+pub struct Exports {
+    pictures: Vec<Pending>,
+    recorder: Option<Recorder>,
+}
+
+/// A picture that is being drawn.
+struct Pending {
+    snapshot: Snapshot,
+    scene: String,
+    /// \[s\]
+    time: f64,
+}
+
+impl Exports {
+    /// Saves a picture of a scene at a time \[s\], which is written on it, when it has been drawn.
+    pub fn save_picture(&mut self, snapshot: Snapshot, scene: String, time: f64) {
+        self.pictures.push(Pending { snapshot, scene, time });
+    }
+
+    /// Whether a film is being recorded.
+    pub fn is_recording(&self) -> bool {
+        self.recorder.as_ref().is_some_and(|recorder| !recorder.is_ending())
+    }
+
+    /// Begins a film of a scene from a time on \[s\].
+    pub fn begin_film(&mut self, scene: &str, time: f64, to: &mut Outlet) {
+        if self.recorder.is_some() {
+            to.notices.complain("the last film is being completed: try again in a moment");
+            return;
+        }
+        match to.host.begin_film(&file_name(scene, time), SIZE, FRAMES_PER_SECOND) {
+            Ok(film) => self.recorder = Some(Recorder::new(film, time)),
+            Err(error) => to.notices.complain(error),
+        }
+    }
+
+    /// Ends the film that is being recorded, if one is.
+    pub fn end_film(&mut self) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.end();
+        }
+    }
+
+    /// Frames of the film that a picture of this size in pixels is to be drawn for, at a time \[s\].
+    pub fn film_due(&mut self, time: f64) -> Option<([u32; 2], Range<u32>)> {
+        let frames = self.recorder.as_mut()?.due(time)?;
+        Some((SIZE, frames))
+    }
+
+    /// Adds a picture that is being drawn for these frames.
+    pub fn add_to_film(&mut self, snapshot: Snapshot, frames: Range<u32>) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.add(snapshot, frames);
+        }
+    }
+
+    /// Saves what has been drawn since this was called last. Returns whether anything is still to
+    /// come.
+    pub fn collect(&mut self, studio: &Studio, to: &mut Outlet) -> bool {
+        let device = studio.device();
+        let is_ready = |pending: &mut Pending| pending.snapshot.is_ready(device);
+        for Pending { snapshot, scene, time } in self.pictures.extract_if(.., is_ready) {
+            match snapshot.picture() {
+                Ok(picture) => to.save_picture(picture, &scene, time),
+                Err(error) => to.notices.complain(error),
+            }
+        }
+        if let Some(recorder) = &mut self.recorder
+            && let Err(error) = recorder.collect(device)
+        {
+            // What was recorded until then is kept.
+            recorder.end();
+            to.notices.complain(error);
+        }
+        if let Some(recorder) = self.recorder.take_if(|it| it.is_complete()) {
+            match recorder.finish() {
+                Ok(text) => to.notices.tell(text),
+                Err(error) => to.notices.complain(error),
+            }
+        }
+        !self.pictures.is_empty() || self.recorder.is_some()
+    }
+}
+
+/// Where it all goes, and who is told.
+pub struct Outlet<'a> {
+    pub host: &'a mut dyn Host,
+    pub notices: &'a mut Notices,
+}
+
+impl Outlet<'_> {
+    /// Saves a scene as it is at a time \[s\].
+    pub fn save_scene(&mut self, scene: &Scene, time: f64) {
+        self.save(&file_name(&scene.name, time), "toml", scene.to_toml().as_bytes());
+    }
+
+    fn save_picture(&mut self, mut picture: Picture, scene: &str, time: f64) {
+        stamp(&mut picture, &stamp_text(scene, time));
+        match picture.to_png() {
+            Ok(content) => self.save(&file_name(scene, time), "png", &content),
+            Err(error) => self.notices.complain(error),
+        }
+    }
+
+    fn save(&mut self, name: &str, ending: &str, content: &[u8]) {
+        match self.host.save(name, ending, content) {
+            Ok(saved) => self.notices.tell(format!("saved {saved}")),
+            Err(error) => self.notices.complain(error),
+        }
+    }
+}

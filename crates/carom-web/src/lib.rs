@@ -1,0 +1,125 @@
+//! Hosts the interface of Carom in a page of a browser.
+//!
+//! The page's script makes a [`Page`] on a canvas and gives it what only a page has: downloads,
+//! films, the tilt of the device, the address bar (`services.rs` lists it). What the page shows can
+//! be read back as data ([`Page::status`], [`Page::widgets`]).
+
+#![cfg(target_arch = "wasm32")]
+
+mod page_host;
+mod services;
+mod status;
+mod widgets;
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use carom_render::Quality;
+use carom_render::wgpu::Backend;
+use carom_scene::Library;
+use carom_view::{App, Setup};
+use eframe::{CreationContext, WebOptions, WebRunner};
+use egui::{Context, Ui};
+use wasm_bindgen::prelude::*;
+use web_sys::HtmlCanvasElement;
+
+use crate::page_host::PageHost;
+use crate::services::Services;
+use crate::status::Status;
+use crate::widgets::Widgets;
+
+/// The interface in a canvas of a page.
+#[wasm_bindgen]
+pub struct Page {
+    app: Rc<RefCell<App>>,
+    context: Context,
+    graphics: &'static str,
+    /// Keeps the interface going.
+    _runner: WebRunner,
+}
+
+/// What is there once the graphics device is.
+struct Started {
+    app: Rc<RefCell<App>>,
+    context: Context,
+    graphics: &'static str,
+}
+
+#[wasm_bindgen]
+impl Page {
+    /// Starts the interface on a canvas, with the run that the part of the address after `#` tells.
+    ///
+    /// # Errors
+    /// An `Error` with a message for people if the browser cannot draw.
+    pub async fn start(
+        canvas: HtmlCanvasElement,
+        services: Services,
+        fragment: String,
+    ) -> Result<Page, JsError> {
+        let started = Rc::new(RefCell::new(None));
+        let runner = WebRunner::new();
+        let options = WebOptions { renderer: eframe::Renderer::Wgpu, ..Default::default() };
+        let result = Rc::clone(&started);
+        let create: eframe::AppCreator<'static> = Box::new(move |host| {
+            let start = started_on(host, services, &fragment)?;
+            let app = Box::new(Shown(Rc::clone(&start.app)));
+            *result.borrow_mut() = Some(start);
+            Ok(app)
+        });
+        runner.start(canvas, options, create).await.map_err(|error| {
+            let text = error.as_string().unwrap_or_else(|| format!("{error:?}"));
+            JsError::new(&text)
+        })?;
+        let started = started.borrow_mut().take();
+        let Started { app, context, graphics } =
+            started.ok_or_else(|| JsError::new("the interface did not start"))?;
+        Ok(Self { app, context, graphics, _runner: runner })
+    }
+
+    /// What is shown, as plain data; see `status.rs` for its fields. `undefined` while a picture of
+    /// the interface is being made.
+    pub fn status(&self) -> JsValue {
+        let Ok(app) = self.app.try_borrow() else { return JsValue::UNDEFINED };
+        let status = Status::of(&app, &self.context, self.graphics);
+        parsed(serde_json::to_string(&status))
+    }
+
+    /// Every labelled part of the interface as it was shown last: role, label, value, and its place
+    /// in CSS pixels. Empty when asked for the first time; from then on the next picture tells.
+    pub fn widgets(&self) -> JsValue {
+        parsed(serde_json::to_string(&Widgets::shown(&self.context)))
+    }
+}
+
+fn parsed(json: serde_json::Result<String>) -> JsValue {
+    json.ok().and_then(|text| js_sys::JSON::parse(&text).ok()).unwrap_or_default()
+}
+
+fn started_on(
+    host: &CreationContext,
+    services: Services,
+    fragment: &str,
+) -> Result<Started, String> {
+    let context = host.egui_ctx.clone();
+    let backend = host.wgpu_render_state.as_ref().map(|state| state.adapter.get_info().backend);
+    let graphics = if backend == Some(Backend::BrowserWebGpu) { "WebGPU" } else { "WebGL2" };
+    let setup = Setup {
+        library: Library::new(),
+        start: None,
+        host: Box::new(PageHost::new(services, context.clone())),
+        quality: Quality::default(),
+        threaded: false,
+    };
+    let _ = fragment;
+    let app = Rc::new(RefCell::new(App::new(host, setup)?));
+    Ok(Started { app, context, graphics })
+}
+
+/// The interface, which the page can read between two of its pictures.
+struct Shown(Rc<RefCell<App>>);
+
+impl eframe::App for Shown {
+    fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
+        self.0.borrow_mut().ui(ui, frame);
+    }
+}

@@ -1,0 +1,89 @@
+//! What a page gives the interface: downloads, films, the tilt of the device.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use carom_render::Picture;
+use carom_view::{FilmMaker, Host, Inbox, ReadFile};
+use egui::{Context, DroppedFileHandle, Vec2};
+
+use crate::services::{FilmService, Services, message};
+
+/// A page.
+pub struct PageHost {
+    services: Services,
+    context: Context,
+}
+
+impl PageHost {
+    /// A page with these services.
+    pub fn new(services: Services, context: Context) -> Self {
+        Self { services, context }
+    }
+}
+
+impl Host for PageHost {
+    fn save(&mut self, name: &str, ending: &str, content: &[u8]) -> Result<String, String> {
+        let kind = match ending {
+            "png" => "image/png",
+            _ => "application/toml",
+        };
+        let name = format!("{name}.{ending}");
+        self.services.save(&name, kind, content);
+        Ok(name)
+    }
+
+    fn read(&mut self, file: &DroppedFileHandle, inbox: &Inbox) {
+        let (file, inbox, context) = (Arc::clone(file), inbox.clone(), self.context.clone());
+        wasm_bindgen_futures::spawn_local(async move {
+            let path = PathBuf::from(file.path());
+            inbox.put(ReadFile { path, content: file.bytes_async().await });
+            context.request_repaint();
+        });
+    }
+
+    fn begin_film(
+        &mut self,
+        name: &str,
+        [width, height]: [u32; 2],
+        frames_per_second: u32,
+    ) -> Result<Box<dyn FilmMaker>, String> {
+        let film = self.services.begin_film(width, height, frames_per_second);
+        Ok(Box::new(PageFilm { film: film.map_err(message)?, name: name.to_owned() }))
+    }
+
+    fn trouble(&mut self) -> Option<String> {
+        self.services.trouble()
+    }
+
+    fn stick(&mut self) -> Option<Vec2> {
+        match self.services.tilt()?[..] {
+            [right, down] => Some(Vec2::new(right, down)),
+            _ => None,
+        }
+    }
+
+    fn offers_tilt(&self) -> bool {
+        self.services.offers_tilt()
+    }
+
+    fn use_tilt(&mut self, on: bool) {
+        self.services.use_tilt(on);
+    }
+}
+
+/// A film that the browser encodes.
+struct PageFilm {
+    film: FilmService,
+    name: String,
+}
+
+impl FilmMaker for PageFilm {
+    fn add(&mut self, picture: &Picture, frame: u32) -> Result<(), String> {
+        self.film.add(&picture.pixels, frame).map_err(message)
+    }
+
+    fn finish(self: Box<Self>) -> Result<String, String> {
+        self.film.finish(&self.name).map_err(message)
+    }
+}

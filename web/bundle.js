@@ -1,0 +1,95 @@
+// Puts the page together: `node bundle.js MODULE_FOLDER OUT_FOLDER`.
+//
+// MODULE_FOLDER is what `wasm-bindgen --target web` made. In OUT_FOLDER every file but index.html
+// bears a hash of its content in its name, so that browsers may keep it and never mix two versions;
+// beside each lies what gzip makes of it, for servers that give that.
+
+import { createHash } from "node:crypto";
+import { mkdir, readFile, readdir, rm, writeFile } from "node:fs/promises";
+import { extname, join, relative, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { constants, gzipSync } from "node:zlib";
+
+import { build } from "esbuild";
+
+const PAGE = fileURLToPath(new URL("page/", import.meta.url));
+
+/** What a browser must know at least: the first versions with WebAssembly's reference types. */
+const BROWSERS = ["chrome96", "firefox100", "safari16.4"];
+
+/**
+ * @param {string} moduleFolder
+ * @param {string} out
+ */
+export async function bundle(moduleFolder, out) {
+  await rm(out, { recursive: true, force: true });
+  await mkdir(out, { recursive: true });
+  const names = await bundleScripts(resolve(moduleFolder), out);
+  for (const name of ["style.css", "icon.svg"]) {
+    names.set(name, await writeHashed(out, name, await readFile(join(PAGE, name))));
+  }
+  const wasm = await readFile(join(moduleFolder, "carom_web_bg.wasm"));
+  const wasmName = await writeHashed(out, "carom.wasm", wasm);
+  const link = `<link id="module" rel="preload" as="fetch" crossorigin href="${wasmName}" data-bytes="${wasm.length}" />`;
+  let html = await readFile(join(PAGE, "index.html"), "utf8");
+  for (const [name, hashed] of names) {
+    html = html.replaceAll(`"${name}"`, `"${hashed}"`);
+  }
+  html = html.replace("  </head>", `    ${link}\n  </head>`);
+  await writeFile(join(out, "index.html"), html);
+  await compressAll(out);
+}
+
+/**
+ * Makes one script of all that the page needs at once, and others of what comes later.
+ *
+ * @param {string} moduleFolder
+ * @param {string} out
+ * @returns {Promise<Map<string, string>>} the names that index.html knows to those that they got
+ */
+async function bundleScripts(moduleFolder, out) {
+  const { metafile } = await build({
+    entryPoints: [join(PAGE, "main.js")],
+    outdir: out,
+    bundle: true,
+    minify: true,
+    splitting: true,
+    format: "esm",
+    target: BROWSERS,
+    entryNames: "[name]-[hash]",
+    chunkNames: "[name]-[hash]",
+    alias: { "carom-web": join(moduleFolder, "carom_web.js") },
+    legalComments: "eof",
+    metafile: true,
+    logLevel: "warning",
+  });
+  const [main] = Object.entries(metafile.outputs).filter(([, output]) => output.entryPoint);
+  return new Map([["main.js", relative(out, resolve(main[0]))]]);
+}
+
+/**
+ * @param {string} out
+ * @param {string} name
+ * @param {Buffer} content
+ * @returns {Promise<string>} the name under which it was written
+ */
+async function writeHashed(out, name, content) {
+  const hash = createHash("sha256").update(content).digest("hex").slice(0, 8);
+  const extension = extname(name);
+  const hashed = `${name.slice(0, -extension.length)}-${hash}${extension}`;
+  await writeFile(join(out, hashed), content);
+  return hashed;
+}
+
+/** @param {string} out */
+async function compressAll(out) {
+  for (const name of await readdir(out)) {
+    const path = join(out, name);
+    const compressed = gzipSync(await readFile(path), { level: constants.Z_BEST_COMPRESSION });
+    await writeFile(`${path}.gz`, compressed);
+  }
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  await bundle(process.argv[2], process.argv[3]);
+}

@@ -1,0 +1,53 @@
+// The module on its way here.
+
+import { Trouble } from "./trouble.js";
+
+/**
+ * Fetches the module and compiles it while it arrives.
+ *
+ * Its address and its size are in the page's head, where `bundle.js` wrote them: a server that
+ * compresses does not tell the size that arrives here.
+ *
+ * @param {(arrived: number, all: number) => void} progress is told how many bytes have arrived
+ * @returns {Promise<WebAssembly.Module>}
+ */
+export async function fetchModule(progress) {
+  const link = /** @type {HTMLLinkElement} */ (document.getElementById("module"));
+  const all = Number(link.dataset.bytes);
+  const response = await ask(link.href);
+  let arrived = 0;
+  const counted = response.pipeThrough(
+    new TransformStream({
+      transform(piece, controller) {
+        arrived += piece.byteLength;
+        progress(arrived, all);
+        controller.enqueue(piece);
+      },
+    }),
+  );
+  // Compilers ask for this type, whatever the server says.
+  const headers = { "Content-Type": "application/wasm" };
+  try {
+    return await WebAssembly.compileStreaming(new Response(counted, { headers }));
+  } catch (error) {
+    if (arrived !== all) {
+      throw new Trouble("Carom did not arrive whole.", { cause: `${arrived} of ${all} bytes` });
+    }
+    throw error;
+  }
+}
+
+/**
+ * @param {string} url
+ * @returns {Promise<ReadableStream<Uint8Array>>}
+ */
+async function ask(url) {
+  const response = await fetch(url).catch((error) => {
+    throw new Trouble("Carom could not be fetched. Is the network there?", { cause: error });
+  });
+  if (!response.ok || response.body === null) {
+    const cause = `${url}: ${response.status} ${response.statusText}`;
+    throw new Trouble("Carom could not be fetched: the server does not give its module.", { cause });
+  }
+  return response.body;
+}

@@ -1,0 +1,76 @@
+// A film encoded frame by frame with WebCodecs: every frame at its exact time.
+
+import { Trouble } from "../trouble.js";
+
+/** @import { Format, Frame, Maker } from "./film.js" */
+
+/**
+ * Compressions from the most widely played on; what is H.264 becomes an MP4, the others WebM.
+ *
+ * @type {["avc", "vp9", "vp8"]}
+ */
+const CODECS = ["avc", "vp9", "vp8"];
+
+/** @implements {Maker} */
+export class Encoded {
+  /** @type {string | null} */
+  extension = null;
+  #format;
+  #begun;
+
+  /** @param {Format} format */
+  constructor(format) {
+    this.#format = format;
+    this.#begun = this.#begin();
+    // What went wrong is told to whoever adds a frame.
+    this.#begun.catch(() => {});
+  }
+
+  /** @param {Frame} frame */
+  async add({ pixels, number }) {
+    const { source, media } = await this.#begun;
+    const { rowBytes, width, height, framesPerSecond } = this.#format;
+    const sample = new media.VideoSample(pixels, {
+      // Opacity does not count: what is behind a film?
+      format: "RGBX",
+      codedWidth: width,
+      codedHeight: height,
+      layout: [{ offset: 0, stride: rowBytes }],
+      timestamp: number / framesPerSecond,
+      duration: 1 / framesPerSecond,
+    });
+    // Waits while the encoder has enough to do.
+    await source.add(sample);
+    sample.close();
+  }
+
+  async finish() {
+    const { output, target } = await this.#begun;
+    await output.finalize();
+    if (target.buffer === null) {
+      throw new Trouble("It holds no frames.");
+    }
+    return new Blob([target.buffer], { type: `video/${this.extension}` });
+  }
+
+  async #begin() {
+    const media = await import("./media.js");
+    const { width, height, framesPerSecond } = this.#format;
+    const quality = new media.Quality("high");
+    const codec = await media.getFirstEncodableVideoCodec(CODECS, { width, height, quality });
+    if (codec === null) {
+      throw new Trouble(`This browser has no encoder for ${width} by ${height} pixels.`);
+    }
+    const isMp4 = codec === "avc";
+    this.extension = isMp4 ? "mp4" : "webm";
+    const target = new media.BufferTarget();
+    const format = isMp4
+      ? new media.Mp4OutputFormat({ fastStart: "in-memory" })
+      : new media.WebMOutputFormat();
+    const output = new media.Output({ format, target });
+    const source = new media.VideoSampleSource({ codec, quality });
+    output.addVideoTrack(source, { frameRate: framesPerSecond });
+    await output.start();
+    return { media, output, source, target };
+  }
+}

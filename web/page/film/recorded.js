@@ -1,0 +1,72 @@
+// A film recorded as it is shown, where a browser has MediaRecorder alone.
+
+import { Trouble } from "../trouble.js";
+
+/** @import { Format, Frame, Maker } from "./film.js" */
+
+/** From the most widely played on. */
+const TYPES = ["video/mp4;codecs=avc1", "video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
+
+/** Enough for spheres at 1280 by 720 not to show blocks [bits per second]. */
+const BITS_PER_SECOND = 8e6;
+
+/**
+ * Shows each frame on a hidden canvas for as long as it lasts, and records that; between frames the
+ * recorder pauses, so that frames which come late do not make the film longer.
+ *
+ * @implements {Maker}
+ */
+export class Recorded {
+  extension;
+  #format;
+  #context;
+  #track;
+  #recorder;
+  /** @type {Blob[]} */
+  #pieces = [];
+
+  /** @param {Format} format */
+  constructor(format) {
+    const mimeType = TYPES.find((type) => MediaRecorder.isTypeSupported(type));
+    if (mimeType === undefined) {
+      throw new Trouble("This browser cannot make films: it records neither MP4 nor WebM.");
+    }
+    this.extension = mimeType.startsWith("video/mp4") ? "mp4" : "webm";
+    this.#format = format;
+    const canvas = document.createElement("canvas");
+    canvas.width = format.width;
+    canvas.height = format.height;
+    const context = canvas.getContext("2d", { alpha: false });
+    this.#context = /** @type {CanvasRenderingContext2D} */ (context);
+    // No frames but those that are asked for.
+    const stream = canvas.captureStream(0);
+    this.#track = /** @type {CanvasCaptureMediaStreamTrack} */ (stream.getVideoTracks()[0]);
+    this.#recorder = new MediaRecorder(stream, { mimeType, videoBitsPerSecond: BITS_PER_SECOND });
+    this.#recorder.addEventListener("dataavailable", ({ data }) => this.#pieces.push(data));
+  }
+
+  /** @param {Frame} frame */
+  async add({ pixels }) {
+    const { rowBytes, height, framesPerSecond } = this.#format;
+    const rows = new Uint8ClampedArray(pixels.buffer, 0, rowBytes * height);
+    this.#context.putImageData(new ImageData(rows, rowBytes / 4), 0, 0);
+    if (this.#recorder.state === "inactive") {
+      this.#recorder.start();
+    } else {
+      this.#recorder.resume();
+    }
+    this.#track.requestFrame();
+    await new Promise((resolve) => setTimeout(resolve, 1000 / framesPerSecond));
+    this.#recorder.pause();
+  }
+
+  async finish() {
+    if (this.#recorder.state === "inactive") {
+      throw new Trouble("It holds no frames.");
+    }
+    const stopped = new Promise((resolve) => this.#recorder.addEventListener("stop", resolve));
+    this.#recorder.stop();
+    await stopped;
+    return new Blob(this.#pieces, { type: this.#recorder.mimeType });
+  }
+}

@@ -1,0 +1,20 @@
+// Keys that scroll pages, and here do not.
+
+const SCROLLING = new Set([
+  " ", "ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "PageUp", "PageDown", "Home", "End",
+]);
+
+/**
+ * Keeps keys that are meant for the interface from scrolling the page, or one that embeds it.
+ *
+ * @param {HTMLCanvasElement} canvas
+ */
+export function keepKeysFromScrolling(canvas) {
+  addEventListener("keydown", (event) => {
+    const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey;
+    const isOurs = event.target === canvas || event.target === document.body;
+    if (isPlain && isOurs && SCROLLING.has(event.key)) {
+      event.preventDefault();
+    }
+  });
+}

@@ -1,0 +1,257 @@
+// The page around the module: how it loads, what it says when it cannot, what it does for the module.
+
+import assert from "node:assert/strict";
+import { after, before, describe, test } from "node:test";
+
+import { complaints, keepPicture, launch } from "./browser.js";
+import { serveStandIn } from "./stood_in.js";
+
+/** @type {import("playwright-core").Browser} */
+let browser;
+/** @type {Awaited<ReturnType<typeof serveStandIn>>} */
+let site;
+
+before(async () => {
+  [browser, site] = await Promise.all([launch("webgl2"), serveStandIn()]);
+});
+
+after(async () => {
+  await browser?.close();
+  await site?.close();
+});
+
+/**
+ * A page with this preparation that has been opened and has come to rest.
+ *
+ * @param {string} fragment
+ * @param {(page: import("playwright-core").Page) => Promise<unknown>} [prepare]
+ * @param {import("playwright-core").BrowserContextOptions} [options]
+ */
+async function open(fragment, prepare, options) {
+  const context = await browser.newContext({ viewport: { width: 900, height: 600 }, ...options });
+  const page = await context.newPage();
+  const heard = complaints(page);
+  await prepare?.(page);
+  await page.goto(`${site.url}${fragment}`);
+  await page.waitForSelector("#loading.done, #loading.trouble", { state: "attached" });
+  return { page, heard, close: () => context.close() };
+}
+
+/** @param {import("playwright-core").Page} page */
+const message = (page) => page.textContent("#message");
+
+const isModule = (/** @type {URL} */ url) => url.pathname.endsWith(".wasm");
+
+describe("the page", () => {
+  test("shows how much has arrived, then makes way", async () => {
+    const context = await browser.newContext();
+    const page = await context.newPage();
+    const heard = complaints(page);
+    const client = await context.newCDPSession(page);
+    await client.send("Network.enable");
+    // Slow enough for the bar to be seen on its way.
+    const throughput = 3e6;
+    await client.send("Network.emulateNetworkConditions", {
+      offline: false,
+      latency: 0,
+      downloadThroughput: throughput,
+      uploadThroughput: throughput,
+    });
+    await page.goto(site.url, { waitUntil: "commit" });
+    await page.waitForFunction(() => {
+      const bar = document.querySelector("progress");
+      return bar !== null && bar.value > 0.2 && bar.value < 0.9;
+    });
+    assert.match((await message(page)) ?? "", /^Loading [0-3]\.\d of 4\.0 MB$/);
+    await keepPicture(page, "page-loading");
+    await page.waitForSelector("#loading.done", { state: "attached" });
+    assert.equal(await page.evaluate(() => document.activeElement?.id), "carom");
+    assert.deepEqual(heard, []);
+    await context.close();
+  });
+
+  test("asks nobody else for anything", async () => {
+    /** @type {string[]} */
+    const asked = [];
+    const { close } = await open("", async (page) => page.on("request", (it) => asked.push(it.url())));
+    const elsewhere = asked.filter((url) => !url.startsWith(site.url));
+    assert.deepEqual(elsewhere, []);
+    await close();
+  });
+
+  for (const colorScheme of /** @type {const} */ (["light", "dark"])) {
+    test(`says on a ${colorScheme} ground that the module is missing`, async () => {
+      const { page, close } = await open(
+        "",
+        (page) => page.route(isModule, (route) => route.fulfill({ status: 404 })),
+        { colorScheme },
+      );
+      assert.match((await message(page)) ?? "", /could not be fetched/);
+      assert.match((await page.textContent("#detail")) ?? "", /\.wasm: 404/);
+      await keepPicture(page, `page-missing-${colorScheme}`);
+      await close();
+    });
+  }
+
+  test("says that the network is not there, and tries again when told to", async () => {
+    const { page, close } = await open("", (page) => page.route(isModule, (route) => route.abort()));
+    assert.match((await message(page)) ?? "", /Is the network there\?/);
+    await page.unroute(isModule);
+    await page.click("#again");
+    await page.waitForSelector("#loading.done", { state: "attached" });
+    await close();
+  });
+
+  test("says that the module did not arrive whole", async () => {
+    // Breaks off inside the module's first section.
+    const body = Buffer.from([0, 0x61, 0x73, 0x6d, 1, 0, 0, 0, 0, 100]);
+    const { page, close } = await open("", (page) =>
+      page.route(isModule, (route) => route.fulfill({ body })),
+    );
+    assert.equal(await message(page), "Carom did not arrive whole.");
+    assert.match((await page.textContent("#detail")) ?? "", /^10 of 4000000 bytes$/);
+    await close();
+  });
+
+  test("says that WebAssembly is missing", async () => {
+    const { page, close } = await open("", (page) =>
+      page.addInitScript(() => Reflect.deleteProperty(globalThis, "WebAssembly")),
+    );
+    assert.match((await message(page)) ?? "", /needs WebAssembly/);
+    await close();
+  });
+
+  test("says what the module says when it does not start", async () => {
+    const { page, close } = await open("#refuse");
+    assert.equal(await message(page), "The graphics of this browser are not enough.");
+    await close();
+  });
+
+  test("says that there is nothing to draw with, before it fetches the module", async () => {
+    const blind = await launch("none");
+    const page = await blind.newPage({ viewport: { width: 390, height: 844 } });
+    await page.goto(site.url);
+    await page.waitForSelector("#loading.trouble");
+    assert.match((await message(page)) ?? "", /WebGPU or WebGL 2/);
+    await keepPicture(page, "page-no-graphics-phone");
+    await blind.close();
+  });
+
+  test("says that the module has stopped", async () => {
+    const { page, close } = await open("");
+    await page.evaluate(() => {
+      setTimeout(() => {
+        throw new WebAssembly.RuntimeError("unreachable");
+      });
+    });
+    await page.waitForSelector("#loading.trouble");
+    assert.match((await message(page)) ?? "", /has stopped/);
+    assert.equal(await page.textContent("#detail"), "unreachable");
+    await close();
+  });
+
+  test("gives all of a phone's window to the canvas, and does not scroll", async () => {
+    const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+    const { page, close } = await open("", undefined, { ...phone, deviceScaleFactor: 3 });
+    const box = await page.locator("#carom").boundingBox();
+    assert.deepEqual(box, { x: 0, y: 0, width: 390, height: 844 });
+    const client = await page.context().newCDPSession(page);
+    await client.send("Input.synthesizeScrollGesture", { x: 200, y: 400, yDistance: -300 });
+    assert.equal(await page.evaluate(() => scrollY + (visualViewport?.offsetTop ?? 0)), 0);
+    await close();
+  });
+
+  test("keeps Space and arrows from the browser, but not Ctrl + F5 and the like", async () => {
+    const { page, close } = await open("");
+    const isPrevented = (/** @type {{ key: string, ctrlKey?: boolean }} */ init) =>
+      page.evaluate((init) => {
+        const event = new KeyboardEvent("keydown", { ...init, bubbles: true, cancelable: true });
+        return !(document.getElementById("carom")?.dispatchEvent(event) ?? true);
+      }, init);
+    assert.equal(await isPrevented({ key: " " }), true);
+    assert.equal(await isPrevented({ key: "ArrowDown" }), true);
+    assert.equal(await isPrevented({ key: "End", ctrlKey: true }), false);
+    assert.equal(await isPrevented({ key: "F5" }), false);
+    await close();
+  });
+});
+
+describe("the page, for the module,", () => {
+  test("gives the module what stands behind # and what is put there later", async () => {
+    const { page, close } = await open("#scene=simtest1");
+    await page.evaluate(() => void (location.hash = "scene=simtest2"));
+    await page.waitForFunction(() => /** @type {any} */ (globalThis).carom.fragments.length === 2);
+    const fragments = await page.evaluate(() => /** @type {any} */ (globalThis).carom.fragments);
+    assert.deepEqual(fragments, ["scene=simtest1", "scene=simtest2"]);
+    await close();
+  });
+
+  test("shows fragments at a pace that browsers bear, and the last one for good", async () => {
+    const { page, heard, close } = await open("");
+    const [steps, hash] = await page.evaluate(async () => {
+      const { services } = /** @type {any} */ (globalThis).carom;
+      const before = history.length;
+      for (let i = 0; i < 1000; i += 1) {
+        services.showFragment(`t=${i}`);
+      }
+      await new Promise((resolve) => setTimeout(resolve, 900));
+      return [history.length - before, location.hash];
+    });
+    assert.equal(steps, 0);
+    assert.equal(hash, "#t=999");
+    assert.deepEqual(heard, []);
+    await close();
+  });
+
+  test("saves files under their names", async () => {
+    const { page, close } = await open("");
+    const waiting = page.waitForEvent("download");
+    await page.evaluate(() => {
+      const bytes = new TextEncoder().encode("name = \"mine\"\n");
+      /** @type {any} */ (globalThis).carom.services.save("mine.toml", "text/plain", bytes);
+    });
+    const download = await waiting;
+    assert.equal(download.suggestedFilename(), "mine.toml");
+    const { readFile } = await import("node:fs/promises");
+    assert.equal(await readFile(await download.path(), "utf8"), "name = \"mine\"\n");
+    await close();
+  });
+
+  test("feels how the device is held against how it was when tilting began", async () => {
+    const { page, close } = await open("");
+    const tilts = await page.evaluate(async () => {
+      const { services } = /** @type {any} */ (globalThis).carom;
+      const hold = (/** @type {number} */ beta, /** @type {number} */ gamma) =>
+        dispatchEvent(new DeviceOrientationEvent("deviceorientation", { alpha: 0, beta, gamma }));
+      const before = services.tilt();
+      services.useTilt(true);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+      hold(30, 0);
+      const level = services.tilt();
+      hold(30, 90);
+      const right = services.tilt();
+      hold(45, 0);
+      const down = services.tilt();
+      services.useTilt(false);
+      return { before, level, right, down, after: services.tilt() };
+    });
+    assert.equal(tilts.before, null);
+    assert.deepEqual(tilts.level, [0, 0]);
+    assert.equal(tilts.right[0], 1);
+    assert.ok(tilts.down[1] > 0.5 && tilts.down[1] < 0.7, `${tilts.down}`);
+    assert.equal(tilts.after, null);
+    await close();
+  });
+
+  test("says that a desk does not tilt", async () => {
+    const { page, close } = await open("");
+    const said = await page.evaluate(async () => {
+      const { services } = /** @type {any} */ (globalThis).carom;
+      services.useTilt(true);
+      await new Promise((resolve) => setTimeout(resolve, 1500));
+      return [services.offersTilt(), services.trouble(), services.trouble()];
+    });
+    assert.deepEqual(said, [false, "This device does not tell how it is held.", null]);
+    await close();
+  });
+});

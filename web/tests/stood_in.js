@@ -1,0 +1,46 @@
+// The page with a module that stands in for the real one.
+
+import { randomFillSync } from "node:crypto";
+import { copyFile, mkdtemp, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+import { bundle } from "../bundle.js";
+import { serve } from "../serve.js";
+
+/** Size of the stand-in's module [bytes]: enough to arrive in several pieces. */
+const SIZE = 4_000_000;
+
+/** Serves it; `close` takes all of it away. */
+export async function serveStandIn() {
+  const folder = await mkdtemp(join(tmpdir(), "carom-page-"));
+  await copyFile(
+    fileURLToPath(new URL("stand_in.js", import.meta.url)),
+    join(folder, "carom_web.js"),
+  );
+  await writeFile(join(folder, "carom_web_bg.wasm"), emptyModule(SIZE));
+  const dist = join(folder, "dist");
+  await bundle(folder, dist);
+  const server = await serve(dist, 0);
+  const close = async () => {
+    await server.close();
+    await rm(folder, { recursive: true });
+  };
+  return { url: server.url, dist, close };
+}
+
+/**
+ * A WebAssembly module with nothing but a custom section that fills it with what gzip cannot press.
+ *
+ * @param {number} size [bytes]
+ */
+function emptyModule(size) {
+  const header = [0, 0x61, 0x73, 0x6d, 1, 0, 0, 0];
+  // The section's number, its size in five bytes of LEB128, and its name, "-".
+  const content = size - header.length - 6;
+  const leb = [0, 7, 14, 21].map((shift) => ((content >> shift) & 0x7f) | 0x80);
+  const bytes = randomFillSync(Buffer.alloc(size));
+  Buffer.from([...header, 0, ...leb, content >> 28, 1, 0x2d]).copy(bytes);
+  return bytes;
+}

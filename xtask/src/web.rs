@@ -1,0 +1,81 @@
+//! The page: built, served, tested.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::shell::{Outcome, finish, target_folder};
+use crate::web_tools::{folder, node, npm_packages, wasm_bindgen};
+use crate::{setup, wasm};
+
+/// Where the page is served unless told otherwise.
+pub const PORT: &str = "8042";
+
+/// What a browser fetches at most to show the page, compressed \[bytes\].
+const BUDGET: u64 = 4_000_000;
+
+/// Makes the page in `web/dist`, and says how large it is.
+pub fn build() -> Outcome {
+    setup::page()?;
+    npm_packages()?;
+    let module = wasm::build("carom-web")?;
+    bind(&module, &folder().join("module"), &["--remove-name-section"])?;
+    node(&["bundle.js", "module", "dist"], &[])?;
+    check_size(&folder().join("dist"))
+}
+
+/// Makes the page, and serves it on this machine.
+pub fn serve(port: &str) -> Outcome {
+    build()?;
+    node(&["serve.js", "dist", port], &[])
+}
+
+/// Says what takes the space in the module.
+pub fn sizes() -> Outcome {
+    npm_packages()?;
+    let module = wasm::build("carom-web")?;
+    let named = target_folder().join("web-named");
+    bind(&module, &named, &[])?;
+    node(&["sizes.js", &named.join("carom_web_bg.wasm").to_string_lossy()], &[])
+}
+
+/// Makes the page, and tests it in a browser.
+pub fn test() -> Outcome {
+    build()?;
+    setup::browser()?;
+    node(&["node_modules/typescript/bin/tsc", "--project", "."], &[])?;
+    // One file after another: frame times are measured, and a browser uses all there is.
+    node(&["--test", "--test-concurrency=1"], &[])
+}
+
+/// Has `wasm-bindgen` make a module of JavaScript around one of WebAssembly.
+fn bind(module: &Path, out: &Path, options: &[&str]) -> Outcome {
+    let mut command = Command::new(wasm_bindgen()?);
+    command.args(["--target", "web", "--remove-producers-section"]).args(options);
+    finish("wasm-bindgen", command.arg("--out-dir").arg(out).arg(module))
+}
+
+/// Prints what the page is made of, and fails if it is too large.
+fn check_size(dist: &Path) -> Outcome {
+    let size = |path: &Path| fs::metadata(path).map(|it| it.len());
+    let mut files = Vec::new();
+    for entry in fs::read_dir(dist).map_err(|error| error.to_string())? {
+        let path = entry.map_err(|error| error.to_string())?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let compressed = dist.join(format!("{name}.gz"));
+        if let (Ok(raw), Ok(compressed)) = (size(&path), size(&compressed)) {
+            files.push((compressed, raw, name));
+        }
+    }
+    files.sort_unstable_by(|a, b| b.cmp(a));
+    eprintln!("\n{:>10} {:>10}  web/dist", "bytes", "gzip");
+    for (compressed, raw, name) in &files {
+        eprintln!("{raw:>10} {compressed:>10}  {name}");
+    }
+    let all: u64 = files.iter().map(|(compressed, ..)| compressed).sum();
+    eprintln!("{:>10} {all:>10}  all", "");
+    if all > BUDGET {
+        return Err(format!("the page is {all} bytes compressed; it may be {BUDGET}"));
+    }
+    Ok(())
+}

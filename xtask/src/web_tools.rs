@@ -1,0 +1,64 @@
+//! The programs that the page is put together and tested with.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::shell::{Outcome, cargo, finish, output, root, target_folder};
+
+/// The folder of the page.
+pub fn folder() -> PathBuf {
+    root().join("web")
+}
+
+/// The command `wasm-bindgen` of the version that the modules are built with, installed into the
+/// target folder where the system has another or none.
+pub fn wasm_bindgen() -> Outcome<PathBuf> {
+    let version = locked_version("wasm-bindgen")?;
+    let own = target_folder().join("tools");
+    let installed = own.join("bin/wasm-bindgen");
+    for program in [PathBuf::from("wasm-bindgen"), installed.clone()] {
+        let is_same = |text: String| text.trim() == format!("wasm-bindgen {version}");
+        if output(&program, &["--version"]).is_some_and(is_same) {
+            return Ok(program);
+        }
+    }
+    let root = own.to_string_lossy();
+    // Unlocked, as it comes: what it was locked with is not in every registry.
+    cargo(&["install", "wasm-bindgen-cli", "--version", &version, "--root", &root, "--force"])?;
+    Ok(installed)
+}
+
+/// The version of a package in `Cargo.lock`.
+fn locked_version(package: &str) -> Outcome<String> {
+    let lock = read(&root().join("Cargo.lock"))?;
+    let heading = format!("name = \"{package}\"\nversion = \"");
+    lock.split_once(&heading)
+        .and_then(|(_, rest)| rest.split_once('"'))
+        .map(|(version, _)| version.to_owned())
+        .ok_or_else(|| format!("Cargo.lock holds no {package}"))
+}
+
+/// Installs the packages of JavaScript that `package-lock.json` names into `web/node_modules`,
+/// unless they are there.
+pub fn npm_packages() -> Outcome {
+    let installed = folder().join("node_modules/.package-lock.json");
+    let wanted = folder().join("package-lock.json");
+    let time = |path: &Path| path.metadata().and_then(|it| it.modified()).ok();
+    if time(&installed).is_some_and(|installed| Some(installed) >= time(&wanted)) {
+        return Ok(());
+    }
+    // No package needs its scripts.
+    let arguments = ["ci", "--ignore-scripts", "--no-audit", "--no-fund"];
+    finish("npm", Command::new("npm").args(arguments).current_dir(folder()))
+}
+
+/// Runs Node.js in the folder of the page.
+pub fn node(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
+    let mut command = Command::new("node");
+    command.args(arguments).envs(variables.iter().copied()).current_dir(folder());
+    finish("node", &mut command)
+}
+
+fn read(path: &Path) -> Outcome<String> {
+    std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}
