@@ -4,6 +4,8 @@
 
 mod architecture;
 mod demo;
+mod js_package;
+mod native_hashes;
 mod schema;
 mod setup;
 mod shell;
@@ -21,10 +23,12 @@ Usage: cargo xtask COMMAND
   demo      set up, run every built-in scene, make pictures and a film in out/, open the window
   test      set up, then every check: format, clippy, tests, documents, schema, the browser's target
   web       make the page in web/dist; `web --serve [PORT]` also serves it on this machine,
-            `web --sizes` says what takes the space, `web --test` tests it in a browser
+            `web --sizes` says what takes the space, `web --test` tests it in a browser;
+            `web --package` makes the JavaScript package, `web --test-package` tests it in Node.js
   schema    write scenes/scene.schema.json anew from the scene types
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
-            pictures and of the interface";
+            pictures and of the interface, `bench web` the JavaScript package against the native
+            engine";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -37,8 +41,11 @@ fn main() -> ExitCode {
         ["web", "--serve", port] => web::serve(port),
         ["web", "--sizes"] => web::sizes(),
         ["web", "--test"] => web::test(),
+        ["web", "--package"] => js_package::build().map(drop),
+        ["web", "--test-package"] => js_package::test(),
         ["schema"] => schema::write(),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
+        ["bench", "web"] => js_package::bench(),
         ["bench", "pictures"] => {
             shell::cargo(&["bench", "--package", "carom-render", "--package", "carom-view"])
         }

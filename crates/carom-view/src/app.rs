@@ -123,7 +123,7 @@ impl App {
     /// Opens a scene: a maze to be played, any other to be watched.
     fn open(&mut self, scene: Scene, source: Source) {
         match Maze::from_scene(&scene) {
-            Ok(maze) => self.play(maze),
+            Ok(maze) => self.play_linked(maze, Link::to_scene(&scene)),
             Err(_) => self.watch(scene, source),
         }
     }
@@ -141,9 +141,14 @@ impl App {
 
     /// Plays a maze from now on.
     pub fn play(&mut self, maze: Maze) {
-        match MazeScreen::new(maze) {
+        let link = Link::to_scene(maze.scene());
+        self.play_linked(maze, link);
+    }
+
+    fn play_linked(&mut self, maze: Maze, link: Link) {
+        match MazeScreen::new(maze, link) {
             Ok(screen) => {
-                self.host.show_link(&Link::to_scene(screen.game().scene()));
+                self.host.show_link(screen.link());
                 self.show(Screen::Maze(Box::new(screen)));
             }
             Err(error) => self.notices.complain(error),
@@ -159,7 +164,7 @@ impl App {
         };
         let is_beginning = link.time().is_none() && link.changes().is_empty();
         if is_beginning && let Ok(maze) = Maze::from_scene(&scene) {
-            self.play(maze);
+            self.play_linked(maze, link.clone());
             return;
         }
         match Watching::replay(link, scene, self.threaded, &self.context) {
@@ -341,8 +346,7 @@ impl App {
                 link.show(context, Some(view), || format!("{}#{}", host.page(), base.at(view)));
             }
             Screen::Maze(screen) => {
-                let scene = screen.game().scene();
-                link.show(context, None, || format!("{}#{}", host.page(), Link::to_scene(scene)));
+                link.show(context, None, || format!("{}#{}", host.page(), screen.link()));
             }
         }
     }

@@ -23,6 +23,9 @@ pub use packed::MAX_UNPACKED;
 /// Address of the page that opens links, where it is served on this machine.
 pub const LOCAL_PAGE: &str = "http://127.0.0.1:8042/";
 
+/// What errors call a scene file without a name.
+const NAMELESS: &str = "scene file";
+
 /// A run that can be had again elsewhere, to the bit: which scene, what is different in it, what
 /// was changed on the way, and the time it has come to.
 ///
@@ -148,7 +151,10 @@ impl Link {
     pub fn open(&self) -> Result<Scene, LinkError> {
         let scene = match &self.source {
             LinkSource::BuiltIn(name) => built_in(name, &self.overrides),
-            LinkSource::File { name, text } => Scene::from_toml_with(text, name, &self.overrides),
+            LinkSource::File { name, text } => {
+                let name = if name.is_empty() { NAMELESS } else { name };
+                Scene::from_toml_with(text, name, &self.overrides)
+            }
         };
         Ok(scene?)
     }

@@ -410,9 +410,88 @@ fn a_scene_is_found_by_its_title_and_in_any_case() {
 fn a_broken_file_in_a_link_is_told_with_its_line() {
     let text = "name = \"two\"\n\n[[spheres]]\nradius = -1\n".to_owned();
     let name = "my scene.toml".to_owned();
-    let link = Link::new(LinkSource::File { name, text });
+    let link = Link::new(LinkSource::File { name, text: text.clone() });
     let error = copied(&link).open().unwrap_err().to_string();
     assert!(error.starts_with("my scene.toml:4: spheres[0].radius: must be"), "{error}");
+    let link = Link::new(LinkSource::File { name: String::new(), text });
+    let error = copied(&link).open().unwrap_err().to_string();
+    assert!(error.starts_with("scene file:4: spheres[0].radius: must be"), "{error}");
+}
+
+mod whatever_was_done {
+    use carom::{ColliderId, DVec3, ForceId, Sphere, SphereId};
+    use carom_scene::scene::{Force, Rule};
+    use carom_session::{Edit, Session, SphereChange};
+    use proptest::prelude::*;
+
+    use super::assert_repeats;
+    use crate::busy_scene;
+
+    /// Something done to a session; some of it is refused.
+    #[derive(Debug, Clone)]
+    enum Deed {
+        Steps(u64),
+        GoTo(u64),
+        Edit(Edit),
+    }
+
+    fn edit() -> impl Strategy<Value = Edit> {
+        let force = |it: f64| Force::Gravity { acceleration: [it, -9.0, 0.1] };
+        let rules = [Rule::Exact, Rule::Bisect, Rule::Discrete];
+        let push = |velocity| SphereChange { velocity: Some(velocity), ..Default::default() };
+        let ball = |x| Sphere::new(DVec3::new(x, 8.0, 0.0), 0.2);
+        prop_oneof![
+            (0.001..0.03).prop_map(Edit::FrameTime),
+            (0.5..1.1).prop_map(Edit::AllColliderRestitutions),
+            (0..3_usize, 0.0..1.0)
+                .prop_map(|(id, e)| Edit::ColliderRestitution(ColliderId::from_number(id), e)),
+            (0..3_usize, -1.0..1.0)
+                .prop_map(move |(id, it)| Edit::Force(ForceId::from_number(id), force(it))),
+            (0..4_usize).prop_map(|id| Edit::RemoveForce(ForceId::from_number(id))),
+            (-1.0..1.0).prop_map(move |it| Edit::AddForce(force(it))),
+            (0..20_u64, -3.0..3.0).prop_map(move |(id, it)| {
+                Edit::Sphere(SphereId::from_number(id), push(DVec3::new(it, 2.0, -it)))
+            }),
+            (0..30_u64).prop_map(|id| Edit::RemoveSphere(SphereId::from_number(id))),
+            (-3.0..3.0).prop_map(move |x| Edit::Throw { sphere: ball(x), color: None }),
+            (0..3_usize, 2..9_u32).prop_map(move |(rule, max_impacts)| {
+                let mut simulation = busy_scene().simulation;
+                simulation.rule = rules[rule];
+                // So few that steps fail now and then.
+                simulation.exact.max_impacts = max_impacts;
+                Edit::Simulation(Box::new(simulation))
+            }),
+        ]
+    }
+
+    fn deed() -> impl Strategy<Value = Deed> {
+        prop_oneof![
+            2 => (1..15_u64).prop_map(Deed::Steps),
+            1 => (0..80_u64).prop_map(Deed::GoTo),
+            4 => edit().prop_map(Deed::Edit),
+        ]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+
+        #[test]
+        fn it_is_repeated_to_the_bit(deeds in prop::collection::vec(deed(), 1..25)) {
+            let mut session = Session::new(busy_scene()).unwrap();
+            for deed in deeds {
+                // What is refused or fails is part of what was done.
+                let _ = match deed {
+                    Deed::Steps(frames) => (0..frames).try_for_each(|_| session.step()),
+                    Deed::Edit(edit) => session.edit(edit),
+                    Deed::GoTo(frame) => {
+                        session.seek(frame);
+                        session.advance_seek(u64::MAX).map(drop)
+                    }
+                };
+            }
+            assert_repeats(&session);
+        }
+    }
 }
 
 mod refused {
@@ -513,6 +592,28 @@ mod refused {
             error,
             "file of the link unpacks to more than 16 MiB, which is more than is taken"
         );
+    }
+
+    #[test]
+    fn what_would_end_the_stack_is_refused() {
+        let deep = 100_000;
+        let (dots, brackets) = (vec!["a"; deep].join("."), "[".repeat(deep));
+        let text = |text: &str| packed(text.as_bytes());
+        for refused in [
+            format!("scene=simtest1&set={dots}=1"),
+            format!("scene=simtest1&edits={}", text(&format!("{dots}=1"))),
+            format!("scene=simtest1&edits={}", text(&format!("changes={brackets}"))),
+        ] {
+            Link::parse(&refused).unwrap_err();
+        }
+        // These are found out when the scene is read.
+        for broken in [
+            format!("scene=simtest1&set=title={brackets}"),
+            format!("file={}", text(&format!("[{dots}]"))),
+            format!("file={}", text(&format!("a={brackets}"))),
+        ] {
+            let _ = Link::parse(&broken).unwrap().open();
+        }
     }
 
     #[test]

@@ -4,7 +4,9 @@
 
 mod desk;
 mod files;
+mod links;
 mod maze;
 mod pictures;
 mod scenes;
+mod touch;
 mod transport;

@@ -1,0 +1,107 @@
+//! Telling what is in a world.
+
+use carom::World as Physics;
+use carom_scene::Palette;
+use carom_scene::scene::{Collider, Force, Scene, Sphere};
+use serde::Serialize;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use crate::failure::Failure;
+use crate::find;
+use crate::members::Members;
+use crate::world::World;
+
+/// Something with the number it is known by.
+#[derive(Serialize)]
+struct Numbered<T> {
+    id: usize,
+    #[serde(flatten)]
+    it: T,
+}
+
+/// What is in it.
+#[wasm_bindgen]
+impl World {
+    /// All that the scene says besides spheres, as JSON: names, how it is stepped, forces, emitters,
+    /// camera, sun, colours. Infinite numbers are `null`.
+    ///
+    /// # Errors
+    /// Never, but for a fault of the engine.
+    pub fn scene(&self) -> Result<String, Failure> {
+        Ok(serde_json::to_string(self.described())?)
+    }
+
+    /// Colliders where they are now, each with its id and colour, as JSON.
+    ///
+    /// # Errors
+    /// Never, but for a fault of the engine.
+    pub fn colliders(&self) -> Result<String, Failure> {
+        let fallback = self.described().colors.as_ref().and_then(|colors| colors.colliders);
+        let colored = |mut collider: Collider| {
+            collider.color = collider.color.or(fallback).or(Some(Palette::COLLIDER));
+            collider
+        };
+        let ids = self.world.colliders().map(|(id, _)| id.number());
+        let colliders = colliders_now(&self.world, self.described()).into_iter().map(colored);
+        let list: Vec<_> = ids.zip(colliders).map(|(id, it)| Numbered { id, it }).collect();
+        Ok(serde_json::to_string(&list)?)
+    }
+
+    /// Forces, each with its id, as JSON.
+    ///
+    /// # Errors
+    /// Never, but for a fault of the engine.
+    pub fn forces(&self) -> Result<String, Failure> {
+        let ids = self.world.forces().map(|(id, _)| id.number());
+        let forces = ids.zip(&self.described().forces);
+        let list: Vec<Numbered<&Force>> = forces.map(|(id, it)| Numbered { id, it }).collect();
+        Ok(serde_json::to_string(&list)?)
+    }
+
+    /// One sphere, as JSON.
+    ///
+    /// # Errors
+    /// [`Failure`] if it is not in the world.
+    pub fn sphere(&self, id: f64) -> Result<String, Failure> {
+        let (_, index) = find::sphere(&self.world, id)?;
+        Ok(serde_json::to_string(&sphere(&self.world, &self.description.members, index))?)
+    }
+
+    /// The world of now as the text of a scene file: time begins at 0 there, and emitters begin
+    /// anew.
+    #[wasm_bindgen(js_name = toToml)]
+    pub fn to_toml(&self) -> String {
+        let (world, members) = (&self.world, &self.description.members);
+        let mut scene = self.described().clone();
+        scene.colliders = colliders_now(world, &scene);
+        scene.spheres = (0..world.spheres().len()).map(|i| sphere(world, members, i)).collect();
+        // Rules that find contacts late let spheres overlap; a scene has to admit it.
+        if !scene.simulation.allow_overlap && scene.world().is_err() {
+            scene.simulation.allow_overlap = true;
+        }
+        scene.to_toml()
+    }
+}
+
+/// The colliders of a scene, where they are in its world.
+fn colliders_now(world: &Physics, scene: &Scene) -> Vec<Collider> {
+    let poses = world.colliders().map(|(_, collider)| collider.pose);
+    let moved = |(collider, pose): (&Collider, carom::Pose)| Collider {
+        position: pose.position.to_array(),
+        rotation: pose.rotation.to_array(),
+        ..collider.clone()
+    };
+    scene.colliders.iter().zip(poses).map(moved).collect()
+}
+
+/// A sphere as scene files write it.
+fn sphere(world: &Physics, members: &Members, index: usize) -> Sphere {
+    let spheres = world.spheres();
+    Sphere {
+        velocity: spheres.velocities()[index].to_array(),
+        mass: Some(spheres.masses()[index]),
+        restitution: spheres.restitutions()[index],
+        color: Some(members.color(index)),
+        ..Sphere::at(spheres.positions()[index].to_array(), spheres.radii()[index])
+    }
+}

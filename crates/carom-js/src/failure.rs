@@ -1,0 +1,91 @@
+//! What a JavaScript error is made of.
+
+use carom_scene::{Fault, SceneError};
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Why a call was refused.
+#[wasm_bindgen]
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Failure {
+    message: String,
+    place: Option<Place>,
+}
+
+/// Where in a scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Place {
+    field: String,
+    line: Option<usize>,
+}
+
+impl Failure {
+    /// A failure that is about no place of a scene.
+    pub(crate) fn new(message: impl ToString) -> Self {
+        Self { message: message.to_string(), place: None }
+    }
+
+    /// What is wrong with a part that was described in code: it has no lines, and no name.
+    pub(crate) fn of_part(error: SceneError) -> Self {
+        match error {
+            SceneError::Invalid(fault) => {
+                let name = if fault.field.is_empty() { fault.source_name } else { fault.field };
+                let nameless =
+                    Fault { source_name: name, field: String::new(), line: None, ..fault };
+                let field = nameless.source_name.clone();
+                Self { message: nameless.to_string(), place: Some(Place { field, line: None }) }
+            }
+            other => other.into(),
+        }
+    }
+}
+
+#[wasm_bindgen]
+impl Failure {
+    /// What is wrong, in the words of the engine.
+    #[wasm_bindgen(getter)]
+    pub fn message(&self) -> String {
+        self.message.clone()
+    }
+
+    /// Whether a scene, or a part of one, is to blame, and not the moment.
+    #[wasm_bindgen(getter, js_name = isInScene)]
+    pub fn is_in_scene(&self) -> bool {
+        self.place.is_some()
+    }
+
+    /// Path of the field that is to blame, like `colliders[1].restitution`; empty for none.
+    #[wasm_bindgen(getter)]
+    pub fn field(&self) -> String {
+        self.place.as_ref().map_or(String::new(), |place| place.field.clone())
+    }
+
+    /// Line in the text of the scene, from 1; nothing for what was described in code.
+    #[wasm_bindgen(getter)]
+    pub fn line(&self) -> Option<usize> {
+        self.place.as_ref()?.line
+    }
+}
+
+impl From<carom::Error> for Failure {
+    fn from(error: carom::Error) -> Self {
+        Self::new(error)
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        let message = error.to_string();
+        let place = match error {
+            SceneError::Invalid(Fault { field, line, .. }) => Place { field, line },
+            SceneError::Overridden { fault, .. } => Place { field: fault.field, line: None },
+            _ => Place { field: String::new(), line: None },
+        };
+        Self { message, place: Some(place) }
+    }
+}
+
+impl From<serde_json::Error> for Failure {
+    fn from(error: serde_json::Error) -> Self {
+        Self::new(error)
+    }
+}

@@ -1,0 +1,37 @@
+//! From the numbers that JavaScript holds to the ids of a world.
+
+use carom::{ColliderId, ForceId, SphereId, World};
+
+use crate::failure::Failure;
+
+/// The id of a sphere, and its index in the arrays.
+pub fn sphere(world: &World, number: f64) -> Result<(SphereId, usize), Failure> {
+    let ids = world.spheres().ids();
+    let found = ids.binary_search_by(|id| (id.number() as f64).total_cmp(&number));
+    found.map(|index| (ids[index], index)).map_err(|_| unknown("sphere", number))
+}
+
+/// The id of a collider, and its place in the order.
+pub fn collider(world: &World, number: f64) -> Result<(ColliderId, usize), Failure> {
+    let mut ids = world.colliders().map(|(id, _)| id).zip(0..);
+    ids.find(|(id, _)| id.number() as f64 == number).ok_or_else(|| unknown("collider", number))
+}
+
+/// The id of a force, and its place in the order.
+pub fn force(world: &World, number: f64) -> Result<(ForceId, usize), Failure> {
+    let mut ids = world.forces().map(|(id, _)| id).zip(0..);
+    ids.find(|(id, _)| id.number() as f64 == number).ok_or_else(|| unknown("force", number))
+}
+
+/// In the words of [`carom::Error::Unknown`].
+fn unknown(kind: &str, number: f64) -> Failure {
+    Failure::new(format!("there is no {kind} {number} in this world"))
+}
+
+/// What a description is made for: exactly one thing.
+pub fn only<T>(list: &[T]) -> Result<&T, Failure> {
+    match list {
+        [one] => Ok(one),
+        _ => Err(Failure::new(format!("this takes one description, not {}", list.len()))),
+    }
+}

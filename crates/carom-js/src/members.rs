@@ -1,0 +1,93 @@
+//! Who is in a world, and in which colours.
+
+use carom::{SphereId, Spheres};
+use carom_scene::Palette;
+use carom_scene::scene::Color;
+
+/// Ids and colours of the spheres of a world, in their order, as JavaScript reads them.
+///
+/// A sphere gets its colour when it comes into the world, and keeps it.
+#[derive(Debug, Clone, Default)]
+pub struct Members {
+    /// Ids, as JavaScript's numbers: exact up to 2^53.
+    ids: Vec<f64>,
+    /// Red, green and blue of each, in \[0, 1\] (sRGB).
+    colors: Vec<f32>,
+    /// Ids of those that were added in code, ascending: the palette of a scene does not count them.
+    added: Vec<u64>,
+}
+
+impl Members {
+    /// Ids, ascending.
+    pub fn ids(&self) -> &[f64] {
+        &self.ids
+    }
+
+    /// Three parts of each colour.
+    pub fn colors(&self) -> &[f32] {
+        &self.colors
+    }
+
+    /// Adds a sphere that was added in code; its id must be the largest so far.
+    pub fn add(&mut self, id: SphereId, color: Color) {
+        self.added.push(id.number());
+        self.push(id.number() as f64, color.map(|part| part as f32));
+    }
+
+    /// Takes out the sphere at an index.
+    pub fn remove(&mut self, index: usize) {
+        self.ids.remove(index);
+        self.colors.drain(3 * index..3 * index + 3);
+    }
+
+    /// The colour of the sphere at an index.
+    pub fn color(&self, index: usize) -> Color {
+        // The shortest decimal that is this number: what was written in the scene.
+        let part = |part: f32| part.to_string().parse().unwrap_or(f64::from(part));
+        [0, 1, 2].map(|i| part(self.colors[3 * index + i]))
+    }
+
+    /// Gives the sphere at an index a colour.
+    pub fn paint(&mut self, index: usize, color: Color) {
+        let parts = self.colors[3 * index..].iter_mut().zip(color);
+        parts.for_each(|(part, value)| *part = value as f32);
+    }
+
+    /// Follows what emitters added and retired: `spheres` are those of now.
+    pub fn follow(&mut self, spheres: &Spheres, palette: &Palette) {
+        let before = std::mem::take(self);
+        self.added = before.added;
+        // Both lists are ascending.
+        let mut place = 0;
+        for (index, id) in spheres.ids().iter().enumerate() {
+            let number = id.number() as f64;
+            while before.ids.get(place).is_some_and(|&id| id < number) {
+                place += 1;
+            }
+            let known = before.ids.get(place) == Some(&number);
+            let color = match before.colors.get(3 * place..3 * place + 3) {
+                Some(&[red, green, blue]) if known => [red, green, blue],
+                _ => self.color_of_scene(id.number(), index, spheres, palette),
+            };
+            self.push(number, color);
+        }
+    }
+
+    /// The colour of a sphere that the scene brought.
+    fn color_of_scene(
+        &self,
+        number: u64,
+        index: usize,
+        spheres: &Spheres,
+        palette: &Palette,
+    ) -> [f32; 3] {
+        let added_before = self.added.partition_point(|&id| id < number) as u64;
+        let (radius, mass) = (spheres.radii()[index], spheres.masses()[index]);
+        palette.sphere(number - added_before, radius, mass).map(|part| part as f32)
+    }
+
+    fn push(&mut self, number: f64, color: [f32; 3]) {
+        self.ids.push(number);
+        self.colors.extend(color);
+    }
+}

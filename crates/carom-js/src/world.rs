@@ -1,0 +1,240 @@
+//! A world as JavaScript holds it.
+
+use std::rc::Rc;
+
+use carom::SphereId;
+use carom_scene::{Library, Override, Palette, Scene, SceneError};
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use crate::failure::Failure;
+use crate::impact_table;
+use crate::members::Members;
+use crate::snapshot::{Description, Snapshot};
+
+/// A world, its description, and what its last frame was.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct World {
+    pub(crate) world: carom::World,
+    pub(crate) description: Description,
+    /// The impacts of the last frame, once somebody has asked for them.
+    impacts: Option<Vec<f64>>,
+}
+
+/// Making a world.
+#[wasm_bindgen]
+impl World {
+    /// The world of a built-in scene, with some values changed (`path=value`).
+    ///
+    /// # Errors
+    /// [`Failure`] if no scene has this name or title, or not these values.
+    #[wasm_bindgen(js_name = fromName)]
+    pub fn from_name(name: &str, overrides: Vec<String>) -> Result<Self, Failure> {
+        let (scene, _) = Library::new().find(name, &parsed(&overrides)?)?;
+        Self::new(scene)
+    }
+
+    /// The world of the text of a scene file, with some values changed (`path=value`).
+    ///
+    /// # Errors
+    /// [`Failure`] with the line of what is wrong.
+    #[wasm_bindgen(js_name = fromToml)]
+    pub fn from_toml(text: &str, overrides: Vec<String>) -> Result<Self, Failure> {
+        Self::new(Scene::from_toml_with(text, "scene", &parsed(&overrides)?)?)
+    }
+}
+
+impl World {
+    fn new(mut scene: Scene) -> Result<Self, Failure> {
+        let world = scene.world()?;
+        let palette = Palette::new(&scene)?;
+        let mut members = Members::default();
+        members.follow(world.spheres(), &palette);
+        scene.spheres.clear();
+        scene.generators.clear();
+        let description = Description { scene: Rc::new(scene), palette, members };
+        Ok(Self { world, description, impacts: None })
+    }
+
+    /// What there is besides spheres.
+    pub(crate) fn described(&self) -> &Scene {
+        &self.description.scene
+    }
+
+    /// Likewise, to be changed together with the world.
+    pub(crate) fn described_mut(&mut self) -> &mut Scene {
+        Rc::make_mut(&mut self.description.scene)
+    }
+}
+
+fn parsed(overrides: &[String]) -> Result<Vec<Override>, SceneError> {
+    overrides.iter().map(|text| text.parse()).collect()
+}
+
+/// Time.
+#[wasm_bindgen]
+impl World {
+    /// Advances the world by `dt` \[s\].
+    ///
+    /// # Errors
+    /// [`Failure`] as [`carom::World::step`]; the state before the step is kept.
+    pub fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        self.impacts = None;
+        let report = self.world.step(dt)?;
+        if !report.emitted.is_empty() {
+            let Description { palette, members, .. } = &mut self.description;
+            palette.follow(self.world.time());
+            members.follow(self.world.spheres(), palette);
+        }
+        Ok(())
+    }
+
+    /// Time since the beginning \[s\].
+    #[wasm_bindgen(getter)]
+    pub fn time(&self) -> f64 {
+        self.world.time()
+    }
+
+    /// Length of a frame of the scene \[s\].
+    #[wasm_bindgen(getter, js_name = frameTime)]
+    pub fn frame_time(&self) -> f64 {
+        self.described().simulation.frame_time
+    }
+
+    /// Everything the future depends on, to return to.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot { world: self.world.snapshot(), description: self.description.clone() }
+    }
+
+    /// Returns to a snapshot, bit for bit. The impacts of the last frame are gone.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.world.restore(&snapshot.world);
+        self.description.clone_from(&snapshot.description);
+        self.impacts = None;
+    }
+
+    /// The state as one number, in 16 hexadecimal digits.
+    #[wasm_bindgen(js_name = stateHash)]
+    pub fn state_hash(&self) -> String {
+        self.world.state_hash().to_string()
+    }
+}
+
+/// Arrays of spheres: how many, and where they lie in memory. A place holds until the world is
+/// stepped or changed.
+#[wasm_bindgen]
+impl World {
+    /// How many spheres there are.
+    #[wasm_bindgen(getter)]
+    pub fn count(&self) -> usize {
+        self.world.spheres().len()
+    }
+
+    /// Place of the centres \[m\], three `f64` each.
+    #[wasm_bindgen(getter)]
+    pub fn positions(&self) -> usize {
+        place(self.world.spheres().positions())
+    }
+
+    /// Place of the velocities \[m/s\], three `f64` each.
+    #[wasm_bindgen(getter)]
+    pub fn velocities(&self) -> usize {
+        place(self.world.spheres().velocities())
+    }
+
+    /// Place of the radii \[m\], `f64`.
+    #[wasm_bindgen(getter)]
+    pub fn radii(&self) -> usize {
+        place(self.world.spheres().radii())
+    }
+
+    /// Place of the masses \[kg\], `f64`.
+    #[wasm_bindgen(getter)]
+    pub fn masses(&self) -> usize {
+        place(self.world.spheres().masses())
+    }
+
+    /// Place of the ids, `f64`, ascending.
+    #[wasm_bindgen(getter)]
+    pub fn ids(&self) -> usize {
+        place(self.description.members.ids())
+    }
+
+    /// Place of the colours (sRGB), three `f32` each.
+    #[wasm_bindgen(getter)]
+    pub fn colors(&self) -> usize {
+        place(self.description.members.colors())
+    }
+}
+
+/// Where a list lies in memory.
+fn place<T>(list: &[T]) -> usize {
+    list.as_ptr() as usize
+}
+
+/// What happened in the last frame.
+#[wasm_bindgen]
+impl World {
+    /// How many impacts there were.
+    #[wasm_bindgen(getter, js_name = impactCount)]
+    pub fn impact_count(&self) -> usize {
+        self.world.report().impacts.len()
+    }
+
+    /// Place of the table of impacts, `f64`, a row for each.
+    #[wasm_bindgen(getter)]
+    pub fn impacts(&mut self) -> usize {
+        let impacts = &self.world.report().impacts;
+        place(self.impacts.get_or_insert_with(|| impact_table::of(impacts)))
+    }
+
+    /// Ids of the spheres that emitters put into the world.
+    #[wasm_bindgen(getter)]
+    pub fn emitted(&self) -> Vec<f64> {
+        numbers(&self.world.report().emitted)
+    }
+
+    /// Ids of the spheres that emitters took out of the world.
+    #[wasm_bindgen(getter)]
+    pub fn retired(&self) -> Vec<f64> {
+        numbers(&self.world.report().retired)
+    }
+
+    /// Spheres inside triggers at the end of the frame: collider, sphere, collider, sphere, ...
+    #[wasm_bindgen(getter)]
+    pub fn triggers(&self) -> Vec<f64> {
+        let triggers = self.world.report().triggers.iter();
+        triggers.flat_map(|it| [it.collider.number() as f64, it.sphere.number() as f64]).collect()
+    }
+}
+
+fn numbers(ids: &[SphereId]) -> Vec<f64> {
+    ids.iter().map(|id| id.number() as f64).collect()
+}
+
+/// Sums over all spheres.
+#[wasm_bindgen]
+impl World {
+    /// Kinetic energy \[J\].
+    #[wasm_bindgen(js_name = kineticEnergy)]
+    pub fn kinetic_energy(&self) -> f64 {
+        self.world.kinetic_energy()
+    }
+
+    /// Potential energy \[J\] in all forces that have one.
+    #[wasm_bindgen(js_name = potentialEnergy)]
+    pub fn potential_energy(&self) -> f64 {
+        self.world.potential_energy()
+    }
+
+    /// Momentum \[kg m/s\].
+    pub fn momentum(&self) -> Vec<f64> {
+        self.world.momentum().to_array().to_vec()
+    }
+
+    /// Angular momentum about the origin \[kg m²/s\].
+    #[wasm_bindgen(js_name = angularMomentum)]
+    pub fn angular_momentum(&self) -> Vec<f64> {
+        self.world.angular_momentum().to_array().to_vec()
+    }
+}

@@ -1,0 +1,82 @@
+// How long a frame takes in the package, in Node.js, and in the native engine.
+//
+// `node compare.js NATIVE PACKAGE`: the program `frame_times` and the module of the package. Both take
+// turns, so that a machine that is busy with something else now and then is so for both; of each frame,
+// the shortest time of all runs counts.
+
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const TURNS = 5;
+/** Runs in a turn; in the first, the machine code of the package is still being made. */
+const RUNS = 4;
+
+const folder = import.meta.dirname;
+const [rain, tutorial4] = [`${folder}/rain.toml`, `${folder}/../../../scenes/tutorial4.toml`];
+const LOADS = [
+  { name: "1,000 spheres, `exact`", file: rain, overrides: { "simulation.rule": "exact" } },
+  { name: "1,000 spheres, `bisect`", file: rain, overrides: { "simulation.rule": "bisect" } },
+  { name: "1,000 spheres, `discrete`", file: rain, overrides: { "simulation.rule": "discrete" } },
+  { name: "tutorial4 as it is (147)", file: tutorial4, overrides: {} },
+];
+
+const [native, module] = process.argv.slice(2).map((path) => resolve(path));
+const { World } = await import(pathToFileURL(module));
+
+console.log("| load | | median frame | longest | all frames |\n|---|---|---:|---:|---:|");
+for (const { name, file, overrides } of LOADS) {
+  const times = { native: [], package: [] };
+  for (let turn = 0; turn < TURNS; turn++) {
+    keepShorter(times.native, nativeTimes(file, overrides));
+    keepShorter(times.package, packageTimes(file, overrides));
+  }
+  const [a, b] = [summary(times.native), summary(times.package)];
+  console.log(row(name, "native", a.map((time) => `${time.toFixed(3)} ms`)));
+  console.log(row("", "Node", b.map((time) => `${time.toFixed(3)} ms`)));
+  console.log(row("", "ratio", b.map((time, i) => (time / a[i]).toFixed(2))));
+}
+
+function row(...cells) {
+  return `| ${cells.flat().join(" | ")} |`;
+}
+
+/** Median, maximum and sum of times [ms]. */
+function summary(times) {
+  const sorted = times.toSorted((a, b) => a - b);
+  const sum = sorted.reduce((sum, time) => sum + time, 0);
+  return [sorted[Math.floor(sorted.length / 2)], sorted.at(-1), sum];
+}
+
+function keepShorter(shortest, times) {
+  times.forEach((time, i) => (shortest[i] = Math.min(shortest[i] ?? Infinity, time)));
+}
+
+function nativeTimes(file, overrides) {
+  const changes = Object.entries(overrides).map(([path, value]) => `${path}=${value}`);
+  return JSON.parse(execFileSync(native, [file, String(RUNS), ...changes], { encoding: "utf8" }));
+}
+
+function packageTimes(file, overrides) {
+  const text = readFileSync(file, "utf8");
+  const shortest = [];
+  for (let run = 0; run < RUNS; run++) {
+    const world = World.fromScene(text, overrides);
+    keepShorter(shortest, frameTimes(world));
+    world.free();
+  }
+  return shortest;
+}
+
+/** Times of the frames of a scene [ms], until its duration is over. */
+function frameTimes(world) {
+  const { duration } = world.simulation;
+  const times = [];
+  while (world.time < duration) {
+    const began = performance.now();
+    world.step();
+    times.push(performance.now() - began);
+  }
+  return times;
+}

@@ -1,0 +1,4 @@
+export { CaromError, SceneError } from "./errors.js";
+export { IMPACT_COLUMNS } from "./impacts.js";
+export { scenes } from "./scenes.js";
+export { World } from "./world.js";

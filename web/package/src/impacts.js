@@ -1,0 +1,40 @@
+// Impacts, from the rows of numbers that the engine makes of them.
+
+/** Where what stands in a row of the table of impacts. */
+export const IMPACT_COLUMNS = Object.freeze({
+  time: 0,
+  isCollider: 1,
+  first: 2,
+  second: 3,
+  point: 4,
+  normal: 7,
+  approachSpeed: 10,
+  separationSpeed: 11,
+  impulse: 12,
+  count: 13,
+});
+
+/** The impacts of a table, an object each. */
+export function impacts(table) {
+  const { count } = IMPACT_COLUMNS;
+  return Array.from({ length: table.length / count }, (_, i) =>
+    impact(table.subarray(i * count, (i + 1) * count)),
+  );
+}
+
+function impact(row) {
+  const at = IMPACT_COLUMNS;
+  const vector = (start) => Array.from(row.subarray(start, start + 3));
+  const [first, second] = [row[at.first], row[at.second]];
+  return {
+    time: row[at.time],
+    between: row[at.isCollider]
+      ? { collider: first, sphere: second }
+      : { spheres: [first, second] },
+    point: vector(at.point),
+    normal: vector(at.normal),
+    approachSpeed: row[at.approachSpeed],
+    separationSpeed: row[at.separationSpeed],
+    impulse: row[at.impulse],
+  };
+}

@@ -1,0 +1,389 @@
+/**
+ * Carom moves spheres exactly: event-driven collisions in double precision, with the same bits on every
+ * machine. Right-handed frame, y up, SI units.
+ *
+ * @example
+ * const world = World.fromScene("tutorial3");
+ * for (let frame = 0; frame < 60; frame++) world.step();
+ * console.log(world.time, world.positions, world.stateHash());
+ */
+
+/** Three numbers x, y, z: an array, a typed array, or anything that yields them, as `THREE.Vector3`. */
+export type Vector = Iterable<number>;
+
+/** A rotation x, y, z, w, of any length but zero; likewise. */
+export type Quaternion = Iterable<number>;
+
+/** Red, green, blue in [0, 1] (sRGB). */
+export type Color = [number, number, number];
+
+/** A sphere as it is added. */
+export interface SphereDescription {
+  /** Centre [m]; the origin unless given. */
+  position?: Vector;
+  /** [m/s]; at rest unless given. */
+  velocity?: Vector;
+  /** [m], > 0. Give this or `diameter`. */
+  radius?: number;
+  /** [m], > 0. Give this or `radius`. */
+  diameter?: number;
+  /** [kg], > 0; 1 unless this or `density` is given. */
+  mass?: number;
+  /** [kg/m³], > 0, instead of `mass`. */
+  density?: number;
+  /** Coefficient of restitution in [0, 1]; 1 unless given. */
+  restitution?: number;
+  /** By density, or the scene's own, unless given. */
+  color?: Iterable<number>;
+}
+
+/** A sphere as it is. */
+export interface Sphere {
+  /** Centre [m]. */
+  position: [number, number, number];
+  /** [m/s] */
+  velocity: [number, number, number];
+  /** [m] */
+  radius: number;
+  /** [kg] */
+  mass: number;
+  /** Coefficient of restitution in [0, 1]. */
+  restitution: number;
+  /** Red, green, blue (sRGB). */
+  color: Color;
+}
+
+/** Places for many spheres, as scene files describe them. */
+export type Generator =
+  | { row: { count: number; start: Vector; step: Vector; sphere: SphereDescription } }
+  | { lattice: { counts: Vector; start: Vector; spacing: Vector; sphere: SphereDescription } }
+  | {
+      random: {
+        count: number;
+        min: Vector;
+        max: Vector;
+        seed: number;
+        speed?: number;
+        radiusRange?: [number, number];
+        sphere: SphereDescription;
+      };
+    };
+
+/** Form of a collider in its own frame. Lengths are full ones [m], > 0. */
+export type Shape =
+  | { sphere: { radius: number } }
+  /** In the local xz plane, facing local +y; from behind spheres pass it. */
+  | { rectangle: { sizeX: number; sizeZ: number } }
+  /** Everything below the local xz plane. */
+  | "half-space"
+  | { box: { size: [number, number, number] } };
+
+/** A surface as it is added. */
+export interface ColliderDescription {
+  shape: Shape;
+  /** What it is called. */
+  name?: string;
+  /** Of its centre [m]; the origin unless given. */
+  position?: Vector;
+  /** x, y, z, w; not turned unless given. */
+  rotation?: Quaternion;
+  /** Of its centre [m/s]. */
+  velocity?: Vector;
+  /** About its centre, along the axis [rad/s]. */
+  angularVelocity?: Vector;
+  /** Coefficient of restitution in [0, 1]; 1 unless given. */
+  restitution?: number;
+  /** A trigger reports contact and deflects nothing. */
+  trigger?: boolean;
+  /** Whether it is to be drawn. */
+  visible?: boolean;
+  /** The scene's own unless given. */
+  color?: Iterable<number>;
+}
+
+/** A surface as it is. */
+export interface Collider {
+  id: number;
+  name: string;
+  shape: Shape;
+  /** [m] */
+  position: [number, number, number];
+  /** x, y, z, w */
+  rotation: [number, number, number, number];
+  /** [m/s] */
+  velocity: [number, number, number];
+  /** [rad/s] */
+  angularVelocity: [number, number, number];
+  restitution: number;
+  trigger: boolean;
+  visible: boolean;
+  color: Color;
+}
+
+/** A force on every sphere. */
+export type Force =
+  /** The same acceleration for every sphere [m/s²]. */
+  | { gravity: { acceleration: Vector } }
+  /** The same force on every sphere, whatever its mass [N]. */
+  | { constant: { force: Vector } }
+  /** Against the velocity and proportional to it; the coefficient [kg/s], >= 0. */
+  | { viscousDrag: { coefficient: number } };
+
+/** How a world is stepped. */
+export interface Simulation {
+  /** `exact` (the default) finds every impact at its own time. */
+  rule: "exact" | "bisect" | "discrete";
+  /** Of `bisect` and `discrete`; `exact` needs none. */
+  integrator: "semi-implicit-euler" | "explicit-euler" | "velocity-verlet" | "runge-kutta-4";
+  /** Length of a frame [s], > 0; 1/60 unless given. */
+  frameTime: number;
+  /** Time worth watching [s], > 0. */
+  duration: number;
+  /** Whether spheres collide with one another; with colliders they always do. */
+  spheresCollide: boolean;
+  /** Restitution of a contact from that of its two bodies. */
+  restitutionRule: "product" | "minimum" | "maximum" | "average";
+  /** Whether spheres may overlap at the start. */
+  allowOverlap: boolean;
+  /** How impacts at one instant among spheres that touch are answered, by `exact`. */
+  impactLaw: "reflection" | "simultaneous" | "sequential";
+  /** A box about the origin that repeats itself [m], `Infinity` along an open axis; by `exact`. */
+  boundary: "open" | { periodic: { size: [number, number, number] } };
+  /** Parameters of `exact`: how long a contact lasts [s]; impacts per sphere and frame at most. */
+  exact: { contactDuration: number; maxImpacts: number };
+  /** Parameters of `bisect`. */
+  bisect: {
+    tolerance: number;
+    maxHalvings: number;
+    maxImpacts: number;
+    windBack: "touched" | "all";
+  };
+}
+
+/** What a scene says besides what there is in its world. */
+export interface Scene {
+  name: string;
+  title?: string;
+  description?: string;
+  origin?: string;
+  /** Sources of spheres, in the words of scene files. */
+  emitters?: object[];
+  /** Looks along its local -z. */
+  camera?: {
+    position: [number, number, number];
+    rotation: [number, number, number, number];
+    verticalFovDegrees: number;
+    near: number;
+    far: number;
+  };
+  /** Shines along its local -z. */
+  sun?: { rotation: [number, number, number, number]; color: Color; intensity: number };
+  colors?: {
+    background?: Color;
+    colliders?: Color;
+    spheres?: Color;
+    densities?: { density: number; color: Color }[];
+  };
+}
+
+/** Two bodies that met. */
+export interface Impact {
+  /** Since the start of the frame [s]. */
+  time: number;
+  /** Ids: of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */
+  between: { spheres: [number, number] } | { collider: number; sphere: number };
+  /** Where on the surface of body 1 [m]. */
+  point: [number, number, number];
+  /** Unit normal from body 1 to body 2. */
+  normal: [number, number, number];
+  /** Along the normal before the impact [m/s], > 0. */
+  approachSpeed: number;
+  /** Along the normal after it [m/s]. */
+  separationSpeed: number;
+  /** On body 2 along the normal, on body 1 against it [N s]. */
+  impulse: number;
+}
+
+/** Where what stands in a row of `World.impactTable`; vectors take three places. */
+export const IMPACT_COLUMNS: Readonly<{
+  time: 0;
+  /** 1 where body 1 is a collider, 0 where it is a sphere. */
+  isCollider: 1;
+  /** Ids of bodies 1 and 2. */
+  first: 2;
+  second: 3;
+  point: 4;
+  normal: 7;
+  approachSpeed: 10;
+  separationSpeed: 11;
+  impulse: 12;
+  /** Numbers in a row. */
+  count: 13;
+}>;
+
+/** A world at one moment. Its memory is given back when it is collected as garbage, or by `free`. */
+export interface Snapshot {
+  free(): void;
+}
+
+/** Something that the engine refused. What it was refused for is as it was before. */
+export class CaromError extends Error {}
+
+/** A scene, or a description of a part of one, that makes no sense. */
+export class SceneError extends CaromError {
+  /** Path of the field that is to blame, like `colliders[1].restitution`; empty for none. */
+  readonly field: string;
+  /** Line in the text of the scene, from 1, where it has one. */
+  readonly line: number | undefined;
+}
+
+/** A built-in scene, as it is listed. */
+export interface ListedScene {
+  name: string;
+  title: string;
+  description: string;
+  origin: string;
+}
+
+/** The built-in scenes. */
+export function scenes(): ListedScene[];
+
+/** New values for fields of a scene by their paths, as `carom run --set` takes them; `null` takes a
+ *  field out: `{ "simulation.rule": "exact", "emitters.0.max_spheres": null }`. */
+export type Overrides = Record<string, unknown>;
+
+/**
+ * Spheres, what acts on them, and what they bounce off.
+ *
+ * **Arrays** (`positions` and the like) are views of the engine's own memory: nothing is copied, and
+ * nothing is to be written there. Take them from the world each time: a step, an addition, or any other
+ * world that makes the memory grow may move them. Copy (`.slice()`) what is to stay.
+ *
+ * A call that throws leaves the world as it was.
+ */
+export class World {
+  /** An empty world at time 0. @throws {SceneError} */
+  constructor(simulation?: Partial<Simulation>);
+
+  /** The world of a built-in scene, by name or title, or of the text of a scene file.
+   *  @throws {SceneError} with the line, where the text is wrong */
+  static fromScene(nameOrToml: string, overrides?: Overrides): World;
+
+  /** Advances the world by `dt` [s], a frame of the scene unless given. @throws {CaromError} */
+  step(dt?: number): void;
+  /** Since the beginning [s]: the sum of all steps. */
+  readonly time: number;
+  /** Length of a frame of the scene [s]. */
+  readonly frameTime: number;
+
+  /** Everything the future depends on, to return to. */
+  snapshot(): Snapshot;
+  /** Returns to a snapshot, also of another world, bit for bit. The impacts of the last frame are
+   *  gone. */
+  restore(snapshot: Snapshot): void;
+  /** The state as one number in 16 hexadecimal digits, to compare worlds to the bit: the same that
+   *  `carom run` prints. */
+  stateHash(): string;
+
+  /** How many spheres there are. */
+  readonly count: number;
+  /** Centres [m]: x, y, z, x, y, z, ... */
+  readonly positions: Float64Array;
+  /** Velocities [m/s]: x, y, z, x, y, z, ... */
+  readonly velocities: Float64Array;
+  /** [m] */
+  readonly radii: Float64Array;
+  /** [kg] */
+  readonly masses: Float64Array;
+  /** Ids, ascending; an id is never given twice. `ids.indexOf(id)` is the place in the arrays. */
+  readonly ids: Float64Array;
+  /** Red, green, blue, red, ... in [0, 1] (sRGB). */
+  readonly colors: Float32Array;
+  /** Writes for each sphere the matrix of 4 by 4 that takes the unit sphere to it, column by column:
+   *  for `THREE.InstancedMesh.instanceMatrix.array`. @throws {RangeError} if there is not room */
+  writeMatrices(matrices: Float32Array | Float64Array | number[]): void;
+
+  /** Impacts of the last frame in order of time, an object each. */
+  readonly impacts: Impact[];
+  /** How many there are. */
+  readonly impactCount: number;
+  /** The same as one array of numbers, `IMPACT_COLUMNS.count` for each, a view as those above. */
+  readonly impactTable: Float64Array;
+  /** Spheres that emitters put into the world in the last frame. */
+  readonly emitted: number[];
+  /** Spheres that emitters took out again to make place. */
+  readonly retired: number[];
+  /** Spheres inside triggers at the end of the last frame. */
+  readonly triggers: { collider: number; sphere: number }[];
+
+  /** [J] */
+  kineticEnergy(): number;
+  /** [J], in all forces that have one. */
+  potentialEnergy(): number;
+  /** [J] */
+  totalEnergy(): number;
+  /** [kg m/s] */
+  momentum(): [number, number, number];
+  /** About the origin [kg m²/s]. */
+  angularMomentum(): [number, number, number];
+
+  /** Names, emitters, camera, light and colours of the scene. */
+  readonly scene: Scene;
+  /** How the world is stepped. */
+  readonly simulation: Simulation;
+  /** Surfaces where they are now, to be drawn. */
+  readonly colliders: Collider[];
+  /** Forces, each with its id. */
+  readonly forces: (Force & { id: number })[];
+  /** One sphere. @throws {CaromError} if it is not in the world */
+  sphere(id: number): Sphere;
+  /** The world of now as the text of a scene file: there, time begins at 0, and emitters begin
+   *  anew. */
+  toToml(): string;
+
+  /** Adds all of these, or nothing, and answers with their ids. They may overlap what is there.
+   *  @throws {SceneError} */
+  add(part: {
+    spheres?: SphereDescription[];
+    generators?: Generator[];
+    colliders?: ColliderDescription[];
+    forces?: Force[];
+  }): { spheres: number[]; colliders: number[]; forces: number[] };
+  /** Adds one, and answers with its id. @throws {SceneError} */
+  addSphere(sphere: SphereDescription): number;
+  /** Adds one, and answers with its id. @throws {SceneError} */
+  addCollider(collider: ColliderDescription): number;
+  /** Adds one, and answers with its id. @throws {SceneError} */
+  addForce(force: Force): number;
+
+  /** Changes what is given of a sphere. @throws {CaromError} */
+  setSphere(id: number, changes: SphereDescription): void;
+  /** Changes what is given of a collider. @throws {CaromError} */
+  setCollider(id: number, changes: Partial<ColliderDescription>): void;
+  /** Puts a force in the place of another. @throws {CaromError} */
+  setForce(id: number, force: Force): void;
+  /** Changes what is given of how the world is stepped. @throws {SceneError} */
+  setSimulation(changes: Partial<Simulation>): void;
+  /** @throws {CaromError} if it is not in the world */
+  removeSphere(id: number): void;
+  /** @throws {CaromError} if there is no such collider */
+  removeCollider(id: number): void;
+  /** @throws {CaromError} if there is no such force */
+  removeForce(id: number): void;
+
+  /** Gives the memory of the world back now, and not when it is collected as garbage. */
+  free(): void;
+}
+
+// `using world = ...`, for those whose TypeScript knows it.
+declare global {
+  interface SymbolConstructor {
+    readonly dispose: unique symbol;
+  }
+}
+export interface World {
+  [Symbol.dispose](): void;
+}
+export interface Snapshot {
+  [Symbol.dispose](): void;
+}

@@ -1,0 +1,8 @@
+import * as engine from "../engine/carom.js";
+import { attempt } from "./errors.js";
+import { parse } from "./names.js";
+
+/** The built-in scenes. */
+export function scenes() {
+  return parse(attempt(() => engine.scenes()));
+}

@@ -1,0 +1,22 @@
+// Arrays of the engine, looked at where they lie in its memory.
+
+import { engineMemory } from "../engine/carom.js";
+
+/**
+ * The views of one world. A view is made anew only where the array has moved, has another length, or
+ * where the memory has grown, which takes all views of it away.
+ */
+export class Views {
+  #views = new Map();
+
+  /** The view of this name: `length` numbers of a `Type` of array from `place` on. */
+  at(name, Type, place, length) {
+    const { buffer } = engineMemory();
+    let view = this.#views.get(name);
+    if (view?.buffer !== buffer || view.byteOffset !== place || view.length !== length) {
+      view = new Type(buffer, place, length);
+      this.#views.set(name, view);
+    }
+    return view;
+  }
+}

@@ -1,0 +1,269 @@
+// The world, as JavaScript sees it. What its parts mean and which units they have stands in
+// `index.d.ts`, where editors look for it.
+
+import * as engine from "../engine/carom.js";
+import { attempt, attemptPart, CaromError } from "./errors.js";
+import { IMPACT_COLUMNS, impacts } from "./impacts.js";
+import { writeMatrices } from "./matrices.js";
+import { parse } from "./names.js";
+import { override, tables } from "./toml.js";
+import { Views } from "./views.js";
+
+/** A name holds no equals sign, and the text of a scene cannot do without. */
+const isToml = (text) => text.includes("=");
+
+const EMPTY_SCENE = 'name = "world"';
+
+export class World {
+  /** The world of the engine; nothing once it is freed. */
+  #engine;
+  #views = new Views();
+
+  constructor(simulation = {}) {
+    if (simulation instanceof engine.World) {
+      this.#engine = simulation;
+      return;
+    }
+    this.#engine = engine.World.fromToml(EMPTY_SCENE, []);
+    this.setSimulation(simulation);
+  }
+
+  static fromScene(nameOrToml, overrides = {}) {
+    const changes = Object.entries(overrides).map(override);
+    const make = isToml(nameOrToml) ? engine.World.fromToml : engine.World.fromName;
+    return new World(attempt(() => make(nameOrToml, changes)));
+  }
+
+  free() {
+    this.#engine?.free();
+    this.#engine = undefined;
+  }
+
+  get #world() {
+    if (this.#engine === undefined) throw new CaromError("this world has been freed");
+    return this.#engine;
+  }
+
+  // Time.
+
+  step(dt = this.frameTime) {
+    const world = this.#world;
+    attempt(() => world.step(dt));
+  }
+
+  get time() {
+    return this.#world.time;
+  }
+
+  get frameTime() {
+    return this.#world.frameTime;
+  }
+
+  snapshot() {
+    return this.#world.snapshot();
+  }
+
+  restore(snapshot) {
+    this.#world.restore(snapshot);
+  }
+
+  stateHash() {
+    return this.#world.stateHash();
+  }
+
+  // Arrays of spheres.
+
+  get count() {
+    return this.#world.count;
+  }
+
+  get positions() {
+    return this.#view("positions", Float64Array, 3);
+  }
+
+  get velocities() {
+    return this.#view("velocities", Float64Array, 3);
+  }
+
+  get radii() {
+    return this.#view("radii", Float64Array, 1);
+  }
+
+  get masses() {
+    return this.#view("masses", Float64Array, 1);
+  }
+
+  get ids() {
+    return this.#view("ids", Float64Array, 1);
+  }
+
+  get colors() {
+    return this.#view("colors", Float32Array, 3);
+  }
+
+  #view(name, Type, width) {
+    const world = this.#world;
+    return this.#views.at(name, Type, world[name], width * world.count);
+  }
+
+  writeMatrices(matrices) {
+    writeMatrices(this, matrices);
+  }
+
+  // What happened in the last frame.
+
+  get impacts() {
+    return impacts(this.impactTable);
+  }
+
+  get impactCount() {
+    return this.#world.impactCount;
+  }
+
+  get impactTable() {
+    const world = this.#world;
+    // First the place: the table is made when it is asked for, and the memory may grow with it.
+    const place = world.impacts;
+    const length = IMPACT_COLUMNS.count * world.impactCount;
+    return this.#views.at("impacts", Float64Array, place, length);
+  }
+
+  get emitted() {
+    return Array.from(this.#world.emitted);
+  }
+
+  get retired() {
+    return Array.from(this.#world.retired);
+  }
+
+  get triggers() {
+    const pairs = this.#world.triggers;
+    return Array.from({ length: pairs.length / 2 }, (_, i) => ({
+      collider: pairs[2 * i],
+      sphere: pairs[2 * i + 1],
+    }));
+  }
+
+  // Sums over all spheres.
+
+  kineticEnergy() {
+    return this.#world.kineticEnergy();
+  }
+
+  potentialEnergy() {
+    return this.#world.potentialEnergy();
+  }
+
+  totalEnergy() {
+    return this.kineticEnergy() + this.potentialEnergy();
+  }
+
+  momentum() {
+    return Array.from(this.#world.momentum());
+  }
+
+  angularMomentum() {
+    return Array.from(this.#world.angularMomentum());
+  }
+
+  // What there is.
+
+  get scene() {
+    const { simulation, forces, colliders, ...scene } = parse(this.#world.scene());
+    return scene;
+  }
+
+  get simulation() {
+    return parse(this.#world.scene()).simulation;
+  }
+
+  get colliders() {
+    return parse(this.#world.colliders()).map((collider) => ({ ...COLLIDER, ...collider }));
+  }
+
+  get forces() {
+    return parse(this.#world.forces());
+  }
+
+  sphere(id) {
+    const world = this.#world;
+    return parse(attempt(() => world.sphere(id)));
+  }
+
+  toToml() {
+    return this.#world.toToml();
+  }
+
+  // Adding, changing, removing.
+
+  add({ spheres, generators, colliders, forces, ...others }) {
+    const [unknown] = Object.keys(others);
+    if (unknown !== undefined) {
+      const known = "spheres, generators, colliders and forces";
+      throw new TypeError(`to a running world ${known} can be added, not "${unknown}"`);
+    }
+    const [world, text] = [this.#world, tables({ spheres, generators, colliders, forces })];
+    return parse(attemptPart(() => world.add(text)));
+  }
+
+  addSphere(sphere) {
+    return this.add({ spheres: [sphere] }).spheres[0];
+  }
+
+  addCollider(collider) {
+    return this.add({ colliders: [collider] }).colliders[0];
+  }
+
+  addForce(force) {
+    return this.add({ forces: [force] }).forces[0];
+  }
+
+  setSphere(id, changes) {
+    // A size or mass of another kind takes the place of the one there is.
+    const { radius, mass, ...rest } = this.sphere(id);
+    const size = changes.diameter === undefined ? { radius } : {};
+    const weight = changes.density === undefined ? { mass } : {};
+    const text = tables({ spheres: [{ ...rest, ...size, ...weight, ...changes }] });
+    attemptPart(() => this.#world.setSphere(id, text));
+  }
+
+  setCollider(id, changes) {
+    const { id: _, ...now } = this.colliders.find((collider) => collider.id === id) ?? {};
+    const text = tables({ colliders: [{ ...now, ...changes }] });
+    attemptPart(() => this.#world.setCollider(id, text));
+  }
+
+  setForce(id, force) {
+    const text = tables({ forces: [force] });
+    attemptPart(() => this.#world.setForce(id, text));
+  }
+
+  setSimulation(changes) {
+    const text = tables({ simulation: { ...this.simulation, ...changes } });
+    attemptPart(() => this.#world.setSimulation(text));
+  }
+
+  removeSphere(id) {
+    attempt(() => this.#world.removeSphere(id));
+  }
+
+  removeCollider(id) {
+    attempt(() => this.#world.removeCollider(id));
+  }
+
+  removeForce(id) {
+    attempt(() => this.#world.removeForce(id));
+  }
+}
+
+// `using world = ...`, where the language has it.
+if (Symbol.dispose) World.prototype[Symbol.dispose] = World.prototype.free;
+
+/** What scene files leave out of a collider. */
+const COLLIDER = {
+  name: "",
+  velocity: [0, 0, 0],
+  angularVelocity: [0, 0, 0],
+  trigger: false,
+  visible: true,
+};

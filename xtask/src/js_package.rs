@@ -1,0 +1,120 @@
+//! The JavaScript package `carom`: put together, packed, tested, measured.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::shell::{Outcome, cargo, finish, root, target_folder};
+use crate::wasm_toolchain::{TARGET, WasmToolchain};
+use crate::web_tools::{folder, npm_packages, wasm_bindgen};
+use crate::{native_hashes, setup};
+
+/// What stands in the package as it stands in the repository: from where, to where.
+const FILES: [(&str, &str); 5] = [
+    ("web/package/package.json", "package.json"),
+    ("web/package/README.md", "README.md"),
+    ("web/package/src", "src"),
+    ("LICENSE-APACHE", "LICENSE-APACHE"),
+    ("LICENSE-MIT", "LICENSE-MIT"),
+];
+
+/// Puts the package together, and packs it as the registry of npm takes it. Returns the archive.
+pub fn build() -> Outcome<PathBuf> {
+    setup::page()?;
+    check_version()?;
+    // For speed: unlike the page, the package is small whatever the compiler does.
+    WasmToolchain::find()?.cargo(&["build", "--package", "carom-js", "--release"])?;
+    let module = target_folder().join(TARGET).join("release/carom_js.wasm");
+    let package = anew("js-package/package")?;
+    for (from, to) in FILES {
+        copy(&root().join(from), &package.join(to))?;
+    }
+    bind(&module, &package.join("engine"))?;
+    pack(&package)
+}
+
+/// Makes the package, and tests what a user of the archive gets, in Node.js.
+pub fn test() -> Outcome {
+    let archive = build()?;
+    npm_packages()?;
+    let user = anew("js-package/user")?;
+    write(&user.join("package.json"), "{ \"private\": true, \"type\": \"module\" }\n")?;
+    let quiet = ["--no-audit", "--no-fund", "--offline", "--quiet"];
+    finish("npm", Command::new("npm").arg("install").args(quiet).arg(&archive).current_dir(&user))?;
+    copy(&folder().join("package/tests"), &user.join("tests"))?;
+    write(&user.join("tests/native_hashes.json"), &native_hashes::json()?)?;
+    let compiler = folder().join("node_modules/typescript/bin/tsc");
+    let project = ["--project", "tests"];
+    finish("tsc", Command::new("node").arg(compiler).args(project).current_dir(&user))?;
+    finish("node", Command::new("node").args(["--test", "tests/"]).current_dir(&user))
+}
+
+/// Measures the package in Node.js against the native engine, frame by frame.
+pub fn bench() -> Outcome {
+    build()?;
+    cargo(&["build", "--release", "--package", "carom-js", "--example", "frame_times"])?;
+    let native = target_folder().join("release/examples/frame_times");
+    let package = target_folder().join("js-package/package/src/index.node.js");
+    let script = folder().join("package/bench/compare.js");
+    finish("node", Command::new("node").arg(script).arg(native).arg(package))
+}
+
+/// The package bears the version of the engine.
+fn check_version() -> Outcome {
+    let version = format!("\"version\": \"{}\"", env!("CARGO_PKG_VERSION"));
+    let file = folder().join("package/package.json");
+    let text = fs::read_to_string(&file).map_err(|error| said(&file, error))?;
+    if text.contains(&version) {
+        return Ok(());
+    }
+    Err(format!("{} must say {version}, as Cargo.toml does", file.display()))
+}
+
+/// Has `wasm-bindgen` make a module of JavaScript around the engine. Where the engine is fetched
+/// from, the package says itself.
+fn bind(module: &Path, out: &Path) -> Outcome {
+    let options = ["--target", "web", "--omit-default-module-path", "--no-typescript"];
+    let mut command = Command::new(wasm_bindgen()?);
+    command.args(options).args(["--remove-producers-section", "--out-name", "carom"]);
+    finish("wasm-bindgen", command.arg("--out-dir").arg(out).arg(module))
+}
+
+/// Packs a folder. Returns the archive, beside it.
+fn pack(package: &Path) -> Outcome<PathBuf> {
+    let folder = package.parent().unwrap_or(package);
+    let mut command = Command::new("npm");
+    command.args(["pack", "--pack-destination"]).arg(folder).current_dir(package);
+    finish("npm", &mut command)?;
+    Ok(folder.join(concat!("carom-", env!("CARGO_PKG_VERSION"), ".tgz")))
+}
+
+/// An empty folder among what is built.
+fn anew(name: &str) -> Outcome<PathBuf> {
+    let folder = target_folder().join(name);
+    if folder.exists() {
+        fs::remove_dir_all(&folder).map_err(|error| said(&folder, error))?;
+    }
+    fs::create_dir_all(&folder).map_err(|error| said(&folder, error))?;
+    Ok(folder)
+}
+
+/// Copies a file, or a folder with all that is in it.
+fn copy(from: &Path, to: &Path) -> Outcome {
+    if !from.is_dir() {
+        return fs::copy(from, to).map(drop).map_err(|error| said(from, error));
+    }
+    fs::create_dir_all(to).map_err(|error| said(to, error))?;
+    for entry in fs::read_dir(from).map_err(|error| said(from, error))? {
+        let entry = entry.map_err(|error| said(from, error))?;
+        copy(&entry.path(), &to.join(entry.file_name()))?;
+    }
+    Ok(())
+}
+
+fn write(file: &Path, text: &str) -> Outcome {
+    fs::write(file, text).map_err(|error| said(file, error))
+}
+
+fn said(path: &Path, error: std::io::Error) -> String {
+    format!("{}: {error}", path.display())
+}
