@@ -104,6 +104,8 @@ test("on a phone a tap chooses, a finger turns the camera, and two come nearer",
 test("on a phone a finger tilts the maze", async () => {
   const viewer = await desk.open("#scene=maze", { ...PHONE, colorScheme: "dark" });
   const { maze: before } = await viewer.until(({ maze }) => maze);
+  // A finger finds what has been drawn.
+  await viewer.redraw();
   const { send } = await fingers(viewer);
   await send("touchStart", [250, 500]);
   await send("touchMove", [200, 500]);
