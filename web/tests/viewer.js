@@ -63,7 +63,9 @@ export class Desk {
   async watch(scene, options) {
     const viewer = await this.open("", options);
     await viewer.page.keyboard.type(scene);
-    await viewer.pause(300);
+    while ((await viewer.widget(scene, "Button")).value !== "true") {
+      // The choice follows the letters with the next picture.
+    }
     await viewer.page.keyboard.press("Enter");
     await viewer.until((status) => status.watching?.scene === scene);
     // Keys belong to the chooser's text until the next picture.
