@@ -530,11 +530,12 @@ impl App {
         for (text, action) in [
             ("Picture", Action::Screenshot),
             ("Film", Action::Record),
+            ("Save", Action::Save),
             ("Link", Action::Link),
             ("Light/dark", Action::Theme),
             ("Keys", Action::Help),
         ] {
-            if ui.button(text).clicked() {
+            if ui.button(text).on_hover_text(action.text()).clicked() {
                 actions.push(action);
             }
         }
