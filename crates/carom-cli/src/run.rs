@@ -19,6 +19,7 @@ use crate::summary::{Observer, Summary};
 pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
     let (mut replay, frames) = match (&args.link, &args.scene) {
         (Some(link), _) => link::begin(link)?,
+        // Without a link there is a scene: the command line demands it.
         (None, scene) => begin(library, scene.as_deref().unwrap_or_default(), args)?,
     };
 

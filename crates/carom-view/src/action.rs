@@ -33,6 +33,12 @@ pub enum Action {
 }
 
 impl Action {
+    /// What it does, for people.
+    pub fn text(self) -> &'static str {
+        let shortcut = SHORTCUTS.iter().find(|shortcut| shortcut.action == self);
+        shortcut.map_or("", |shortcut| shortcut.text)
+    }
+
     /// Whether it is done again and again while its key is held.
     fn repeats(self) -> bool {
         matches!(self, Self::Step | Self::StepBack | Self::Faster | Self::Slower)

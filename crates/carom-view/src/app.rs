@@ -17,6 +17,7 @@ use crate::chooser::Chooser;
 use crate::exports::{Exports, Outlet};
 use crate::help;
 use crate::host::{Host, Inbox, ReadFile};
+use crate::layout::is_narrow;
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
 use crate::orbit::Preset;
@@ -504,27 +505,40 @@ impl App {
                 ui.strong(name);
                 ui.separator();
             }
-            if let Screen::Watching(watching) = &self.screen {
-                actions.extend(watching.switches(ui));
-                ui.separator();
-            }
-            match self.mazes(ui) {
-                Some(Ok(maze)) => self.play(maze),
-                Some(Err(error)) => self.notices.complain(error),
-                None => {}
-            }
-            for (text, action) in [
-                ("Picture", Action::Screenshot),
-                ("Film", Action::Record),
-                ("Link", Action::Link),
-                ("Light/dark", Action::Theme),
-                ("Keys", Action::Help),
-            ] {
-                if ui.button(text).clicked() {
-                    actions.push(action);
-                }
+            if is_narrow(ui) {
+                let menu = ui.menu_button("Menu", |ui| self.switches(ui));
+                actions.extend(menu.inner.unwrap_or_default());
+            } else {
+                actions.extend(self.switches(ui));
             }
         });
+        actions
+    }
+
+    /// Everything in the bar but the choice of a scene.
+    fn switches(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let mut actions = Vec::new();
+        if let Screen::Watching(watching) = &self.screen {
+            actions.extend(watching.switches(ui));
+            ui.separator();
+        }
+        match self.mazes(ui) {
+            Some(Ok(maze)) => self.play(maze),
+            Some(Err(error)) => self.notices.complain(error),
+            None => {}
+        }
+        for (text, action) in [
+            ("Picture", Action::Screenshot),
+            ("Film", Action::Record),
+            ("Save", Action::Save),
+            ("Link", Action::Link),
+            ("Light/dark", Action::Theme),
+            ("Keys", Action::Help),
+        ] {
+            if ui.button(text).on_hover_text(action.text()).clicked() {
+                actions.push(action);
+            }
+        }
         actions
     }
 

@@ -19,6 +19,7 @@ mod help;
 mod host;
 mod impact_list;
 mod inspector;
+mod layout;
 mod look;
 mod maze_screen;
 mod naming;

@@ -14,6 +14,7 @@ use web_time::Instant;
 
 use crate::action::Action;
 use crate::inspector::{self, Throw};
+use crate::layout::is_narrow;
 use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
 use crate::plots;
@@ -72,10 +73,6 @@ pub struct Manner {
     /// Whether a film is being recorded.
     pub recording: bool,
 }
-
-/// Below this width the inspector would leave too little of the picture, and is closed at first, in
-/// points.
-const NARROW: f32 = 640.0;
 
 /// Longest time for frames before a picture, where both share a thread \[s\].
 const INLINE_BUDGET: f64 = 0.02;
@@ -247,7 +244,7 @@ impl Watching {
 
     /// The panels around the picture. Returns what their buttons ask for.
     pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
-        if self.drawn[0].is_none() && ui.available_width() < NARROW {
+        if self.drawn[0].is_none() && is_narrow(ui) {
             self.panels.inspector = false;
         }
         let Self { driver, commands, panels, plots, throw, .. } = self;

@@ -6,6 +6,8 @@ mod comparison;
 mod driver;
 mod edits;
 mod link;
+mod link_random;
+mod link_refusals;
 mod pace;
 mod past;
 mod readings;

@@ -6,6 +6,7 @@ mod desk;
 mod files;
 mod links;
 mod maze;
+mod narrow;
 mod pictures;
 mod scenes;
 mod touch;
