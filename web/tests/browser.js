@@ -37,6 +37,8 @@ export function launch(graphics) {
   return chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: [...QUIET, ...GRAPHICS[graphics]],
+    // A busy machine takes its time.
+    timeout: 120_000,
     // Without it Chromium starts for root under no circumstances.
     chromiumSandbox: process.getuid?.() !== 0,
   });
