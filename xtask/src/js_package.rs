@@ -29,7 +29,7 @@ pub fn build() -> Outcome<PathBuf> {
     for (from, to) in FILES {
         copy(&root().join(from), &package.join(to))?;
     }
-    bind(&module, &package.join("engine"))?;
+    bind(&module, &package.join("src"))?;
     pack(&package)
 }
 
@@ -75,7 +75,7 @@ fn check_version() -> Outcome {
 fn bind(module: &Path, out: &Path) -> Outcome {
     let options = ["--target", "web", "--omit-default-module-path", "--no-typescript"];
     let mut command = Command::new(wasm_bindgen()?);
-    command.args(options).args(["--remove-producers-section", "--out-name", "carom"]);
+    command.args(options).args(["--remove-producers-section", "--out-name", "engine"]);
     finish("wasm-bindgen", command.arg("--out-dir").arg(out).arg(module))
 }
 

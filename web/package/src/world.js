@@ -1,7 +1,7 @@
 // The world, as JavaScript sees it. What its parts mean and which units they have stands in
 // `index.d.ts`, where editors look for it.
 
-import * as engine from "../engine/carom.js";
+import * as engine from "./engine.js";
 import { attempt, attemptPart, CaromError } from "./errors.js";
 import { IMPACT_COLUMNS, impacts } from "./impacts.js";
 import { writeMatrices } from "./matrices.js";
