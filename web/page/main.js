@@ -8,6 +8,7 @@ import { fetchModule } from "./fetch_module.js";
 import { canDraw } from "./graphics.js";
 import { keepKeysFromScrolling } from "./keys.js";
 import { loading } from "./loading.js";
+import { checkPixelSize } from "./pixel_size.js";
 import { services } from "./services.js";
 import { Trouble, inWords } from "./trouble.js";
 
@@ -24,6 +25,7 @@ async function start() {
     );
   }
   await init({ module_or_path: await fetchModule(loading.show) });
+  await checkPixelSize(canvas);
   keepKeysFromScrolling(canvas);
   const page = await Page.start(canvas, services, address());
   onAddressChange((fragment) => page.openFragment(fragment));

@@ -22,9 +22,10 @@ Usage: cargo xtask COMMAND
 
   demo      set up, run every built-in scene, make pictures and a film in out/, open the window
   test      set up, then every check: format, clippy, tests, documents, schema, the browser's target
-  web       make the page in web/dist; `web --serve [PORT]` also serves it on this machine,
-            `web --sizes` says what takes the space, `web --test` tests it in a browser;
-            `web --package` makes the JavaScript package, `web --test-package` tests it in Node.js
+  web       make the page in web/dist and the JavaScript package; `web --serve [PORT]` makes the
+            page and serves it on this machine, `web --sizes` says what takes its space, `web --test`
+            tests it in a browser; `web --package` makes the package alone, `web --test-package`
+            tests it in Node.js
   schema    write scenes/scene.schema.json anew from the scene types
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
             pictures and of the interface, `bench web` the JavaScript package against the native
@@ -36,7 +37,7 @@ fn main() -> ExitCode {
     let result = match arguments[..] {
         ["demo"] => demo::demo(),
         ["test"] => test::test(),
-        ["web"] => web::build(),
+        ["web"] => web::build().and_then(|()| js_package::build()).map(drop),
         ["web", "--serve"] => web::serve(web::PORT),
         ["web", "--serve", port] => web::serve(port),
         ["web", "--sizes"] => web::sizes(),

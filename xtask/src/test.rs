@@ -1,7 +1,7 @@
 //! Every check, in the order in which they fail fastest.
 
 use crate::shell::{Outcome, cargo, cargo_with};
-use crate::{architecture, setup, wasm, web};
+use crate::{architecture, js_package, setup, wasm, web};
 
 /// Runs every check.
 pub fn test() -> Outcome {
@@ -39,5 +39,7 @@ pub fn test() -> Outcome {
         test("carom", "exact")?;
         test("carom-scene", "scenes")?;
     }
+    // And in other languages and places.
+    js_package::test()?;
     web::test()
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::shell::{Outcome, finish, target_folder};
+use crate::shell::{Outcome, cargo, finish, target_folder};
 use crate::web_tools::{folder, node, npm_packages, wasm_bindgen};
 use crate::{setup, wasm};
 
@@ -44,8 +44,31 @@ pub fn test() -> Outcome {
     build()?;
     setup::browser()?;
     node(&["node_modules/typescript/bin/tsc", "--project", "."], &[])?;
+    // What a run gives outside of browsers.
+    cargo(&["build", "--release", "--package", "carom-cli", "--no-default-features", "--quiet"])?;
+    let carom = target_folder().join("release/carom");
+    let carom = carom.to_string_lossy();
     // One file after another: frame times are measured, and a browser uses all there is.
-    node(&["--test", "--test-concurrency=1"], &[])
+    let files = test_files()?;
+    let files = files.iter().map(String::as_str);
+    let arguments: Vec<&str> =
+        ["--test", "--test-concurrency=1"].into_iter().chain(files).collect();
+    node(&arguments, &[("CAROM", &carom)])
+}
+
+/// The files of tests, by name: not every version of Node.js finds them in a folder.
+fn test_files() -> Outcome<Vec<String>> {
+    let mut names = Vec::new();
+    let entries = fs::read_dir(folder().join("tests")).map_err(|error| error.to_string())?;
+    for entry in entries {
+        let name = entry.map_err(|error| error.to_string())?.file_name();
+        let name = name.to_string_lossy();
+        if name.ends_with(".test.js") {
+            names.push(format!("tests/{name}"));
+        }
+    }
+    names.sort_unstable();
+    Ok(names)
 }
 
 /// Has `wasm-bindgen` make a module of JavaScript around one of WebAssembly.

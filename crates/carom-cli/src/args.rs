@@ -6,6 +6,7 @@ use carom_scene::{Library, Override, Scene, Source};
 use clap::{Parser, Subcommand};
 
 use crate::failure::Failure;
+use crate::link::Link;
 #[cfg(feature = "pictures")]
 use crate::pictures::args::{Maze, Picture, Record};
 #[cfg(feature = "view")]
@@ -75,8 +76,10 @@ pub enum Command {
     },
     /// Print a scene as TOML, every default written out.
     Show(Show),
-    /// Run a scene and print what became of it.
+    /// Run a scene, or what a link leads to, and print what became of it.
     Run(Box<Run>),
+    /// Print a link that opens a run of a scene in a browser; `carom run --link` runs it here.
+    Link(Link),
     /// Check this build against exact results and published values of physics. Ends with code 1 if
     /// it misses one, whichever rule it was asked to use.
     Verify(Verify),
@@ -122,6 +125,16 @@ impl Choice {
     ) -> Result<Scene, Failure> {
         Ok(self.changes.find(library, &self.scene, more)?.0)
     }
+
+    /// Name or title of the scene, or its file.
+    pub fn scene(&self) -> &str {
+        &self.scene
+    }
+
+    /// What is different in it.
+    pub fn changes(&self) -> &Changes {
+        &self.changes
+    }
 }
 
 /// What is different in a scene.
@@ -142,11 +155,19 @@ impl Changes {
         scene: &str,
         more: impl IntoIterator<Item = String>,
     ) -> Result<(Scene, Source), Failure> {
+        Ok(library.find(scene, &self.overrides(more)?)?)
+    }
+
+    /// These changes, and then those of `more`.
+    pub fn overrides(
+        &self,
+        more: impl IntoIterator<Item = String>,
+    ) -> Result<Vec<Override>, Failure> {
         let mut overrides = self.overrides.clone();
         for text in more {
             overrides.push(text.parse()?);
         }
-        Ok(library.find(scene, &overrides)?)
+        Ok(overrides)
     }
 }
 
@@ -212,9 +233,17 @@ pub fn countable(frames: f64, h: f64) -> Result<u64, Failure> {
 /// Run a scene.
 #[derive(Debug, clap::Args)]
 pub struct Run {
-    /// Which scene.
+    /// Name or title of a scene, or a scene file.
+    #[arg(required_unless_present = "link")]
+    pub scene: Option<String>,
+    /// What is different.
     #[command(flatten)]
-    pub choice: Choice,
+    pub changes: Changes,
+    /// Run what a link leads to, as long as it says, with all that was changed on the way; `-`
+    /// reads the link from the standard input, where it is too long for a command line.
+    #[arg(long, value_name = "URL")]
+    #[arg(conflicts_with_all = ["scene", "overrides", "rule", "frame_time", "seconds", "frames"])]
+    pub link: Option<String>,
     /// Step rule, instead of the scene's own. `bisect` winds back only the spheres that meet
     /// unless the scene says simulation.bisect.wind_back = "all", the tutorial's way.
     #[arg(long, value_parser = RULES)]

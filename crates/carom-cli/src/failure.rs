@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use carom_scene::SceneError;
 use carom_scene::recording::RecordingError;
+use carom_session::{LinkError, SessionError};
 
 /// Why a command stops before its end.
 #[derive(Debug)]
@@ -61,6 +62,27 @@ impl From<RecordingError> for Failure {
         match error {
             RecordingError::UnknownFormat { .. } => Self::Usage(message),
             _ => Self::Fault(message),
+        }
+    }
+}
+
+impl From<SessionError> for Failure {
+    fn from(error: SessionError) -> Self {
+        match error {
+            SessionError::Scene(error) => error.into(),
+            SessionError::Time { .. } | SessionError::TooFar { .. } => {
+                Self::Usage(error.to_string())
+            }
+            _ => Self::Fault(error.to_string()),
+        }
+    }
+}
+
+impl From<LinkError> for Failure {
+    fn from(error: LinkError) -> Self {
+        match error {
+            LinkError::Scene(error) => error.into(),
+            _ => Self::Usage(error.to_string()),
         }
     }
 }

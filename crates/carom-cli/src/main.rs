@@ -8,6 +8,7 @@ mod compare;
 mod failure;
 mod gas;
 mod interruption;
+mod link;
 mod machine;
 mod numbers;
 #[cfg(feature = "pictures")]
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
         Command::Check { files } => scenes::check(files),
         Command::Show(show) => library().and_then(|it| scenes::show(&it, show)),
         Command::Run(run) => library().and_then(|it| run::run(&it, run)),
+        Command::Link(link) => library().and_then(|it| link::link(&it, link)),
         Command::Verify(verify) => verify::verify(verify),
         Command::Compare(compare) => library().and_then(|it| compare::compare(&it, compare)),
         Command::Bench(bench) => bench::bench(bench),

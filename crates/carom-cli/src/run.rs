@@ -6,33 +6,35 @@ use carom::World;
 use carom_scene::Library;
 use carom_scene::recording::{ImpactTable, LedgerTable, Trajectory};
 use carom_scene::scene::Rule;
+use carom_session::Replay;
 
 use crate::args::Run;
 use crate::failure::Failure;
 use crate::interruption::interruption;
+use crate::link;
 use crate::progress::Progress;
 use crate::summary::{Observer, Summary};
 
 /// Runs a scene and prints what became of it.
 pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
-    let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
-    let scene = args.choice.find(library, rule.chain(args.length.overrides()))?;
-    let h = scene.simulation.frame_time;
-    let frames = args.length.frames(scene.simulation.duration, h)?;
+    let (mut replay, frames) = match (&args.link, &args.scene) {
+        (Some(link), _) => link::begin(link)?,
+        // Without a link there is a scene: the command line demands it.
+        (None, scene) => begin(library, scene.as_deref().unwrap_or_default(), args)?,
+    };
 
-    let mut outputs = Outputs::create(args, scene.simulation.rule)?;
-    let mut world = scene.world()?;
+    let mut outputs = Outputs::create(args, replay.simulation().rule)?;
     let interrupted = interruption()?;
-    let mut observer = Observer::new(&world);
+    let mut observer = Observer::new(replay.world());
     let progress = Progress::new(frames);
     let mut result = Ok(());
     for frame in 1..=frames {
-        let start = world.time();
+        let start = replay.world().time();
         result = observer
-            .step(&mut world, h)
+            .step(&mut replay)
             .map_err(Failure::from)
-            .and_then(|()| outputs.write(frame, start, &world));
-        progress.show(frame, world.time());
+            .and_then(|()| outputs.write(frame, start, replay.world()));
+        progress.show(frame, replay.world().time());
         if result.is_err() || interrupted.load(Ordering::Relaxed) {
             break;
         }
@@ -42,8 +44,17 @@ pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
     let finished = outputs.finish();
     result?;
     finished?;
-    Summary::new(&scene, &world, observer).print(args.json)?;
+    Summary::new(&replay, observer).print(args.json)?;
     if interrupted.load(Ordering::Relaxed) { Err(Failure::Interrupted) } else { Ok(()) }
+}
+
+/// A scene at its beginning, and how many frames of it to take.
+fn begin(library: &Library, scene: &str, args: &Run) -> Result<(Replay, u64), Failure> {
+    let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
+    let (scene, _) = args.changes.find(library, scene, rule.chain(args.length.overrides()))?;
+    let simulation = &scene.simulation;
+    let frames = args.length.frames(simulation.duration, simulation.frame_time)?;
+    Ok((Replay::new(scene)?, frames))
 }
 
 /// The files of a run.

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
 use carom::{DVec3, World};
-use carom_scene::Scene;
 use carom_scene::scene::{ImpactLaw, Integrator, Rule, WindBack};
+use carom_session::{Replay, SessionError};
 use serde::Serialize;
 
 /// Watches a run.
@@ -45,11 +45,12 @@ impl Observer {
         }
     }
 
-    /// Steps the world, and notes what happened.
-    pub fn step(&mut self, world: &mut World, h: f64) -> Result<(), carom::Error> {
+    /// Takes a frame, and notes what happened.
+    pub fn step(&mut self, replay: &mut Replay) -> Result<(), SessionError> {
         let began = Instant::now();
-        let report = world.step(h)?;
+        replay.step()?;
         self.stepping += began.elapsed();
+        let (world, report) = (replay.world(), replay.world().report());
         self.frames += 1;
         self.impacts += report.impacts.len() as u64;
         self.trigger_contacts += report.triggers.len() as u64;
@@ -79,6 +80,8 @@ pub struct Summary {
     impact_law: Option<ImpactLaw>,
     frame_time: f64,
     frames: u64,
+    /// Made on the way, where a link says so.
+    edits: usize,
     simulated_time: f64,
     spheres: usize,
     emitted: u64,
@@ -104,18 +107,19 @@ pub struct Summary {
 }
 
 impl Summary {
-    pub fn new(scene: &Scene, world: &World, observer: Observer) -> Self {
-        let simulation = &scene.simulation;
+    pub fn new(replay: &Replay, observer: Observer) -> Self {
+        let (world, simulation) = (replay.world(), replay.simulation());
         let is_bisect = simulation.rule == Rule::Bisect;
         let is_exact = simulation.rule == Rule::Exact;
         Self {
-            scene: scene.name.clone(),
+            scene: replay.scene().name.clone(),
             rule: simulation.rule,
             wind_back: is_bisect.then_some(simulation.bisect.wind_back),
             integrator: (!is_exact).then_some(simulation.integrator),
             impact_law: is_exact.then_some(simulation.impact_law),
             frame_time: simulation.frame_time,
             frames: observer.frames,
+            edits: replay.edits(),
             simulated_time: world.time(),
             spheres: world.spheres().len(),
             emitted: observer.emitted,
@@ -194,6 +198,9 @@ impl Summary {
         if self.trigger_contacts > 0 {
             let text = format!("{} times a sphere in a frame", self.trigger_contacts);
             rows.insert(5, ("in triggers", text));
+        }
+        if self.edits > 0 {
+            rows.insert(3, ("edits", format!("{} made on the way", self.edits)));
         }
         if self.unfinished_islands > 0 {
             let text = format!(

@@ -9,6 +9,7 @@ use carom_view::{Desktop, Setup, Start, default_folder, window};
 
 use crate::args::{Changes, RULES};
 use crate::failure::Failure;
+use crate::link::{self, usual_page};
 use crate::pictures::args::quality;
 
 /// Watch a scene.
@@ -16,6 +17,10 @@ use crate::pictures::args::quality;
 pub struct View {
     /// Name or title of a scene, or a scene file; unless given, it is chosen in the window.
     scene: Option<String>,
+    /// Open the run that a link leads to, at its time, instead; - reads the link from the standard
+    /// input.
+    #[arg(long, value_name = "URL", conflicts_with_all = ["scene", "rule", "watch"])]
+    link: Option<String>,
     /// What is different.
     #[command(flatten)]
     changes: Changes,
@@ -37,7 +42,10 @@ pub struct View {
 pub fn view(library: Library, args: &View) -> Result<(), Failure> {
     let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
     let found = args.scene.as_deref().map(|scene| args.changes.find(&library, scene, rule));
-    let start = found.transpose()?.map(|(scene, source)| start(scene, source, args.watch));
+    let start = match &args.link {
+        Some(link) => Some(Start::Link(Box::new(link::read(link)?))),
+        None => found.transpose()?.map(|(scene, source)| start(scene, source, args.watch)),
+    };
     let folder = args.out.clone();
     open(library, start, folder, args.quality)
 }
@@ -62,7 +70,8 @@ fn open(
     folder: Option<PathBuf>,
     quality: Quality,
 ) -> Result<(), Failure> {
-    let host = Box::new(Desktop::new(folder.unwrap_or_else(default_folder)));
+    let desktop = Desktop::new(folder.unwrap_or_else(default_folder)).with_page(usual_page());
+    let host = Box::new(desktop);
     let setup = Setup { library, start, host, quality, threaded: true };
     window::open(setup).map_err(|error| Failure::Fault(error.to_string()))
 }

@@ -4,6 +4,10 @@ use toml::{Table, Value};
 
 use crate::error::{SceneError, segments};
 
+/// Most names and indices in a path: twice of what leads to the deepest values of scenes. Text from
+/// elsewhere must not make tables in tables until the stack ends.
+const DEEPEST: usize = 16;
+
 /// A changed value of a scene, like `emitters.0.max_spheres=100`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Override {
@@ -30,6 +34,9 @@ impl std::str::FromStr for Override {
         let path = segments(path.trim());
         if path.is_empty() {
             return Err(bad_override(text, "write it as path=value"));
+        }
+        if path.len() > DEEPEST {
+            return Err(bad_override(text, "no value of a scene lies so deep"));
         }
         let value = value.trim();
         if value == "none" {

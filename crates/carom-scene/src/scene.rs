@@ -139,6 +139,17 @@ pub enum Rule {
     Exact,
 }
 
+impl std::fmt::Display for Rule {
+    /// Its name in scene files.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Self::Discrete => "discrete",
+            Self::Bisect => "bisect",
+            Self::Exact => "exact",
+        })
+    }
+}
+
 /// How impacts at one instant among spheres that touch are answered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

@@ -273,7 +273,8 @@ fn overrides_change_values_by_their_path() {
     assert_eq!(with(&unlimited).unwrap().emitters[0].max_spheres, None);
     assert_eq!(with(&["simulation.integrator=rk4"]).unwrap().settings().integrator, RK4);
 
-    for bad in ["simulation.rule", "=3", "a..b=3", ".a=3", "[]=3"] {
+    let deep = format!("{}=3", vec!["a"; 100_000].join("."));
+    for bad in ["simulation.rule", "=3", "a..b=3", ".a=3", "[]=3", &deep] {
         assert!(matches!(set(bad), Err(SceneError::BadOverride { .. })), "{bad}");
     }
     let refusals = [

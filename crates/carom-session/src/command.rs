@@ -4,6 +4,7 @@ use carom::SphereId;
 use carom_scene::scene::{Rule, Scene};
 
 use crate::edit::Edit;
+use crate::link::Link;
 
 /// What a driver can be told. Commands are obeyed in the order in which they are sent; one that
 /// fails says why in the next view, and changes nothing.
@@ -36,6 +37,9 @@ pub enum Command {
     ShowStateHash(bool),
     /// Open another scene; time goes on there, if it did.
     Open(Box<Scene>),
+    /// Open a scene, the one of a link, and go where the link leads, changing on the way what was
+    /// changed there; time goes on from there, if it did.
+    Replay(Box<Scene>, Box<Link>),
     /// Open a scene under two rules side by side.
     Compare(Box<Scene>, [Rule; 2]),
 }
@@ -45,7 +49,7 @@ impl Command {
     pub(crate) fn goes_elsewhere(&self) -> bool {
         match self {
             Self::Restart | Self::Seek(_) | Self::StopSeeking => true,
-            Self::Open(_) | Self::Compare(..) => true,
+            Self::Open(_) | Self::Replay(..) | Self::Compare(..) => true,
             Self::Play | Self::Pause | Self::Step | Self::StepBack | Self::Speed(_) => false,
             Self::Edit(_) | Self::Pick(_) | Self::ShowStateHash(_) => false,
         }

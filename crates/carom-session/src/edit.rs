@@ -8,6 +8,7 @@ use carom::{
 use carom_scene::SceneError;
 use carom_scene::scene::{self, Color, Force, Scene, Simulation};
 
+use crate::change::Change;
 use crate::error::SessionError;
 use crate::looks::{self, Looks};
 use crate::setup::{Setup, describe_emitter};
@@ -160,6 +161,27 @@ pub(crate) fn apply(edit: &Edit, scene: &Scene, to: Subjects) -> Result<(), Sess
         }
         Edit::RemoveSphere(id) => Ok(world.remove_sphere(*id).map(drop)?),
     }
+}
+
+/// Makes a change, of whichever kind.
+///
+/// # Errors
+/// As [`apply`].
+pub(crate) fn make(change: &Change, scene: &Scene, to: Subjects) -> Result<(), SessionError> {
+    match change {
+        Change::Edit(edit) => apply(edit, scene, to),
+        Change::FailedStep => {
+            begin_flights_anew(to.world);
+            Ok(())
+        }
+    }
+}
+
+/// As it happens after a step that failed.
+pub(crate) fn begin_flights_anew(world: &mut World) {
+    let settings = *world.settings();
+    // Settings that the world has were not refused when it got them.
+    let _ = world.set_settings(settings);
 }
 
 fn set_simulation(

@@ -3,7 +3,7 @@
 use carom_scene::SceneError;
 use thiserror::Error;
 
-/// Why something could not be done. The session is as it was before.
+/// Why something could not be done. The session is as it was before, unless said otherwise.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SessionError {
@@ -13,9 +13,23 @@ pub enum SessionError {
     /// It would make a scene that no file could hold.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A change of a run that is repeated cannot be made.
+    #[error("at frame {frame}, what was changed there cannot be changed again: {source}")]
+    Repeat {
+        /// Where it is now; the changes that were to follow are dropped.
+        frame: u64,
+        /// What is wrong with the change.
+        source: Box<SessionError>,
+    },
     /// No frame is at this time.
     #[error("cannot go to {seconds} s: the time must be zero or positive, and finite")]
     Time {
+        /// What was asked for \[s\].
+        seconds: f64,
+    },
+    /// The frame at this time cannot be named.
+    #[error("cannot go to {seconds} s: so many frames cannot be counted")]
+    TooFar {
         /// What was asked for \[s\].
         seconds: f64,
     },

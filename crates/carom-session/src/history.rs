@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use carom::{Rule, Snapshot, World};
 
-use crate::edit::Edit;
+use crate::change::{Change, PastChange};
+use crate::error::SessionError;
 use crate::looks::Looks;
 use crate::setup::Setup;
+use crate::timetable::Timetable;
 
 /// Memory that the moments kept may take, unless told otherwise \[bytes\].
 pub const DEFAULT_MEMORY: usize = 256 << 20;
@@ -27,15 +29,6 @@ const BYTES_PER_COLLIDER: usize = 3000;
 
 /// Memory of everything whose amount does not grow \[bytes\], generously.
 const BYTES_PER_MOMENT: usize = 2000;
-
-/// Something that changed the world from outside of a step.
-#[derive(Debug, Clone)]
-pub(crate) enum Change {
-    /// An edit.
-    Edit(Edit),
-    /// A step failed, after which flights begin anew.
-    FailedStep,
-}
 
 /// A session at one moment.
 #[derive(Debug, Clone)]
@@ -82,16 +75,6 @@ fn estimated_bytes(world: &World, frame: u64) -> usize {
         + world.colliders().len() * BYTES_PER_COLLIDER
 }
 
-/// A stretch of frames of one length.
-#[derive(Debug, Clone, Copy)]
-struct Piece {
-    frame: u64,
-    /// At its first frame \[s\].
-    time: f64,
-    /// \[s\]
-    frame_time: f64,
-}
-
 /// The past of a session: moments, and the changes from outside.
 ///
 /// Steps and changes are deterministic, so each frame follows from any moment before it. Changes
@@ -101,22 +84,23 @@ struct Piece {
 pub(crate) struct History {
     /// Ascending by frame; the first is frame 0.
     moments: Vec<Moment>,
-    /// Ascending by frame.
-    changes: Vec<(u64, Change)>,
-    /// Ascending; never empty.
-    pieces: Vec<Piece>,
+    /// Ascending by frame. Those after the furthest frame are made when it is reached.
+    changes: Arc<Vec<PastChange>>,
+    /// Up to the furthest frame.
+    timetable: Timetable,
     furthest: (u64, f64),
     /// Bound on the memory of the moments but the first \[bytes\].
     memory: usize,
 }
 
 impl History {
-    /// A past that begins with `start`, with frames of `frame_time` \[s\].
-    pub fn new(start: Moment, frame_time: f64) -> Self {
+    /// A past that begins with `start`, with frames of `frame_time` \[s\]; `changes`, ascending by
+    /// frame, are to come.
+    pub fn new(start: Moment, frame_time: f64, changes: Arc<Vec<PastChange>>) -> Self {
         Self {
             moments: vec![start],
-            changes: Vec::new(),
-            pieces: vec![Piece { frame: 0, time: 0.0, frame_time }],
+            changes,
+            timetable: Timetable::new(frame_time),
             furthest: (0, 0.0),
             memory: DEFAULT_MEMORY,
         }
@@ -145,45 +129,62 @@ impl History {
         }
     }
 
+    /// All changes, ascending by frame; those after the furthest frame are still to come.
+    pub fn changes(&self) -> &Arc<Vec<PastChange>> {
+        &self.changes
+    }
+
     /// The change after the first `done`, if it comes at this frame.
     pub fn change_at(&self, frame: u64, done: usize) -> Option<&Change> {
-        self.changes.get(done).filter(|(at, _)| *at == frame).map(|(_, change)| change)
+        self.changes.get(done).filter(|it| it.frame == frame).map(|it| &it.change)
+    }
+
+    /// Forgets all changes but the first `count`.
+    pub fn forget_changes_after(&mut self, count: usize) {
+        Arc::make_mut(&mut self.changes).truncate(count);
     }
 
     /// Cuts off what comes after this frame, at `time` \[s\].
     pub fn cut(&mut self, frame: u64, time: f64) {
         self.moments.retain(|moment| moment.frame <= frame);
-        self.changes.retain(|(at, _)| *at <= frame);
-        self.pieces.retain(|piece| piece.frame <= frame);
+        self.forget_changes_after(self.changes.partition_point(|it| it.frame <= frame));
+        self.timetable.cut(frame);
         self.furthest = (frame, time);
     }
 
     /// Notes a change at the last frame, after which frames last for `frame_time` \[s\]. Returns
     /// how many changes there are.
     pub fn note(&mut self, change: Change, frame_time: f64) -> usize {
+        let frame = self.furthest.0;
+        let place = self.changes.partition_point(|it| it.frame <= frame);
+        Arc::make_mut(&mut self.changes).insert(place, PastChange { frame, change });
+        self.note_frame_time(frame_time);
+        place + 1
+    }
+
+    /// Notes that after the last frame, frames last for `frame_time` \[s\].
+    pub fn note_frame_time(&mut self, frame_time: f64) {
         let (frame, time) = self.furthest;
-        self.changes.push((frame, change));
-        if self.pieces.last().is_none_or(|piece| piece.frame_time != frame_time) {
-            self.pieces.retain(|piece| piece.frame < frame);
-            self.pieces.push(Piece { frame, time, frame_time });
-        }
-        self.changes.len()
+        self.timetable.note(frame, time, frame_time);
+    }
+
+    /// The frame nearest to a time \[s\], which may be one not reached yet.
+    ///
+    /// # Errors
+    /// As [`Timetable::frame_at`].
+    pub fn frame_at(&self, time: f64) -> Result<u64, SessionError> {
+        let reached = self.changes.partition_point(|it| it.frame <= self.furthest.0);
+        let mut timetable = self.timetable.clone();
+        timetable.extend(&self.changes[reached..]);
+        timetable.frame_at(time)
     }
 
     /// Whether the last change at the last frame was a failed step.
     pub fn ends_with_failed_step(&self) -> bool {
-        let last = self.changes.last();
-        last.is_some_and(|(at, it)| *at == self.furthest.0 && matches!(it, Change::FailedStep))
-    }
-
-    /// The frame nearest to a time \[s\], which may be one not reached yet.
-    pub fn frame_at(&self, time: f64) -> u64 {
-        let later = self.pieces.partition_point(|piece| piece.time <= time);
-        let piece = self.pieces[later.saturating_sub(1)];
-        let frames = ((time - piece.time) / piece.frame_time).round();
-        let next = self.pieces.get(later).map_or(u64::MAX, |piece| piece.frame);
-        // A cast of a number that is too large gives the largest.
-        piece.frame.saturating_add(frames.max(0.0) as u64).min(next)
+        let frame = self.furthest.0;
+        let count = self.changes.partition_point(|it| it.frame <= frame);
+        let last = self.changes[..count].last();
+        last.is_some_and(|it| it.frame == frame && it.change == Change::FailedStep)
     }
 
     /// The last moment kept that is not after this frame.

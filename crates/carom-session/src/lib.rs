@@ -25,6 +25,7 @@
 
 #![warn(clippy::unwrap_used)]
 
+mod change;
 mod command;
 mod comparison;
 mod driver;
@@ -32,6 +33,7 @@ mod edit;
 mod error;
 mod history;
 mod impacts;
+mod link;
 mod looks;
 mod pace;
 mod periodic;
@@ -39,8 +41,10 @@ mod player;
 mod previous;
 mod queue;
 mod readings;
+mod replay;
 mod series;
 mod setup;
+mod timetable;
 mod view;
 mod watched;
 #[cfg(not(target_arch = "wasm32"))]
@@ -52,6 +56,7 @@ use carom::{DVec3, SphereId, StateHash, World};
 use carom_scene::SceneError;
 use carom_scene::scene::Scene;
 
+pub use change::{Change, PastChange};
 pub use command::Command;
 pub use comparison::{Comparison, Distance};
 pub use driver::Driver;
@@ -59,15 +64,17 @@ pub use edit::{Edit, SphereChange};
 pub use error::SessionError;
 pub use history::DEFAULT_MEMORY;
 pub use impacts::{ListedImpact, REMEMBERED, energy_change_alone};
+pub use link::{LOCAL_PAGE, Link, LinkError, LinkSource, MAX_UNPACKED, PackedError};
 pub use pace::{FASTEST, LONGEST_DELAY, Pace, SLOWEST};
 pub use readings::{PickedReading, RATE_WINDOW, Reading};
+pub use replay::Replay;
 pub use series::MAX_POINTS;
 pub use setup::Setup;
 pub use view::{MARKED, Playback, SphereArrays, View};
 pub use watched::Watched;
 
 use edit::Subjects;
-use history::{Change, History, Moment};
+use history::{History, Moment};
 use looks::Looks;
 use previous::Previous;
 use readings::Readings;
@@ -102,11 +109,16 @@ impl Session {
     /// # Errors
     /// [`SceneError`] if the scene makes no sense; only one put together in code can.
     pub fn new(scene: Scene) -> Result<Self, SceneError> {
+        Self::with_changes(scene, Arc::default())
+    }
+
+    /// Opens a scene; `changes`, ascending by frame, are to come.
+    fn with_changes(scene: Scene, changes: Arc<Vec<PastChange>>) -> Result<Self, SceneError> {
         let world = scene.world()?;
         let setup = Arc::new(Setup::new(&scene, &world));
         let looks = Looks::new(&scene, &world);
         let start = Moment::new(0, 0, 0, &world, (&setup, &looks));
-        let history = History::new(start, setup.simulation.frame_time);
+        let history = History::new(start, setup.simulation.frame_time, changes);
         let mut readings = Readings::default();
         readings.measure(0, &world);
         let previous = Previous::new(&world);
@@ -127,10 +139,29 @@ impl Session {
         })
     }
 
+    /// Opens a scene, the one of this link, on the way to the time of the link:
+    /// [`Self::advance_seek`] goes there, and makes every change of the link when its frame comes.
+    /// There it is the session, to the bit, that the link was made of. Changes after that time are
+    /// made if it goes on.
+    ///
+    /// # Errors
+    /// [`SessionError::Scene`] if the scene makes no sense, [`SessionError::Repeat`] for a change
+    /// at the beginning that is refused, and as [`Self::frame_at`].
+    pub fn replay(scene: Scene, link: &Link) -> Result<Self, SessionError> {
+        let mut session = Self::with_changes(scene, link.changes().clone())?;
+        session.repeat_changes()?;
+        if let Some(time) = link.time() {
+            session.seek(session.frame_at(time)?);
+        }
+        Ok(session)
+    }
+
     /// Takes one frame. Gives up going elsewhere.
     ///
     /// # Errors
     /// [`SessionError::World`] if the physics cannot take it; the session stays where it is.
+    /// [`SessionError::Repeat`] if the frame is taken, but a change of a link that comes there is
+    /// refused.
     pub fn step(&mut self) -> Result<(), SessionError> {
         self.target = None;
         self.take_frame()
@@ -166,13 +197,10 @@ impl Session {
     /// The frame nearest to a time \[s\].
     ///
     /// # Errors
-    /// [`SessionError::Time`] for a time that is negative or not finite.
+    /// [`SessionError::Time`] for a time that is negative or not finite, [`SessionError::TooFar`]
+    /// for one that is so far away that its frames cannot be counted.
     pub fn frame_at(&self, time: f64) -> Result<u64, SessionError> {
-        if time >= 0.0 && time.is_finite() {
-            Ok(self.history.frame_at(time))
-        } else {
-            Err(SessionError::Time { seconds: time })
-        }
+        self.history.frame_at(time)
     }
 
     /// Sets out for a frame; [`Self::advance_seek`] goes there.
@@ -186,7 +214,8 @@ impl Session {
             self.readings.go_to(moment.frame, moment.impacts);
             self.previous.remember(&self.world);
             self.stamp += 1;
-            self.repeat_changes();
+            // What was changed at a frame that was reached was not refused there.
+            let _ = self.repeat_changes();
         }
         self.target = Some(frame).filter(|frame| *frame != self.frame);
     }
@@ -223,10 +252,11 @@ impl Session {
     /// # Errors
     /// What is wrong with it; nothing changes then.
     pub fn edit(&mut self, edit: Edit) -> Result<(), SessionError> {
-        self.apply(&edit)?;
+        let change = Change::Edit(edit);
+        self.apply(&change)?;
         self.target = None;
         self.history.cut(self.frame, self.world.time());
-        self.changes = self.history.note(Change::Edit(edit), self.frame_time());
+        self.changes = self.history.note(change, self.frame_time());
         self.readings.cut(self.frame, &self.world);
         Ok(())
     }
@@ -276,6 +306,11 @@ impl Session {
     /// What is not spheres, as edited.
     pub fn setup(&self) -> &Arc<Setup> {
         &self.setup
+    }
+
+    /// What was changed from outside, ascending by frame, the future included.
+    pub fn changes(&self) -> &Arc<Vec<PastChange>> {
+        self.history.changes()
     }
 
     /// The world at present.
@@ -335,7 +370,7 @@ impl Session {
         self.previous.align(&self.world);
         self.readings.note(self.frame, start, &self.world);
         self.history.reach(self.frame, self.world.time());
-        self.repeat_changes();
+        self.repeat_changes()?;
         if self.history.wants(self.frame, &self.world) {
             let more = (&self.setup, &self.looks);
             let impacts = self.readings.impacts;
@@ -348,33 +383,36 @@ impl Session {
     /// After a step that failed flights begin anew. That is made part of the past, so that the
     /// frames that follow it can be had again to the bit.
     fn note_failed_step(&mut self) {
-        self.begin_flights_anew();
+        edit::begin_flights_anew(&mut self.world);
         if self.frame == self.furthest_frame() && !self.history.ends_with_failed_step() {
             self.changes = self.history.note(Change::FailedStep, self.frame_time());
         }
     }
 
-    fn begin_flights_anew(&mut self) {
-        let settings = *self.world.settings();
-        // Settings that the world has were not refused when it got them.
-        let _ = self.world.set_settings(settings);
-    }
-
-    /// Makes the changes that were made at this frame.
-    fn repeat_changes(&mut self) {
-        while let Some(change) = self.history.change_at(self.frame, self.changes) {
-            match change.clone() {
-                Change::FailedStep => self.begin_flights_anew(),
-                // The world is the one, to the bit, that did not refuse it before.
-                Change::Edit(edit) => drop(self.apply(&edit)),
+    /// Makes the changes that come at this frame. One that is refused, which none is that was made
+    /// in this session before, is dropped with all that follow.
+    fn repeat_changes(&mut self) -> Result<(), SessionError> {
+        let (frame, first) = (self.frame, self.changes);
+        let mut refused = None;
+        while let Some(change) = self.history.change_at(frame, self.changes) {
+            let change = change.clone();
+            if let Err(error) = self.apply(&change) {
+                self.history.forget_changes_after(self.changes);
+                refused = Some(SessionError::Repeat { frame, source: Box::new(error) });
+                break;
             }
             self.changes += 1;
         }
+        if self.changes > first && frame == self.furthest_frame() {
+            self.history.note_frame_time(self.frame_time());
+            self.readings.cut(frame, &self.world);
+        }
+        refused.map_or(Ok(()), Err)
     }
 
-    fn apply(&mut self, edit: &Edit) -> Result<(), SessionError> {
+    fn apply(&mut self, change: &Change) -> Result<(), SessionError> {
         let Self { scene, setup, world, looks, .. } = self;
-        edit::apply(edit, scene, Subjects { world, setup, looks })?;
+        edit::make(change, scene, Subjects { world, setup, looks })?;
         self.previous.remember(&self.world);
         self.stamp += 1;
         Ok(())

@@ -97,6 +97,9 @@ impl Player {
                 let opened = Session::new(*scene).map(Watched::from);
                 self.open(opened.map_err(SessionError::from));
             }
+            Command::Replay(scene, link) => {
+                self.open(Session::replay(*scene, &link).map(Watched::from));
+            }
             Command::Compare(scene, rules) => {
                 let opened = Comparison::new(&scene, rules).map(Watched::from);
                 self.open(opened.map_err(SessionError::from));

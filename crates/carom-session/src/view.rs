@@ -6,6 +6,7 @@ use carom::{DVec3, Pose, SphereId, StateHash};
 use carom_scene::scene::{Color, Scene, Sphere};
 
 use crate::Session;
+use crate::change::PastChange;
 use crate::comparison::Distance;
 use crate::error::SessionError;
 use crate::impacts::ListedImpact;
@@ -22,6 +23,8 @@ pub struct View {
     pub scene: Arc<Scene>,
     /// What is not spheres, as edited.
     pub setup: Arc<Setup>,
+    /// What was changed from outside, ascending by frame, the future included.
+    pub changes: Arc<Vec<PastChange>>,
     /// Number of frames taken.
     pub frame: u64,
     /// \[s\]
@@ -120,6 +123,7 @@ impl Default for View {
         Self {
             scene: Arc::new(Scene::new("")),
             setup: Arc::default(),
+            changes: Arc::default(),
             frame: 0,
             time: 0.0,
             furthest_frame: 0,
@@ -193,7 +197,7 @@ impl Session {
             view.scene = self.scene.clone();
         }
         self.fill_motion(&mut view.spheres);
-        view.setup = self.setup.clone();
+        (view.setup, view.changes) = (self.setup.clone(), self.history.changes().clone());
         (view.frame, view.time) = (self.frame, self.time());
         (view.furthest_frame, view.furthest) = self.history.furthest();
         view.seeking = self.target;

@@ -20,6 +20,7 @@ pub enum Action {
     Screenshot,
     Record,
     Save,
+    Link,
     Inspector,
     Plots,
     Impacts,
@@ -32,6 +33,12 @@ pub enum Action {
 }
 
 impl Action {
+    /// What it does, for people.
+    pub fn text(self) -> &'static str {
+        let shortcut = SHORTCUTS.iter().find(|shortcut| shortcut.action == self);
+        shortcut.map_or("", |shortcut| shortcut.text)
+    }
+
     /// Whether it is done again and again while its key is held.
     fn repeats(self) -> bool {
         matches!(self, Self::Step | Self::StepBack | Self::Faster | Self::Slower)
@@ -77,6 +84,7 @@ shortcuts! {
     Screenshot: [key(Key::Space)], "save a picture with the time on it";
     Record: [key(Key::R)], "start or stop recording a film";
     Save: [command(Key::S)], "save the present state as a scene file";
+    Link: [key(Key::U)], "a link to this run, for others";
     SceneCamera: [key(Key::Num1)], "the scene's camera";
     FrontCamera: [key(Key::Num2)], "camera in front";
     TopCamera: [key(Key::Num3)], "camera above";

@@ -7,15 +7,17 @@ use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
 use carom_render::Quality;
 use carom_scene::scene::Scene;
 use carom_scene::{Library, Source};
-use carom_session::{Command, SessionError};
+use carom_session::{Command, Link, SessionError};
 use eframe::CreationContext;
 use egui::{Context, Pos2, Rect, Theme, Ui};
 
 use crate::action::{self, Action};
+use crate::address::{Address, LinkDialog};
 use crate::chooser::Chooser;
 use crate::exports::{Exports, Outlet};
 use crate::help;
 use crate::host::{Host, Inbox, ReadFile};
+use crate::layout::is_narrow;
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
 use crate::orbit::Preset;
@@ -44,6 +46,8 @@ pub enum Start {
     Scene(Box<Scene>, Source),
     /// A maze to play.
     Maze(Box<Maze>),
+    /// The run of a link.
+    Link(Box<Link>),
 }
 
 /// The interface: hosted by a window, a page or a test.
@@ -67,6 +71,8 @@ pub struct App {
     /// Seed of the last random maze.
     random_mazes: u64,
     exports: Exports,
+    address: Address,
+    link: LinkDialog,
 }
 
 /// What fills the window.
@@ -103,10 +109,13 @@ impl App {
             tilts_device: false,
             random_mazes: 0,
             exports: Exports::default(),
+            address: Address::default(),
+            link: LinkDialog::default(),
         };
         match setup.start {
             Some(Start::Scene(scene, source)) => app.watch(*scene, source),
             Some(Start::Maze(maze)) => app.play(*maze),
+            Some(Start::Link(link)) => app.follow(&link),
             None => app.open_chooser(),
         }
         Ok(app)
@@ -115,7 +124,7 @@ impl App {
     /// Opens a scene: a maze to be played, any other to be watched.
     fn open(&mut self, scene: Scene, source: Source) {
         match Maze::from_scene(&scene) {
-            Ok(maze) => self.play(maze),
+            Ok(maze) => self.play_linked(maze, Link::to_scene(&scene)),
             Err(_) => self.watch(scene, source),
         }
     }
@@ -133,11 +142,43 @@ impl App {
 
     /// Plays a maze from now on.
     pub fn play(&mut self, maze: Maze) {
-        match MazeScreen::new(maze) {
+        let link = Link::to_scene(maze.scene());
+        self.play_linked(maze, link);
+    }
+
+    fn play_linked(&mut self, maze: Maze, link: Link) {
+        match MazeScreen::new(maze, link) {
             Ok(screen) => {
+                self.host.show_link(screen.link());
                 self.show(Screen::Maze(Box::new(screen)));
             }
             Err(error) => self.notices.complain(error),
+        }
+    }
+
+    /// Shows the run of a link: a maze without a past is played, anything else watched. Where it
+    /// cannot be, says so; the chooser opens if there is nothing else.
+    pub fn follow(&mut self, link: &Link) {
+        let scene = match link.open() {
+            Ok(scene) => scene,
+            Err(error) => return self.refuse_link(&error.to_string()),
+        };
+        let is_beginning = link.time().is_none() && link.changes().is_empty();
+        if is_beginning && let Ok(maze) = Maze::from_scene(&scene) {
+            self.play_linked(maze, link.clone());
+            return;
+        }
+        match Watching::replay(link, scene, self.threaded, &self.context) {
+            Ok(watching) => self.show(Screen::Watching(Box::new(watching))),
+            Err(error) => self.refuse_link(&error.to_string()),
+        }
+    }
+
+    /// Says why a link cannot be followed.
+    pub fn refuse_link(&mut self, why: &str) {
+        self.notices.complain(why);
+        if matches!(self.screen, Screen::Empty) {
+            self.open_chooser();
         }
     }
 
@@ -270,16 +311,44 @@ impl App {
             }
             Action::Close => {
                 self.help = false;
+                self.link.close();
                 self.chooser.close();
             }
             Action::Screenshot => self.screenshot(),
             Action::Record => self.record(),
             Action::Save => self.save(),
+            Action::Link => self.open_link(),
             _ => match &mut self.screen {
                 Screen::Watching(watching) => watching.act(action),
                 Screen::Maze(screen) => act_in_maze(screen, action),
                 Screen::Empty => {}
             },
+        }
+    }
+
+    /// Opens the dialog with a link to what is shown, which stands still meanwhile.
+    fn open_link(&mut self) {
+        self.link.toggle();
+        if let Screen::Watching(watching) = &mut self.screen
+            && self.link.is_open()
+        {
+            watching.commands.extend([Command::Pause, Command::ShowStateHash(true)]);
+        }
+    }
+
+    /// Tells the host the link to what is shown, and shows it in its dialog.
+    fn links(&mut self) {
+        let Self { address, link, host, context, screen, .. } = self;
+        match screen {
+            Screen::Empty => link.close(),
+            Screen::Watching(watching) => {
+                let (view, base) = watching.linked();
+                address.tell(view, base, &mut **host, context);
+                link.show(context, Some(view), || format!("{}#{}", host.page(), base.at(view)));
+            }
+            Screen::Maze(screen) => {
+                link.show(context, None, || format!("{}#{}", host.page(), screen.link()));
+            }
         }
     }
 
@@ -366,9 +435,6 @@ impl App {
         if self.exports.collect(&self.studio, &mut outlet) {
             self.context.request_repaint();
         }
-        if let Some(trouble) = self.host.trouble() {
-            self.notices.complain(trouble);
-        }
     }
 
     /// Says what went wrong in the physics.
@@ -439,26 +505,40 @@ impl App {
                 ui.strong(name);
                 ui.separator();
             }
-            if let Screen::Watching(watching) = &self.screen {
-                actions.extend(watching.switches(ui));
-                ui.separator();
-            }
-            match self.mazes(ui) {
-                Some(Ok(maze)) => self.play(maze),
-                Some(Err(error)) => self.notices.complain(error),
-                None => {}
-            }
-            for (text, action) in [
-                ("Picture", Action::Screenshot),
-                ("Film", Action::Record),
-                ("Light/dark", Action::Theme),
-                ("Keys", Action::Help),
-            ] {
-                if ui.button(text).clicked() {
-                    actions.push(action);
-                }
+            if is_narrow(ui) {
+                let menu = ui.menu_button("Menu", |ui| self.switches(ui));
+                actions.extend(menu.inner.unwrap_or_default());
+            } else {
+                actions.extend(self.switches(ui));
             }
         });
+        actions
+    }
+
+    /// Everything in the bar but the choice of a scene.
+    fn switches(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let mut actions = Vec::new();
+        if let Screen::Watching(watching) = &self.screen {
+            actions.extend(watching.switches(ui));
+            ui.separator();
+        }
+        match self.mazes(ui) {
+            Some(Ok(maze)) => self.play(maze),
+            Some(Err(error)) => self.notices.complain(error),
+            None => {}
+        }
+        for (text, action) in [
+            ("Picture", Action::Screenshot),
+            ("Film", Action::Record),
+            ("Save", Action::Save),
+            ("Link", Action::Link),
+            ("Light/dark", Action::Theme),
+            ("Keys", Action::Help),
+        ] {
+            if ui.button(text).on_hover_text(action.text()).clicked() {
+                actions.push(action);
+            }
+        }
         actions
     }
 
@@ -552,6 +632,7 @@ impl eframe::App for App {
             self.open(scene, source);
         }
         help::show(&context, &mut self.help);
+        self.links();
         self.notices.show(ui);
     }
 }

@@ -86,12 +86,13 @@ impl Chooser {
         let mut chosen = self.keys(context, &found);
         let modal = Modal::new(Id::unique("scenes")).show(context, |ui| {
             let size = ui.ctx().content_rect().size();
-            ui.set_width((size.x - 80.0).clamp(240.0, 880.0));
+            ui.set_width((size.x - 40.0).clamp(240.0, 880.0));
             ui.horizontal(|ui| {
                 ui.heading("Choose a scene");
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     let edit = TextEdit::singleline(&mut self.filter).hint_text("type to filter");
-                    let response = ui.add(edit.desired_width(220.0));
+                    let width = ui.available_width().min(220.0);
+                    let response = ui.add(edit.desired_width(width));
                     if self.just_opened {
                         response.request_focus();
                     }

@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use carom_scene::Source;
+use carom_session::LOCAL_PAGE;
 use egui::DroppedFileHandle;
 
 use crate::host::{FilmMaker, Host, Inbox, ReadFile};
@@ -13,6 +14,7 @@ use crate::watched_file::{INTERVAL, WatchedFile};
 #[derive(Default)]
 pub struct Desktop {
     folder: PathBuf,
+    page: Option<String>,
     watched_file: WatchedFile,
     #[cfg(feature = "gamepad")]
     gamepad: crate::gamepad::Gamepad,
@@ -29,6 +31,11 @@ impl Desktop {
     /// A desktop whose pictures and films go to this folder, which is made when there are any.
     pub fn new(folder: PathBuf) -> Self {
         Self { folder, ..Self::default() }
+    }
+
+    /// The same, with this address of the page that opens links.
+    pub fn with_page(self, page: String) -> Self {
+        Self { page: Some(page), ..self }
     }
 
     /// A path in the folder that no file has yet: with a number where needed.
@@ -78,6 +85,10 @@ impl Host for Desktop {
         let film = carom_render::Film::create(&path, width, height, frames_per_second);
         let film = film.map_err(|error| error.to_string())?;
         Ok(Box::new(film::FilmFile { film, path }))
+    }
+
+    fn page(&self) -> String {
+        self.page.clone().unwrap_or_else(|| LOCAL_PAGE.to_owned())
     }
 
     fn watch(&mut self, source: &Source) {

@@ -94,6 +94,9 @@ impl Exports {
                 Err(error) => to.notices.complain(error),
             }
         }
+        if let Some(trouble) = to.host.trouble() {
+            to.notices.complain(trouble);
+        }
         !self.pictures.is_empty() || self.recorder.is_some()
     }
 }

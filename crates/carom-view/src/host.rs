@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex};
 
 use carom_render::Picture;
 use carom_scene::Source;
+use carom_session::{LOCAL_PAGE, Link};
 use egui::{DroppedFileHandle, Vec2};
 
 /// The program that the interface runs in. Texts of errors are for people.
@@ -30,6 +31,19 @@ pub trait Host {
         frames_per_second: u32,
     ) -> Result<Box<dyn FilmMaker>, String>;
 
+    /// Address of the page that opens links, without `#`.
+    fn page(&self) -> String {
+        LOCAL_PAGE.to_owned()
+    }
+
+    /// Whether links to what is shown are of use.
+    fn shows_links(&self) -> bool {
+        false
+    }
+
+    /// A link to what is shown.
+    fn show_link(&mut self, _link: &Link) {}
+
     /// Watches the file that a scene comes from, if it does come from one, instead of the last.
     fn watch(&mut self, _source: &Source) {}
 
@@ -44,7 +58,7 @@ pub trait Host {
         None
     }
 
-    /// What went wrong, once: what was said to be done, and then could not be.
+    /// What went wrong after it was said to be done: each is told once.
     fn trouble(&mut self) -> Option<String> {
         None
     }

@@ -7,6 +7,7 @@
 #![warn(clippy::unwrap_used)]
 
 mod action;
+mod address;
 mod app;
 mod chooser;
 #[cfg(not(target_arch = "wasm32"))]
@@ -18,6 +19,7 @@ mod help;
 mod host;
 mod impact_list;
 mod inspector;
+mod layout;
 mod look;
 mod maze_screen;
 mod naming;

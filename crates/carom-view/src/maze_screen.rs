@@ -4,7 +4,7 @@ use carom::DVec3;
 use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Steering, Tilt};
 use carom_render::{Camera, Drawing, GpuError, Roll, draw_world};
 use carom_scene::Palette;
-use carom_session::Pace;
+use carom_session::{Link, Pace};
 use egui::{Align2, Area, Frame, Id, Image, Key, Pos2, Response, RichText, Sense, Ui, Vec2};
 
 use crate::orbit::{Orbit, Preset};
@@ -14,6 +14,7 @@ use crate::studio::{Canvas, Studio};
 /// A game being played.
 pub struct MazeScreen {
     game: Game,
+    link: Link,
     pace: Pace,
     palette: Palette,
     roll: Roll,
@@ -51,17 +52,18 @@ const KEYS: [(Key, f64, f64); 8] = [
 ];
 
 impl MazeScreen {
-    /// A new game.
+    /// A new game; `link` leads to its maze.
     ///
     /// # Errors
     /// If the maze cannot be played.
-    pub fn new(maze: Maze) -> Result<Self, GameError> {
+    pub fn new(maze: Maze, link: Link) -> Result<Self, GameError> {
         let game = Game::new(maze, Options::default())?;
         let palette = Palette::new(game.scene())?;
         let mut pace = Pace::new();
         pace.set_playing(true);
         Ok(Self {
             game,
+            link,
             pace,
             palette,
             roll: Roll::START,
@@ -84,6 +86,11 @@ impl MazeScreen {
     /// The game.
     pub fn game(&self) -> &Game {
         &self.game
+    }
+
+    /// A link to the maze.
+    pub fn link(&self) -> &Link {
+        &self.link
     }
 
     /// Plays on by the time since the last picture.
@@ -152,6 +159,11 @@ impl MazeScreen {
     /// Time played, standing at the win screen included \[s\]: by it films go on.
     pub fn clock(&self) -> f64 {
         self.clock
+    }
+
+    /// Whether the game goes on.
+    pub fn is_playing(&self) -> bool {
+        self.pace.is_playing()
     }
 
     /// Lets the game stand still, or go on.

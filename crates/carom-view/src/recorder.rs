@@ -97,7 +97,7 @@ impl Recorder {
         self.is_ending
     }
 
-    /// Completes the film. Returns what it is called.
+    /// Completes the film. Returns what to tell.
     ///
     /// # Errors
     /// If it cannot be written.

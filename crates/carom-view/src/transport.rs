@@ -4,6 +4,7 @@ use carom_session::{Command, FASTEST, SLOWEST, View};
 use egui::{Align, Color32, Layout, RichText, Slider, Ui, Widget};
 
 use crate::action::Action;
+use crate::layout::is_narrow;
 
 /// Speeds that the keys go through.
 const SPEEDS: [f64; 9] = [SLOWEST, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, FASTEST];
@@ -16,6 +17,7 @@ pub fn show(
     commands: &mut Vec<Command>,
 ) -> Vec<Action> {
     let mut actions = Vec::new();
+    let is_narrow = is_narrow(ui);
     let mut button = |ui: &mut Ui, symbol: &str, text: &str, action: Action| {
         let response = ui.button(RichText::new(symbol).size(15.0)).on_hover_text(text);
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));
@@ -31,23 +33,42 @@ pub fn show(
         button(ui, symbol, text, Action::PlayOrPause);
         button(ui, "⏵", "Step", Action::Step);
         speed(ui, view, commands);
-        ui.separator();
-        ui.monospace(format!("t = {:9.4} s", view.time)).on_hover_text(format!(
-            "frame {} of {} s each",
-            view.frame, view.setup.simulation.frame_time
-        ));
-        if is_recording {
-            ui.colored_label(Color32::from_rgb(214, 40, 40), "⏺ recording");
+        if !is_narrow {
+            ui.separator();
+            clock(ui, view, is_recording);
+            way(ui, view, commands);
         }
-        pace(ui, view);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if view.seeking.is_some() && ui.button("Stop").clicked() {
-                commands.push(Command::StopSeeking);
-            }
-            time_line(ui, view, commands);
-        });
     });
+    if is_narrow {
+        ui.horizontal(|ui| clock(ui, view, is_recording));
+        ui.horizontal(|ui| way(ui, view, commands));
+    }
     actions
+}
+
+/// The time, and how it goes on.
+fn clock(ui: &mut Ui, view: &View, is_recording: bool) {
+    ui.monospace(format!("t = {:9.4} s", view.time)).on_hover_text(format!(
+        "frame {} of {} s each",
+        view.frame, view.setup.simulation.frame_time
+    ));
+    if is_recording {
+        ui.colored_label(Color32::from_rgb(214, 40, 40), "⏺ recording");
+    }
+    pace(ui, view);
+    if let Some(hash) = view.playback.state_hash {
+        ui.monospace(hash.to_string()).on_hover_text("the state as a number: see Link");
+    }
+}
+
+/// The way to other times, in the rest of the line.
+fn way(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        if view.seeking.is_some() && ui.button("Stop").clicked() {
+            commands.push(Command::StopSeeking);
+        }
+        time_line(ui, view, commands);
+    });
 }
 
 /// The next faster speed, or the next slower one.

@@ -1,15 +1,20 @@
 //! A scene being watched: its picture, and what is done with it by hand.
 
+use std::sync::Arc;
+
 use carom::{DVec3, Mass, Sphere};
 use carom_render::{Camera, Drawing, GpuError};
 use carom_scene::scene::{Rule, Scene};
 use carom_scene::{SceneError, Source};
-use carom_session::{Command, Driver, Edit, Session, SessionError, View, Watched};
+use carom_session::{
+    Command, Driver, Edit, Link, LinkSource, Session, SessionError, View, Watched,
+};
 use egui::{Image, Modifiers, PointerButton, Pos2, Rect, Response, Sense, Ui, Vec2};
 use web_time::Instant;
 
 use crate::action::Action;
 use crate::inspector::{self, Throw};
+use crate::layout::is_narrow;
 use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
 use crate::plots;
@@ -22,6 +27,8 @@ pub struct Watching {
     driver: Driver,
     /// Where the scene comes from.
     pub source: Source,
+    /// A link to the beginning of the scene, and the scene that it was made of.
+    link: (Arc<Scene>, Link),
     /// Commands of this picture, sent at its end.
     pub commands: Vec<Command>,
     /// `None` until there is a picture to fit the scene into.
@@ -81,9 +88,41 @@ impl Watching {
         threaded: bool,
         context: &egui::Context,
     ) -> Result<Self, SessionError> {
-        let session = Session::new(scene)?;
+        let link = Link::to_scene(&scene);
+        Self::at(Session::new(scene)?, link, source, threaded, context)
+    }
+
+    /// Begins to watch the run of a link: on the way to where it has come to.
+    ///
+    /// # Errors
+    /// If the link makes no sense, or no thread can be had.
+    pub fn replay(
+        link: &Link,
+        scene: Scene,
+        threaded: bool,
+        context: &egui::Context,
+    ) -> Result<Self, SessionError> {
+        let session = Session::replay(scene, link)?;
+        let source = match link.source() {
+            LinkSource::BuiltIn(_) => Source::BuiltIn,
+            LinkSource::File { .. } => Source::Registered,
+        };
+        let mut watching = Self::at(session, link.clone(), source, threaded, context)?;
+        watching.commands.push(Command::ShowStateHash(true));
+        Ok(watching)
+    }
+
+    fn at(
+        session: Session,
+        link: Link,
+        source: Source,
+        threaded: bool,
+        context: &egui::Context,
+    ) -> Result<Self, SessionError> {
+        let driver = driver(session.into(), threaded, context)?;
         Ok(Self {
-            driver: driver(session.into(), threaded, context)?,
+            link: (driver.view().scene.clone(), link),
+            driver,
             source,
             commands: Vec::new(),
             orbit: None,
@@ -103,6 +142,15 @@ impl Watching {
     /// What there is to see.
     pub fn view(&self) -> &View {
         self.driver.view()
+    }
+
+    /// What there is to see, and a link to the beginning of its scene.
+    pub fn linked(&mut self) -> (&View, &Link) {
+        let view = self.driver.view();
+        if !Arc::ptr_eq(&self.link.0, &view.scene) {
+            self.link = (view.scene.clone(), Link::to_scene(&view.scene));
+        }
+        (view, &self.link.1)
     }
 
     /// Opens another scene, or the same one as it is now, without losing camera and panels.
@@ -196,6 +244,9 @@ impl Watching {
 
     /// The panels around the picture. Returns what their buttons ask for.
     pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
+        if self.drawn[0].is_none() && is_narrow(ui) {
+            self.panels.inspector = false;
+        }
         let Self { driver, commands, panels, plots, throw, .. } = self;
         let view = driver.view();
         let transport = egui::Panel::bottom("transport").show(ui, |ui| {
@@ -309,7 +360,7 @@ impl Watching {
         }
         if self.view().other.is_some() {
             let view = side_of(self.view(), side);
-            let rule = format!("{:?}", view.setup.simulation.rule).to_lowercase();
+            let rule = view.setup.simulation.rule.to_string();
             let painter = ui.painter_at(rect);
             let place = rect.left_top() + Vec2::new(12.0, 10.0);
             let font = egui::FontId::proportional(20.0);

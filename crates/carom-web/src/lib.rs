@@ -17,6 +17,7 @@ use std::rc::Rc;
 use carom_render::Quality;
 use carom_render::wgpu::Backend;
 use carom_scene::Library;
+use carom_session::Link;
 use carom_view::{App, Setup};
 use eframe::{CreationContext, WebOptions, WebRunner};
 use egui::{Context, Ui};
@@ -76,6 +77,15 @@ impl Page {
         Ok(Self { app, context, graphics, _runner: runner })
     }
 
+    /// Shows the run that the part of an address after `#` tells; says so where it cannot be shown.
+    #[wasm_bindgen(js_name = openFragment)]
+    pub fn open_fragment(&self, fragment: &str) {
+        if let Ok(mut app) = self.app.try_borrow_mut() {
+            follow(&mut app, fragment);
+            self.context.request_repaint();
+        }
+    }
+
     /// What is shown, as plain data; see `status.rs` for its fields. `undefined` while a picture of
     /// the interface is being made.
     pub fn status(&self) -> JsValue {
@@ -110,9 +120,19 @@ fn started_on(
         quality: Quality::default(),
         threaded: false,
     };
-    let _ = fragment;
-    let app = Rc::new(RefCell::new(App::new(host, setup)?));
+    let mut app = App::new(host, setup)?;
+    if !fragment.is_empty() {
+        follow(&mut app, fragment);
+    }
+    let app = Rc::new(RefCell::new(app));
     Ok(Started { app, context, graphics })
+}
+
+fn follow(app: &mut App, fragment: &str) {
+    match Link::parse(fragment) {
+        Ok(link) => app.follow(&link),
+        Err(error) => app.refuse_link(&error.to_string()),
+    }
 }
 
 /// The interface, which the page can read between two of its pictures.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use carom_render::Picture;
+use carom_session::{LOCAL_PAGE, Link};
 use carom_view::{FilmMaker, Host, Inbox, ReadFile};
 use egui::{Context, DroppedFileHandle, Vec2};
 
@@ -50,6 +51,20 @@ impl Host for PageHost {
     ) -> Result<Box<dyn FilmMaker>, String> {
         let film = self.services.begin_film(width, height, frames_per_second);
         Ok(Box::new(PageFilm { film: film.map_err(message)?, name: name.to_owned() }))
+    }
+
+    fn page(&self) -> String {
+        let address = web_sys::window().and_then(|window| window.location().href().ok());
+        let address = address.unwrap_or_else(|| LOCAL_PAGE.to_owned());
+        address.split('#').next().unwrap_or_default().to_owned()
+    }
+
+    fn shows_links(&self) -> bool {
+        true
+    }
+
+    fn show_link(&mut self, link: &Link) {
+        self.services.show_fragment(&link.to_fragment());
     }
 
     fn trouble(&mut self) -> Option<String> {

@@ -35,6 +35,8 @@ pub struct Status {
 #[serde(rename_all = "camelCase")]
 struct Watching {
     scene: String,
+    /// Where it comes from: `"built-in"`, a file's name, or else.
+    source: String,
     rule: String,
     /// \[s\]
     time: f64,
@@ -90,7 +92,8 @@ impl Status {
             let view = watching.view();
             Watching {
                 scene: view.scene.name.clone(),
-                rule: format!("{:?}", view.setup.simulation.rule).to_lowercase(),
+                source: watching.source.to_string(),
+                rule: view.setup.simulation.rule.to_string(),
                 time: view.time,
                 frame: view.frame,
                 playing: view.playback.playing,

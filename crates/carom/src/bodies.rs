@@ -15,6 +15,11 @@ use crate::validate;
 pub struct SphereId(pub(crate) u64);
 
 impl SphereId {
+    /// The id with this number. One that a world has not given names nothing there.
+    pub fn from_number(number: u64) -> Self {
+        Self(number)
+    }
+
     /// Place in the order in which spheres came into the world, from 0.
     pub fn number(self) -> u64 {
         self.0

@@ -12,6 +12,11 @@ use crate::validate;
 pub struct ColliderId(pub(crate) usize);
 
 impl ColliderId {
+    /// The id with this number. One that a world has not given names nothing there.
+    pub fn from_number(number: usize) -> Self {
+        Self(number)
+    }
+
     /// Place in the order in which colliders entered the world, from 0.
     pub fn number(self) -> usize {
         self.0

@@ -18,6 +18,18 @@ pub(crate) const DUE_TOLERANCE: f64 = 1e-9;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct EmitterId(pub(crate) usize);
 
+impl EmitterId {
+    /// The id with this number. One that a world has not given names nothing there.
+    pub fn from_number(number: usize) -> Self {
+        Self(number)
+    }
+
+    /// Place in the order in which emitters entered the world, from 0.
+    pub fn number(self) -> usize {
+        self.0
+    }
+}
+
 impl Display for EmitterId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)

@@ -5,6 +5,9 @@
 mod comparison;
 mod driver;
 mod edits;
+mod link;
+mod link_random;
+mod link_refusals;
 mod pace;
 mod past;
 mod readings;

@@ -22,7 +22,12 @@ pub fn setup() -> Setup {
 }
 
 pub fn desk(setup: Setup) -> Desk {
-    let builder = Harness::builder().with_size(SIZE).wgpu();
+    desk_of(SIZE, setup)
+}
+
+/// A window of this size in points.
+pub fn desk_of(size: [f32; 2], setup: Setup) -> Desk {
+    let builder = Harness::builder().with_size(size).wgpu();
     let mut desk = builder.build_eframe(|host| App::new(host, setup).expect("wgpu is there"));
     desk.run_steps(4);
     desk

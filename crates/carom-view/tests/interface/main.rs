@@ -4,7 +4,10 @@
 
 mod desk;
 mod files;
+mod links;
 mod maze;
+mod narrow;
 mod pictures;
 mod scenes;
+mod touch;
 mod transport;

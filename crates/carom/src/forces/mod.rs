@@ -77,6 +77,11 @@ pub struct SphereState {
 pub struct ForceId(pub(crate) usize);
 
 impl ForceId {
+    /// The id with this number. One that a world has not given names nothing there.
+    pub fn from_number(number: usize) -> Self {
+        Self(number)
+    }
+
     /// Place in the order in which forces entered the world, from 0.
     pub fn number(self) -> usize {
         self.0

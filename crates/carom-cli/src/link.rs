@@ -1,0 +1,112 @@
+//! Links: the command `link` prints one, and `run --link` begins with one.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use carom_scene::{Library, Source};
+use carom_session::{LOCAL_PAGE, LinkSource, Replay};
+
+use crate::args::{Choice, RULES, whole_frames};
+use crate::failure::Failure;
+
+/// Print a link.
+#[derive(Debug, clap::Args)]
+pub struct Link {
+    /// Which scene; the whole text of a scene file goes into the link.
+    #[command(flatten)]
+    choice: Choice,
+    /// Step rule, instead of the scene's own.
+    #[arg(long, value_parser = RULES)]
+    rule: Option<String>,
+    /// Time that the run has come to when it is opened; taken up to whole frames. Without it, the
+    /// page opens the scene at its beginning, and `carom run` runs it for its own duration.
+    #[arg(long, visible_alias = "time", value_parser = non_negative, allow_negative_numbers = true)]
+    seconds: Option<f64>,
+    /// Address of the page that opens the link; $CAROM_PAGE or that of `cargo xtask web --serve`,
+    /// unless given.
+    #[arg(long, value_name = "URL")]
+    page: Option<String>,
+}
+
+fn non_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
+        _ => Err("a number that is zero or positive is needed".to_owned()),
+    }
+}
+
+/// Prints a link to a run of a scene.
+pub fn link(library: &Library, args: &Link) -> Result<(), Failure> {
+    let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
+    let overrides = args.choice.changes().overrides(rule)?;
+    let (scene, source) = library.find(args.choice.scene(), &overrides)?;
+    let link = match source {
+        Source::BuiltIn => {
+            // As it is called without overrides, which may change its name, too.
+            let name = library.find(args.choice.scene(), &[])?.0.name;
+            carom_session::Link::new(LinkSource::BuiltIn(name)).with_overrides(overrides)
+        }
+        Source::File(path) => carom_session::Link::new(file(&path)?).with_overrides(overrides),
+        Source::Registered => carom_session::Link::to_scene(&scene),
+    };
+    let link = match args.seconds {
+        Some(seconds) => {
+            let h = scene.simulation.frame_time;
+            link.with_frame(whole_frames(seconds, h)?, h)?
+        }
+        None => link,
+    };
+    writeln!(io::stdout().lock(), "{}#{link}", page(args)?)?;
+    Ok(())
+}
+
+/// A scene file, whole.
+fn file(path: &Path) -> Result<LinkSource, Failure> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| Failure::Fault(format!("cannot read {}: {error}", path.display())))?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(LinkSource::File { name, text })
+}
+
+/// Address of the page that opens links.
+fn page(args: &Link) -> Result<String, Failure> {
+    let page = args.page.clone().unwrap_or_else(usual_page);
+    if page.contains('#') {
+        let message = format!("the address of a page must have no #, as {page} has");
+        return Err(Failure::Usage(message));
+    }
+    Ok(page)
+}
+
+/// The page that opens links unless another is asked for.
+pub fn usual_page() -> String {
+    let from_environment = std::env::var("CAROM_PAGE").ok().filter(|page| !page.is_empty());
+    from_environment.unwrap_or_else(|| LOCAL_PAGE.to_owned())
+}
+
+/// What a link leads to, at the beginning of its run, and how many frames of it to take.
+pub fn begin(link: &str) -> Result<(Replay, u64), Failure> {
+    let link = read(link)?;
+    let scene = link.open()?;
+    let (duration, h) = (scene.simulation.duration, scene.simulation.frame_time);
+    let replay = Replay::of(&link, scene)?;
+    let frames = match link.time() {
+        Some(time) => replay.frame_at(time)?,
+        None => whole_frames(duration, h)?,
+    };
+    Ok((replay, frames))
+}
+
+/// Reads a link; `-` stands for one on the standard input.
+pub fn read(link: &str) -> Result<carom_session::Link, Failure> {
+    Ok(carom_session::Link::parse(&written(link)?)?)
+}
+
+/// A link as it is written: `-` stands for the standard input.
+fn written(link: &str) -> Result<String, Failure> {
+    if link != "-" {
+        return Ok(link.to_owned());
+    }
+    io::read_to_string(io::stdin())
+        .map_err(|error| Failure::Fault(format!("cannot read the link: {error}")))
+}

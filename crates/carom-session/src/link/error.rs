@@ -1,0 +1,86 @@
+//! What can be wrong with a link.
+
+use carom_scene::SceneError;
+use thiserror::Error;
+
+use super::packed::MAX_UNPACKED;
+use super::parse::{PARTS, RULES};
+
+/// What is wrong with a link.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LinkError {
+    /// It says nothing.
+    #[error("the link says nothing: after # it needs scene=NAME or file=...")]
+    Empty,
+    /// A part of it has no known name.
+    #[error("the link has a part \"{part}\"; links know only {}", PARTS.join(", "))]
+    Unknown {
+        /// As it is written, shortened.
+        part: String,
+    },
+    /// It says something twice that it can say once.
+    #[error("the link says {part} twice")]
+    Repeated {
+        /// Name of the part.
+        part: &'static str,
+    },
+    /// It names no scene.
+    #[error("the link names no scene: it needs scene=NAME or file=...")]
+    NoScene,
+    /// It names two scenes.
+    #[error("the link says both scene and file; it can lead to one of them only")]
+    TwoScenes,
+    /// A part that belongs to a file, without one.
+    #[error("the link says name, which is for a file, but no file")]
+    NameOfNoFile,
+    /// A part is no text.
+    #[error("{part} of the link is garbled: it is no text")]
+    NoText {
+        /// Name of the part.
+        part: &'static str,
+    },
+    /// It names no rule.
+    #[error("the link says rule={found}; the rules are {}", RULES.join(", "))]
+    Rule {
+        /// As it is written, shortened.
+        found: String,
+    },
+    /// Its time is none.
+    #[error("the link says t={found}; the time must be a number of seconds, zero or positive")]
+    Time {
+        /// As it is written, shortened.
+        found: String,
+    },
+    /// A packed part cannot be unpacked.
+    #[error("{part} of the link {source}")]
+    Packed {
+        /// Name of the part.
+        part: &'static str,
+        /// Why.
+        source: PackedError,
+    },
+    /// The changes on the way cannot be read.
+    #[error("edits of the link make no sense: {problem}")]
+    Edits {
+        /// What is wrong with them.
+        problem: String,
+    },
+    /// Something is wrong with its scene, or an override of it.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+/// Why something packed cannot be unpacked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum PackedError {
+    /// Something in it was lost or changed.
+    #[error("is cut short or garbled; was all of the link copied?")]
+    Garbled,
+    /// It unpacks to more than is taken.
+    #[error("unpacks to more than {} MiB, which is more than is taken", MAX_UNPACKED >> 20)]
+    TooLarge,
+    /// It unpacks to something else than text.
+    #[error("unpacks to something that is no text")]
+    NoText,
+}

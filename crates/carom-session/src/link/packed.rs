@@ -1,0 +1,42 @@
+//! Text in addresses: compressed by zlib, in base64 for addresses.
+
+use std::io::{Read, Write};
+
+use base64::Engine;
+use base64::engine::general_purpose::URL_SAFE_NO_PAD;
+use flate2::Compression;
+use flate2::read::ZlibDecoder;
+use flate2::write::ZlibEncoder;
+
+use super::error::PackedError;
+
+/// Most that something packed may unpack to \[bytes\]: a scene of 100,000 single spheres, far more
+/// than an address can hold of any but the dullest; little enough not to be felt in memory.
+pub const MAX_UNPACKED: usize = 16 << 20;
+
+/// Packs a text.
+pub fn pack(text: &str) -> String {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
+    // A vector takes whatever is written to it.
+    let written = encoder.write_all(text.as_bytes()).and_then(|()| encoder.finish());
+    URL_SAFE_NO_PAD.encode(written.unwrap_or_default())
+}
+
+/// Unpacks a text.
+///
+/// # Errors
+/// [`PackedError`]. Zlib ends with a check sum, so that a change of it is noticed.
+pub fn unpack(packed: &str) -> Result<String, PackedError> {
+    let bytes = URL_SAFE_NO_PAD.decode(packed).map_err(|_| PackedError::Garbled)?;
+    let mut decoder = ZlibDecoder::new(bytes.as_slice());
+    let mut text = Vec::new();
+    let limit = MAX_UNPACKED as u64 + 1;
+    decoder.by_ref().take(limit).read_to_end(&mut text).map_err(|_| PackedError::Garbled)?;
+    if text.len() > MAX_UNPACKED {
+        return Err(PackedError::TooLarge);
+    }
+    if decoder.total_in() != bytes.len() as u64 {
+        return Err(PackedError::Garbled);
+    }
+    String::from_utf8(text).map_err(|_| PackedError::NoText)
+}

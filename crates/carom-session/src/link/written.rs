@@ -1,0 +1,254 @@
+//! Changes on the way as TOML.
+//!
+//! ```toml
+//! [[changes]]
+//! frame = 30
+//! change = { collider-restitution = { collider = 0, restitution = 0.5 } }
+//! ```
+//!
+//! Things go by the numbers of their ids. TOML gives every number back to the bit.
+
+use carom::{ColliderId, DQuat, DVec3, EmitterId, ForceId, Mass, SphereId};
+use carom_scene::scene::{Color, Force, Quaternion, Simulation, Vector};
+use serde::{Deserialize, Serialize};
+
+use super::parse::shortened;
+use crate::change::{Change, PastChange};
+use crate::edit::{Edit, SphereChange};
+
+/// Longest account of what is wrong \[characters\]: enough for all kinds of edits there are.
+const LONGEST_PROBLEM: usize = 300;
+
+/// Changes as TOML.
+pub fn to_toml(changes: &[PastChange]) -> String {
+    let changes = changes.iter().map(Dated::from).collect();
+    toml::to_string(&Document { changes }).expect("ids count up from 0, so no number is too large")
+}
+
+/// Changes from TOML, or one line on what is wrong with them.
+pub fn from_toml(text: &str) -> Result<Vec<PastChange>, String> {
+    let document: Document = toml::from_str(text).map_err(|error| {
+        let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
+        let problem = error.message().lines().next().unwrap_or_default();
+        let problem = shortened(problem, LONGEST_PROBLEM);
+        format!("in line {line}, {problem}")
+    })?;
+    if !document.changes.is_sorted_by_key(|it| it.frame) {
+        return Err("they are not in the order of their frames".to_owned());
+    }
+    Ok(document.changes.into_iter().map(PastChange::from).collect())
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    changes: Vec<Dated>,
+}
+
+/// [`PastChange`], written.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Dated {
+    frame: u64,
+    change: Written,
+}
+
+/// [`Change`] and [`Edit`], written.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+enum Written {
+    FailedStep,
+    Simulation(Box<Simulation>),
+    FrameTime(f64),
+    Force { force: usize, is: Force },
+    AddForce(Force),
+    RemoveForce(usize),
+    ColliderRestitution { collider: usize, restitution: f64 },
+    AllColliderRestitutions(f64),
+    Emitter { emitter: usize, is: Box<Emitter> },
+    Sphere { sphere: u64, changes: Box<SphereFields> },
+    Throw { sphere: Box<Sphere>, color: Option<Color> },
+    RemoveSphere(u64),
+}
+
+/// [`SphereChange`], written.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SphereFields {
+    position: Option<Vector>,
+    velocity: Option<Vector>,
+    radius: Option<f64>,
+    mass: Option<f64>,
+    restitution: Option<f64>,
+}
+
+/// [`carom::Sphere`], written.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Sphere {
+    position: Vector,
+    velocity: Vector,
+    radius: f64,
+    mass: WrittenMass,
+    restitution: f64,
+}
+
+/// [`Mass`], written.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+enum WrittenMass {
+    Kilograms(f64),
+    Density(f64),
+}
+
+/// [`carom::Emitter`], written.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Emitter {
+    position: Vector,
+    rotation: Quaternion,
+    period: f64,
+    max_spheres: Option<u32>,
+    sphere: Sphere,
+}
+
+impl From<&PastChange> for Dated {
+    fn from(past: &PastChange) -> Self {
+        Self { frame: past.frame, change: (&past.change).into() }
+    }
+}
+
+impl From<Dated> for PastChange {
+    fn from(dated: Dated) -> Self {
+        Self { frame: dated.frame, change: dated.change.into() }
+    }
+}
+
+impl From<&Change> for Written {
+    fn from(change: &Change) -> Self {
+        let edit = match change {
+            Change::FailedStep => return Self::FailedStep,
+            Change::Edit(edit) => edit,
+        };
+        match edit {
+            Edit::Simulation(simulation) => Self::Simulation(simulation.clone()),
+            Edit::FrameTime(frame_time) => Self::FrameTime(*frame_time),
+            Edit::Force(id, force) => Self::Force { force: id.number(), is: force.clone() },
+            Edit::AddForce(force) => Self::AddForce(force.clone()),
+            Edit::RemoveForce(id) => Self::RemoveForce(id.number()),
+            Edit::ColliderRestitution(id, restitution) => {
+                Self::ColliderRestitution { collider: id.number(), restitution: *restitution }
+            }
+            Edit::AllColliderRestitutions(restitution) => {
+                Self::AllColliderRestitutions(*restitution)
+            }
+            Edit::Emitter(id, emitter) => {
+                Self::Emitter { emitter: id.number(), is: Box::new((&**emitter).into()) }
+            }
+            Edit::Sphere(id, change) => {
+                Self::Sphere { sphere: id.number(), changes: Box::new(change.into()) }
+            }
+            Edit::Throw { sphere, color } => {
+                Self::Throw { sphere: Box::new(sphere.into()), color: *color }
+            }
+            Edit::RemoveSphere(id) => Self::RemoveSphere(id.number()),
+        }
+    }
+}
+
+impl From<Written> for Change {
+    fn from(written: Written) -> Self {
+        Self::Edit(match written {
+            Written::FailedStep => return Self::FailedStep,
+            Written::Simulation(simulation) => Edit::Simulation(simulation),
+            Written::FrameTime(frame_time) => Edit::FrameTime(frame_time),
+            Written::Force { force, is } => Edit::Force(ForceId::from_number(force), is),
+            Written::AddForce(force) => Edit::AddForce(force),
+            Written::RemoveForce(force) => Edit::RemoveForce(ForceId::from_number(force)),
+            Written::ColliderRestitution { collider, restitution } => {
+                Edit::ColliderRestitution(ColliderId::from_number(collider), restitution)
+            }
+            Written::AllColliderRestitutions(restitution) => {
+                Edit::AllColliderRestitutions(restitution)
+            }
+            Written::Emitter { emitter, is } => {
+                Edit::Emitter(EmitterId::from_number(emitter), Box::new((*is).into()))
+            }
+            Written::Sphere { sphere, changes } => {
+                Edit::Sphere(SphereId::from_number(sphere), (*changes).into())
+            }
+            Written::Throw { sphere, color } => Edit::Throw { sphere: (*sphere).into(), color },
+            Written::RemoveSphere(sphere) => Edit::RemoveSphere(SphereId::from_number(sphere)),
+        })
+    }
+}
+
+impl From<&SphereChange> for SphereFields {
+    fn from(change: &SphereChange) -> Self {
+        let SphereChange { position, velocity, radius, mass, restitution } = *change;
+        let [position, velocity] = [position, velocity].map(|it| it.map(|it| it.to_array()));
+        Self { position, velocity, radius, mass, restitution }
+    }
+}
+
+impl From<SphereFields> for SphereChange {
+    fn from(fields: SphereFields) -> Self {
+        let SphereFields { position, velocity, radius, mass, restitution } = fields;
+        let [position, velocity] = [position, velocity].map(|it| it.map(DVec3::from_array));
+        Self { position, velocity, radius, mass, restitution }
+    }
+}
+
+impl From<&carom::Sphere> for Sphere {
+    fn from(sphere: &carom::Sphere) -> Self {
+        Self {
+            position: sphere.position.to_array(),
+            velocity: sphere.velocity.to_array(),
+            radius: sphere.radius,
+            mass: match sphere.mass {
+                Mass::Kilograms(mass) => WrittenMass::Kilograms(mass),
+                Mass::Density(density) => WrittenMass::Density(density),
+            },
+            restitution: sphere.restitution,
+        }
+    }
+}
+
+impl From<Sphere> for carom::Sphere {
+    fn from(sphere: Sphere) -> Self {
+        Self {
+            position: DVec3::from_array(sphere.position),
+            velocity: DVec3::from_array(sphere.velocity),
+            radius: sphere.radius,
+            mass: match sphere.mass {
+                WrittenMass::Kilograms(mass) => Mass::Kilograms(mass),
+                WrittenMass::Density(density) => Mass::Density(density),
+            },
+            restitution: sphere.restitution,
+        }
+    }
+}
+
+impl From<&carom::Emitter> for Emitter {
+    fn from(emitter: &carom::Emitter) -> Self {
+        Self {
+            position: emitter.position.to_array(),
+            rotation: emitter.rotation.to_array(),
+            period: emitter.period,
+            max_spheres: emitter.max_spheres,
+            sphere: (&emitter.sphere).into(),
+        }
+    }
+}
+
+impl From<Emitter> for carom::Emitter {
+    fn from(emitter: Emitter) -> Self {
+        Self {
+            position: DVec3::from_array(emitter.position),
+            rotation: DQuat::from_array(emitter.rotation),
+            period: emitter.period,
+            max_spheres: emitter.max_spheres,
+            sphere: emitter.sphere.into(),
+        }
+    }
+}

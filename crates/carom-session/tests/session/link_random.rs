@@ -1,0 +1,75 @@
+//! Links of random sessions: whatever is done is repeated to the bit.
+
+use carom::{ColliderId, DVec3, ForceId, Sphere, SphereId};
+use carom_scene::scene::{Force, Rule};
+use carom_session::{Edit, Session, SphereChange};
+use proptest::prelude::*;
+
+use crate::busy_scene;
+use crate::link::assert_repeats;
+
+/// Something done to a session; some of it is refused.
+#[derive(Debug, Clone)]
+enum Deed {
+    Steps(u64),
+    GoTo(u64),
+    Edit(Edit),
+}
+
+fn edit() -> impl Strategy<Value = Edit> {
+    let force = |it: f64| Force::Gravity { acceleration: [it, -9.0, 0.1] };
+    let rules = [Rule::Exact, Rule::Bisect, Rule::Discrete];
+    let push = |velocity| SphereChange { velocity: Some(velocity), ..Default::default() };
+    let ball = |x| Sphere::new(DVec3::new(x, 8.0, 0.0), 0.2);
+    prop_oneof![
+        (0.001..0.03).prop_map(Edit::FrameTime),
+        (0.5..1.1).prop_map(Edit::AllColliderRestitutions),
+        (0..3_usize, 0.0..1.0)
+            .prop_map(|(id, e)| Edit::ColliderRestitution(ColliderId::from_number(id), e)),
+        (0..3_usize, -1.0..1.0)
+            .prop_map(move |(id, it)| Edit::Force(ForceId::from_number(id), force(it))),
+        (0..4_usize).prop_map(|id| Edit::RemoveForce(ForceId::from_number(id))),
+        (-1.0..1.0).prop_map(move |it| Edit::AddForce(force(it))),
+        (0..20_u64, -3.0..3.0).prop_map(move |(id, it)| {
+            Edit::Sphere(SphereId::from_number(id), push(DVec3::new(it, 2.0, -it)))
+        }),
+        (0..30_u64).prop_map(|id| Edit::RemoveSphere(SphereId::from_number(id))),
+        (-3.0..3.0).prop_map(move |x| Edit::Throw { sphere: ball(x), color: None }),
+        (0..3_usize, 2..9_u32).prop_map(move |(rule, max_impacts)| {
+            let mut simulation = busy_scene().simulation;
+            simulation.rule = rules[rule];
+            // So few that steps fail now and then.
+            simulation.exact.max_impacts = max_impacts;
+            Edit::Simulation(Box::new(simulation))
+        }),
+    ]
+}
+
+fn deed() -> impl Strategy<Value = Deed> {
+    prop_oneof![
+        2 => (1..15_u64).prop_map(Deed::Steps),
+        1 => (0..80_u64).prop_map(Deed::GoTo),
+        4 => edit().prop_map(Deed::Edit),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn it_is_repeated_to_the_bit(deeds in prop::collection::vec(deed(), 1..25)) {
+        let mut session = Session::new(busy_scene()).unwrap();
+        for deed in deeds {
+            // What is refused or fails is part of what was done.
+            let _ = match deed {
+                Deed::Steps(frames) => (0..frames).try_for_each(|_| session.step()),
+                Deed::Edit(edit) => session.edit(edit),
+                Deed::GoTo(frame) => {
+                    session.seek(frame);
+                    session.advance_seek(u64::MAX).map(drop)
+                }
+            };
+        }
+        assert_repeats(&session);
+    }
+}

@@ -1,0 +1,83 @@
+//! Fingers on the picture.
+
+use carom_maze::Maze;
+use egui::{Event, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2};
+
+use crate::desk::{Desk, scene, watching};
+use crate::maze::playing;
+
+/// In the middle of the picture.
+const PLACE: Pos2 = Pos2::new(300.0, 330.0);
+
+/// What a browser sends of a finger: the touch, and for the first finger the pointer that it is.
+fn finger(desk: &mut Desk, id: u64, phase: TouchPhase, pos: Pos2) {
+    let events = &mut desk.input_mut().events;
+    let button = |pressed| Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Default::default(),
+    };
+    if id == 0 {
+        match phase {
+            TouchPhase::Start => events.push(button(true)),
+            TouchPhase::Move => events.push(Event::PointerMoved(pos)),
+            TouchPhase::End => events.extend([button(false), Event::PointerGone]),
+            TouchPhase::Cancel => {}
+        }
+    }
+    events.push(Event::Touch {
+        device_id: TouchDeviceId(0),
+        id: TouchId(id),
+        phase,
+        pos,
+        force: None,
+    });
+    desk.run_steps(1);
+}
+
+/// Where the first ball is on the screen.
+fn shown_at(desk: &Desk) -> Pos2 {
+    let picture = egui::Rect::from_min_size(Pos2::ZERO, Vec2::new(700.0, 560.0));
+    desk.state().place_of(0, picture).expect("a ball is before the eye")
+}
+
+#[test]
+fn one_finger_turns_the_camera_of_a_scene_and_two_come_nearer() {
+    let mut desk = watching("tutorial1");
+    let before = shown_at(&desk);
+    finger(&mut desk, 0, TouchPhase::Start, PLACE);
+    for i in 1..=5 {
+        finger(&mut desk, 0, TouchPhase::Move, PLACE + Vec2::new(12.0 * i as f32, 0.0));
+    }
+    finger(&mut desk, 0, TouchPhase::End, PLACE + Vec2::new(60.0, 0.0));
+    let turned = shown_at(&desk);
+    assert!((turned - before).length() > 5.0, "{before} {turned}");
+    let distance = |desk: &Desk| (shown_at(desk) - Pos2::new(350.0, 280.0)).length();
+    let far = distance(&desk);
+    finger(&mut desk, 0, TouchPhase::Start, PLACE);
+    finger(&mut desk, 1, TouchPhase::Start, PLACE + Vec2::new(40.0, 0.0));
+    for i in 1..=10 {
+        let way = Vec2::new(4.0 * i as f32, 0.0);
+        finger(&mut desk, 0, TouchPhase::Move, PLACE - way);
+        finger(&mut desk, 1, TouchPhase::Move, PLACE + Vec2::new(40.0, 0.0) + way);
+    }
+    assert!(distance(&desk) > 1.3 * far, "from {far} to {} points off the middle", distance(&desk));
+    assert_eq!(scene(&desk).view().frame, 0);
+}
+
+#[test]
+fn one_finger_tilts_a_maze_the_way_it_goes() {
+    let mut desk = playing(Maze::course().expect("the course's maze"));
+    let tilt = |desk: &Desk| desk.state().maze().expect("a game").game().tilt();
+    finger(&mut desk, 0, TouchPhase::Start, PLACE);
+    for i in 1..=20 {
+        finger(&mut desk, 0, TouchPhase::Move, PLACE + Vec2::new(6.0 * i as f32, 0.0));
+    }
+    // To the right: a turn about -z.
+    let held = tilt(&desk);
+    assert!(held.z < -0.01 && held.x.abs() < 1e-9, "{held}");
+    finger(&mut desk, 0, TouchPhase::End, PLACE);
+    desk.run_steps(120);
+    assert!(tilt(&desk).z.abs() < 0.2 * held.z.abs(), "it levels back");
+}

@@ -1,0 +1,81 @@
+// Scene files that are dropped on the page, and films that leave it.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFile } from "node:fs/promises";
+import { fileURLToPath } from "node:url";
+import { after, before, test } from "node:test";
+
+import { Desk } from "./viewer.js";
+
+const SCENE = fileURLToPath(new URL("../../scenes/simtest3.toml", import.meta.url));
+
+/** @type {Desk} */
+let desk;
+
+before(async () => {
+  desk = await Desk.set("webgl2");
+});
+
+after(() => desk?.clear());
+
+test("a scene file that is dropped is opened", async () => {
+  const viewer = await desk.open();
+  const text = await readFile(SCENE, "utf8");
+  await viewer.drop("mine.toml", text.replace('name = "simtest3"', 'name = "mine"'));
+  const { watching, choosing } = await viewer.until(({ watching }) => watching?.scene === "mine");
+  assert.equal(choosing, false);
+  assert.match(watching.source, /mine\.toml/);
+  await viewer.page.keyboard.press("p");
+  await viewer.until(({ watching }) => watching.spheres > 0);
+  await viewer.close();
+});
+
+test("a broken scene file is refused with its line, and the page goes on", async () => {
+  const viewer = await desk.watch("simtest1");
+  const text = await readFile(SCENE, "utf8");
+  const lines = text.split("\n");
+  const line = lines.findIndex((it) => it.startsWith("frame_time")) + 1;
+  lines[line - 1] = "frame_time = -0.02";
+  await viewer.drop("broken.toml", lines.join("\n"));
+  const { notices, watching } = await viewer.until((status) => status.notices.length > 0);
+  assert.match(notices.join(), new RegExp(`broken\\.toml.*\\b${line}\\b`, "s"));
+  assert.equal(watching.scene, "simtest1");
+  await viewer.keepPicture("broken-scene");
+  await viewer.page.keyboard.press("p");
+  await viewer.until(({ watching }) => watching.time > 1);
+  await viewer.close();
+});
+
+test("a maze that is dropped is played", async () => {
+  const viewer = await desk.open();
+  await viewer.drop("short.txt", "#######\n#S o E#\n#######\n");
+  await viewer.until(({ maze }) => maze?.collectibles === 1);
+  await viewer.hold("ArrowRight", ({ maze }) => maze.won);
+  await viewer.keepPicture("maze-won");
+  await viewer.close();
+});
+
+test("a film is saved, and plays", async () => {
+  const viewer = await desk.watch("simtest1");
+  await viewer.page.keyboard.press("p");
+  await viewer.until(({ watching }) => watching.time > 1);
+  await viewer.page.keyboard.press("r");
+  const { watching: begun } = await viewer.until((status) => status.recording);
+  await viewer.until(({ watching }) => watching.time > begun.time + 2);
+  const file = await viewer.download(() => viewer.page.keyboard.press("r"));
+  assert.match(file.suggestedFilename(), /^simtest1.*\.(mp4|webm)$/);
+  const path = fileURLToPath(new URL("../test-results/film.mp4", import.meta.url));
+  await file.saveAs(path);
+  const asked = "stream=width,height,nb_read_frames,duration";
+  const args = ["-v", "error", "-count_frames", "-show_entries", asked, "-of", "json", path];
+  const [stream] = JSON.parse(execFileSync("ffprobe", args, { encoding: "utf8" })).streams;
+  assert.deepEqual([stream.width, stream.height], [1280, 720]);
+  // Thirty frames to a second of simulated time, and one at its beginning.
+  const { watching: ended } = await viewer.status();
+  const frames = Number(stream.nb_read_frames);
+  const most = (ended.time - begun.time) * 30 + 35;
+  assert.ok(frames >= 60 && frames <= most, `${frames} frames, at most ${most}`);
+  assert.ok(Math.abs(Number(stream.duration) - frames / 30) < 0.05, `${stream.duration} s`);
+  await viewer.close();
+});

@@ -1,0 +1,55 @@
+// The page with each way of drawing, and how long its pictures take.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { difference, read } from "./pixels.js";
+import { Desk } from "./viewer.js";
+
+/** The middle of the page, where scenes are shown. */
+const MIDDLE = { left: 0.3, top: 0.1, right: 0.7, bottom: 0.9 };
+
+/** Scenes for frame times: some twenty spheres, and hundreds. */
+const LOADS = ["simtest3", "tutorial4"];
+
+/** How long pictures are counted [ms]. */
+const COUNTED = 4000;
+
+/** @param {import("./viewer.js").Viewer} viewer */
+async function measure(viewer) {
+  const [pictures, time] = [(await viewer.status()).pictures, performance.now()];
+  await viewer.pause(COUNTED);
+  const { pictures: now, cpuSeconds, watching } = await viewer.status();
+  return {
+    picturesPerSecond: ((now - pictures) / (performance.now() - time)) * 1000,
+    milliseconds: cpuSeconds * 1000,
+    spheres: watching.spheres,
+  };
+}
+
+for (const [graphics, name] of /** @type {const} */ ([["webgl2", "WebGL2"], ["webgpu", "WebGPU"]])) {
+  test(`it draws with ${name}`, async (context) => {
+    const desk = await Desk.set(graphics);
+    context.after(() => desk.clear());
+    for (const scene of LOADS) {
+      const viewer = await desk.watch(scene);
+      const { graphics: used } = await viewer.status();
+      if (used !== name) {
+        context.skip(`this browser offers no ${name} in software`);
+        return;
+      }
+      await viewer.page.keyboard.press("p");
+      const start = read(await viewer.keepPicture(`${graphics}-${scene}-start`));
+      await viewer.until(({ watching }) => watching.time > 4);
+      const { picturesPerSecond, milliseconds, spheres } = await measure(viewer);
+      const late = read(await viewer.keepPicture(`${graphics}-${scene}`));
+      assert.ok(difference(start, late, MIDDLE) > 0.002);
+      const rate = picturesPerSecond.toFixed(1);
+      context.diagnostic(
+        `${name} in software, ${scene}, ${spheres} spheres, 1280 x 800: ${rate} pictures/s, ` +
+          `${milliseconds.toFixed(1)} ms of the interface's own for the last one`,
+      );
+      await viewer.close();
+    }
+  });
+}

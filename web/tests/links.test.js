@@ -1,0 +1,92 @@
+// Links to runs: the same bits in the browser as outside.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import { carom, stateHash } from "./native.js";
+import { Desk } from "./viewer.js";
+
+/** @type {Desk} */
+let desk;
+
+before(async () => {
+  desk = await Desk.set("webgl2");
+});
+
+after(() => desk?.clear());
+
+/**
+ * The state hash that a page shows of a run that has come to where its link says.
+ *
+ * @param {import("./viewer.js").Viewer} viewer
+ */
+async function shownHash(viewer) {
+  const { watching } = await viewer.until(
+    ({ watching }) => watching && !watching.seeking && watching.stateHash !== null,
+  );
+  return watching.stateHash;
+}
+
+const scenes = JSON.parse(carom("scenes", "--json")).map((/** @type {any} */ it) => it.name);
+
+for (const scene of scenes) {
+  test(`${scene} has the same bits after ten seconds`, async () => {
+    const viewer = await desk.open(`#scene=${scene}&t=10`);
+    assert.equal(await shownHash(viewer), stateHash(scene, "--seconds", "10"));
+    const { watching } = await viewer.status();
+    assert.ok(Math.abs(watching.time - 10) < 1e-9, `${watching.time}`);
+    await viewer.close();
+  });
+}
+
+test("a link from the command line is shown with the hash that it has there", async () => {
+  const changes = ["--rule", "exact", "--set", "colliders.0.restitution=0.5", "--seconds", "6"];
+  const link = carom("link", "simtest2", ...changes).trim();
+  const viewer = await desk.open(new URL(link).hash);
+  assert.equal(await shownHash(viewer), stateHash("--link", link));
+  assert.equal((await viewer.status()).watching.rule, "exact");
+  await viewer.keepPicture("link");
+  await viewer.close();
+});
+
+test("what was changed by hand goes with the link, and gives the same bits elsewhere", async () => {
+  const viewer = await desk.watch("simtest1");
+  await viewer.page.keyboard.press("p");
+  await viewer.until(({ watching }) => watching.time > 2);
+  await viewer.click("Restitution of PlaneCollider", { role: "Slider", part: 0.25 });
+  await viewer.until(({ watching }) => watching.restitutions[0] < 0.5);
+  await viewer.until(({ watching }) => watching.time > 4);
+  await viewer.page.keyboard.press("u");
+  const hash = await shownHash(viewer);
+  const { watching } = await viewer.status();
+  await viewer.keepPicture("link-dialog");
+  // The address bar follows within a second or two.
+  await viewer.page.waitForFunction(
+    (time) => Math.abs(Number(new URLSearchParams(location.hash.slice(1)).get("t")) - time) < 1e-6,
+    watching.time,
+  );
+  const link = viewer.page.url();
+  assert.equal(stateHash("--link", link), hash);
+  const other = await desk.open(new URL(link).hash);
+  assert.equal(await shownHash(other), hash);
+  await other.close();
+  await viewer.close();
+});
+
+test("an address that changes is followed", async () => {
+  const viewer = await desk.open("#scene=simtest1&t=1");
+  await shownHash(viewer);
+  await viewer.page.evaluate(() => void (location.hash = "scene=tutorial3&t=2"));
+  await viewer.until(({ watching }) => watching.scene === "tutorial3" && !watching.seeking);
+  assert.equal(await shownHash(viewer), stateHash("tutorial3", "--seconds", "2"));
+  await viewer.close();
+});
+
+test("a link that makes no sense is said to, and the chooser opens", async () => {
+  const viewer = await desk.open("#scene=nowhere");
+  const { choosing, notices } = await viewer.status();
+  assert.equal(choosing, true);
+  assert.match(notices.join(), /nowhere/);
+  await viewer.keepPicture("link-broken");
+  await viewer.close();
+});

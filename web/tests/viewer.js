@@ -1,0 +1,216 @@
+// Carom in a page, looked at and used by tests.
+
+import assert from "node:assert/strict";
+import { fileURLToPath } from "node:url";
+
+import { serve } from "../serve.js";
+import { complaints, keepPicture, launch } from "./browser.js";
+
+/** The page as `cargo xtask web` made it. */
+const DIST = process.env.CAROM_DIST ?? fileURLToPath(new URL("../dist/", import.meta.url));
+
+/** How long the slowest machine may take for what is asked [ms]: it draws in software. */
+const PATIENCE = 60_000;
+
+/** @typedef {{ role: string, label: string, value: string | null, x: number, y: number, width: number, height: number }} Widget */
+
+/** A browser and a server, for the tests of one file. */
+export class Desk {
+  /**
+   * @param {import("playwright-core").Browser} browser
+   * @param {Awaited<ReturnType<typeof serve>>} server
+   */
+  constructor(browser, server) {
+    this.browser = browser;
+    this.server = server;
+  }
+
+  /** @param {Parameters<typeof launch>[0]} graphics */
+  static async set(graphics) {
+    return new Desk(await launch(graphics), await serve(DIST, 0));
+  }
+
+  async clear() {
+    await this.browser.close();
+    await this.server.close();
+  }
+
+  /**
+   * Opens the page and waits until the interface is there.
+   *
+   * @param {string} [fragment] of the address, with `#`
+   * @param {import("playwright-core").BrowserContextOptions} [options]
+   */
+  async open(fragment = "", options = {}) {
+    const viewport = { width: 1280, height: 800 };
+    const context = await this.browser.newContext({ viewport, ...options });
+    const page = await context.newPage();
+    page.setDefaultTimeout(PATIENCE);
+    const viewer = new Viewer(page);
+    await page.goto(`${this.server.url}${fragment}`);
+    await page.waitForSelector("#loading.done, #loading.trouble", { state: "attached" });
+    assert.equal(await page.isVisible("#loading.trouble"), false, await page.innerText("#loading"));
+    await viewer.until((status) => status.pictures > 1);
+    return viewer;
+  }
+
+  /**
+   * Opens the page and chooses a scene, as a user does.
+   *
+   * @param {string} scene
+   * @param {import("playwright-core").BrowserContextOptions} [options]
+   */
+  async watch(scene, options) {
+    const viewer = await this.open("", options);
+    await viewer.page.keyboard.type(scene);
+    while ((await viewer.widget(scene, "Button")).value !== "true") {
+      // The choice follows the letters with the next picture.
+    }
+    await viewer.page.keyboard.press("Enter");
+    await viewer.until((status) => status.watching?.scene === scene);
+    // Keys belong to the chooser's text until the next picture.
+    await viewer.page.waitForFunction(() => document.activeElement?.id === "carom");
+    return viewer;
+  }
+}
+
+/** The interface in a page. */
+export class Viewer {
+  /** @param {import("playwright-core").Page} page */
+  constructor(page) {
+    this.page = page;
+    this.complaints = complaints(page);
+  }
+
+  /** Closes the page; it must not have complained. */
+  async close() {
+    assert.deepEqual(this.complaints, []);
+    await this.page.context().close();
+  }
+
+  /** @param {number} time [ms] */
+  pause(time) {
+    return new Promise((resolve) => setTimeout(resolve, time));
+  }
+
+  /** @returns {Promise<any>} what the interface says that it shows */
+  async status() {
+    for (;;) {
+      const status = await this.page.evaluate(() => /** @type {any} */ (globalThis).carom.status());
+      // There is none while a picture is being made.
+      if (status !== undefined) {
+        return status;
+      }
+    }
+  }
+
+  /**
+   * Waits until the interface shows something.
+   *
+   * @param {(status: any) => unknown} isShown
+   * @returns {Promise<any>} the status
+   */
+  async until(isShown) {
+    const end = performance.now() + PATIENCE;
+    for (;;) {
+      const status = await this.status();
+      if (isShown(status)) {
+        return status;
+      }
+      const shown = JSON.stringify({ ...status, scenes: undefined });
+      assert.ok(performance.now() < end, `waited for ${isShown} in ${shown}`);
+      await this.pause(30);
+    }
+  }
+
+  /** Lets the interface draw again, twice: what was done has been shown then. */
+  async redraw() {
+    const { pictures } = await this.status();
+    await this.page.evaluate(() => /** @type {any} */ (globalThis).carom.widgets());
+    await this.until((status) => status.pictures > pictures + 1);
+  }
+
+  /** @returns {Promise<Widget[]>} what can be used and read now */
+  async widgets() {
+    await this.redraw();
+    return this.page.evaluate(() => /** @type {any} */ (globalThis).carom.widgets());
+  }
+
+  /**
+   * @param {string} label
+   * @param {string} [role]
+   * @returns {Promise<Widget>}
+   */
+  async widget(label, role) {
+    const end = performance.now() + PATIENCE;
+    for (;;) {
+      const widgets = await this.widgets();
+      const found = widgets.find((it) => it.label === label && (role ?? it.role) === it.role);
+      if (found !== undefined) {
+        return found;
+      }
+      const labels = widgets.map((it) => `${it.role} ${it.label}`).join(", ");
+      assert.ok(performance.now() < end, `there is no ${role ?? ""} ${label} in ${labels}`);
+    }
+  }
+
+  /**
+   * Clicks on a part of the interface, in its middle unless told otherwise.
+   *
+   * @param {string} label
+   * @param {{ role?: string, part?: number }} [where] part of its width
+   */
+  async click(label, { role, part = 0.5 } = {}) {
+    const { x, y, width, height } = await this.widget(label, role);
+    await this.page.mouse.click(x + part * width, y + 0.5 * height);
+  }
+
+  /**
+   * Holds a key until the interface shows something.
+   *
+   * @param {string} key
+   * @param {(status: any) => unknown} isShown
+   */
+  async hold(key, isShown) {
+    await this.page.keyboard.down(key);
+    await this.until(isShown);
+    await this.page.keyboard.up(key);
+  }
+
+  /**
+   * Drops a file on the page.
+   *
+   * @param {string} name
+   * @param {string} text
+   */
+  async drop(name, text) {
+    await this.page.evaluate(
+      ({ name, text }) => {
+        const dataTransfer = new DataTransfer();
+        dataTransfer.items.add(new File([text], name));
+        const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById("carom"));
+        for (const type of ["dragenter", "dragover", "drop"]) {
+          const init = { bubbles: true, cancelable: true, dataTransfer, clientX: 600, clientY: 400 };
+          canvas.dispatchEvent(new DragEvent(type, init));
+        }
+      },
+      { name, text },
+    );
+  }
+
+  /**
+   * Does something and waits for the file that comes of it.
+   *
+   * @param {() => Promise<unknown>} act
+   */
+  async download(act) {
+    const waiting = this.page.waitForEvent("download");
+    await act();
+    return waiting;
+  }
+
+  /** Keeps a picture of the page as a user sees it. */
+  async keepPicture(/** @type {string} */ name) {
+    return keepPicture(this.page, name);
+  }
+}

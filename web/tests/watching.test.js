@@ -1,0 +1,149 @@
+// Scenes, watched in the page.
+
+import assert from "node:assert/strict";
+import { readFile, readdir } from "node:fs/promises";
+import { fileURLToPath } from "node:url";
+import { after, before, test } from "node:test";
+
+import { difference, read } from "./pixels.js";
+import { Desk } from "./viewer.js";
+
+const SCENES = fileURLToPath(new URL("../../scenes/", import.meta.url));
+
+/** The middle of the page, where scenes are shown. */
+const MIDDLE = { left: 0.3, top: 0.1, right: 0.7, bottom: 0.9 };
+
+/** @type {Desk} */
+let desk;
+
+before(async () => {
+  desk = await Desk.set("webgl2");
+});
+
+after(() => desk?.clear());
+
+test("the chooser lists every scene", async () => {
+  const viewer = await desk.open();
+  const files = await readdir(SCENES);
+  const names = files.filter((file) => file.endsWith(".toml")).map((file) => file.slice(0, -5));
+  const { choosing, scenes } = await viewer.status();
+  assert.equal(choosing, true);
+  assert.deepEqual([...scenes].sort(), names.sort());
+  const buttons = (await viewer.widgets()).filter((it) => it.role === "Button");
+  const offered = buttons.map((it) => it.label);
+  assert.deepEqual(names.filter((name) => !offered.includes(name)), []);
+  await viewer.keepPicture("chooser");
+  await viewer.close();
+});
+
+test("a scene that is clicked on is watched, and its balls move", async () => {
+  const viewer = await desk.open();
+  await viewer.click("simtest1", { role: "Button" });
+  await viewer.until((status) => status.watching?.scene === "simtest1" && !status.choosing);
+  await viewer.page.keyboard.press("p");
+  await viewer.until(({ watching }) => watching.time > 1.5);
+  const early = await viewer.keepPicture("simtest1-early");
+  const { watching: then } = await viewer.until(({ watching }) => watching.time > 5);
+  const late = await viewer.keepPicture("simtest1-late");
+  assert.ok(difference(read(early), read(late), MIDDLE) > 0.002);
+  assert.ok(then.impacts > 10 && then.spheres > 4, JSON.stringify(then));
+  await viewer.close();
+});
+
+test("it pauses, goes a frame on and one back, and begins anew", async () => {
+  const viewer = await desk.watch("simtest1");
+  await viewer.click("Play");
+  await viewer.until(({ watching }) => watching.frame > 30);
+  await viewer.click("Pause");
+  const { watching: paused } = await viewer.until(({ watching }) => !watching.playing);
+  await viewer.pause(500);
+  assert.equal((await viewer.status()).watching.frame, paused.frame);
+  await viewer.page.keyboard.press("Period");
+  await viewer.until(({ watching }) => watching.frame === paused.frame + 1);
+  await viewer.page.keyboard.press("Comma");
+  await viewer.until(({ watching }) => watching.frame === paused.frame);
+  await viewer.page.keyboard.press("Home");
+  await viewer.until(({ watching }) => watching.frame === 0 && watching.time === 0);
+  await viewer.close();
+});
+
+test("a picture is saved as a PNG with the time on it", async () => {
+  const viewer = await desk.watch("simtest1");
+  const pictures = [];
+  for (const frame of [1, 2]) {
+    await viewer.page.keyboard.press("Period");
+    await viewer.until(({ watching }) => watching.frame === frame);
+    const file = await viewer.download(() => viewer.page.keyboard.press("Space"));
+    assert.match(file.suggestedFilename(), /^simtest1.*\.png$/);
+    pictures.push(read(await readFile(await file.path())));
+    await file.saveAs(fileURLToPath(new URL(`../test-results/saved-${frame}.png`, import.meta.url)));
+  }
+  const [first, second] = pictures;
+  for (const { width, height } of pictures) {
+    assert.deepEqual([width, height], [1280, 800]);
+  }
+  // In two frames without a ball only the time at the lower left is another.
+  const stamp = { left: 0, top: 0.85, right: 0.5, bottom: 1 };
+  const rest = { left: 0.5, top: 0.85, right: 1, bottom: 1 };
+  assert.ok(difference(first, second, stamp) > 0);
+  assert.equal(difference(first, second, rest), 0);
+  await viewer.close();
+});
+
+test("a restitution that is changed while the scene runs stays changed", async () => {
+  const viewer = await desk.watch("simtest1");
+  await viewer.page.keyboard.press("p");
+  const { watching: before } = await viewer.until(({ watching }) => watching.frame > 5);
+  await viewer.click("Restitution of PlaneCollider", { role: "Slider", part: 0.25 });
+  const { watching: changed } = await viewer.until(
+    ({ watching }) => watching.restitutions[0] < 0.5 && watching.playing,
+  );
+  assert.notDeepEqual(changed.restitutions, before.restitutions);
+  assert.equal(changed.restitutions[1], before.restitutions[1]);
+  await viewer.until(({ watching }) => watching.frame > changed.frame + 10);
+  await viewer.keepPicture("restitution");
+  await viewer.close();
+});
+
+test("plots, impacts and velocities are shown, in light and dark", async () => {
+  const viewer = await desk.watch("simtest3");
+  for (const key of ["p", "g", "l", "v"]) {
+    await viewer.page.keyboard.press(key);
+  }
+  await viewer.until(({ watching }) => watching.time > 4);
+  const light = await viewer.keepPicture("panels-light");
+  await viewer.page.keyboard.press("t");
+  await viewer.redraw();
+  const dark = await viewer.keepPicture("panels-dark");
+  const edges = { left: 0, top: 0, right: 1, bottom: 1 };
+  assert.ok(difference(read(light), read(dark), edges) > 0.5);
+  await viewer.close();
+});
+
+test("two rules are shown side by side", async () => {
+  const viewer = await desk.watch("tutorial3");
+  await viewer.page.keyboard.press("x");
+  await viewer.page.keyboard.press("p");
+  await viewer.until(({ watching }) => watching.comparing && watching.time > 2);
+  await viewer.keepPicture("two-rules");
+  await viewer.close();
+});
+
+test("the camera turns and comes nearer by mouse", async () => {
+  const viewer = await desk.watch("simtest3");
+  const { mouse } = viewer.page;
+  const before = read(await viewer.keepPicture("camera-before"));
+  await mouse.move(500, 400);
+  await mouse.down();
+  await mouse.move(650, 430, { steps: 5 });
+  await mouse.up();
+  await viewer.redraw();
+  const turned = read(await viewer.keepPicture("camera-turned"));
+  assert.ok(difference(before, turned, MIDDLE) > 0.05);
+  await mouse.wheel(0, -600);
+  await viewer.pause(500);
+  await viewer.redraw();
+  const nearer = read(await viewer.keepPicture("camera-nearer"));
+  assert.ok(difference(turned, nearer, MIDDLE) > 0.05);
+  await viewer.close();
+});
