@@ -14,8 +14,8 @@ import { build } from "esbuild";
 
 const PAGE = fileURLToPath(new URL("page/", import.meta.url));
 
-/** What a browser must know at least: the first versions with WebAssembly's reference types. */
-const BROWSERS = ["chrome96", "firefox100", "safari16.4"];
+/** The oldest with all that module and page use: reference types, TransformStream, box sizes. */
+const BROWSERS = ["chrome96", "firefox102", "safari15.4"];
 
 /**
  * @param {string} moduleFolder
@@ -30,12 +30,13 @@ export async function bundle(moduleFolder, out) {
   }
   const wasm = await readFile(join(moduleFolder, "carom_web_bg.wasm"));
   const wasmName = await writeHashed(out, "carom.wasm", wasm);
-  const link = `<link id="module" rel="preload" as="fetch" crossorigin href="${wasmName}" data-bytes="${wasm.length}" />`;
+  const size = `data-bytes="${wasm.length}"`;
+  const preload = `rel="preload" as="fetch" crossorigin href="${wasmName}"`;
   let html = await readFile(join(PAGE, "index.html"), "utf8");
   for (const [name, hashed] of names) {
     html = html.replaceAll(`"${name}"`, `"${hashed}"`);
   }
-  html = html.replace("  </head>", `    ${link}\n  </head>`);
+  html = html.replace("  </head>", `    <link id="module" ${preload} ${size} />\n  </head>`);
   await writeFile(join(out, "index.html"), html);
   await compressAll(out);
 }

@@ -10,7 +10,10 @@ export function watchForTheEnd(canvas, tell) {
   const ended = (/** @type {unknown} */ error) => {
     // Only a trap of the module ends it; other errors are the page's own, and leave it running.
     if (error instanceof WebAssembly.RuntimeError) {
-      tell("Carom has stopped because of an error of its own. What was not saved is lost.", error.message);
+      tell(
+        "Carom has stopped because of an error of its own. What was not saved is lost.",
+        error.message,
+      );
     }
   };
   addEventListener("error", (event) => ended(event.error));

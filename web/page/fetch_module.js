@@ -47,7 +47,9 @@ async function ask(url) {
   });
   if (!response.ok || response.body === null) {
     const cause = `${url}: ${response.status} ${response.statusText}`;
-    throw new Trouble("Carom could not be fetched: the server does not give its module.", { cause });
+    throw new Trouble("Carom could not be fetched: the server does not give its module.", {
+      cause,
+    });
   }
   return response.body;
 }

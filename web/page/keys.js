@@ -1,7 +1,15 @@
 // Keys that scroll pages, and here do not.
 
 const SCROLLING = new Set([
-  " ", "ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "PageUp", "PageDown", "Home", "End",
+  " ",
+  "ArrowUp",
+  "ArrowDown",
+  "ArrowLeft",
+  "ArrowRight",
+  "PageUp",
+  "PageDown",
+  "Home",
+  "End",
 ]);
 
 /**

@@ -1,6 +1,7 @@
 // What is seen before the interface is, and when it cannot be.
 
-const element = (/** @type {string} */ id) => /** @type {HTMLElement} */ (document.getElementById(id));
+const element = (/** @type {string} */ id) =>
+  /** @type {HTMLElement} */ (document.getElementById(id));
 
 const screen = element("loading");
 const message = element("message");

@@ -16,7 +16,9 @@ const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById("carom"
 
 async function start() {
   if (typeof WebAssembly !== "object") {
-    throw new Trouble("Carom needs WebAssembly, which this browser does not have or has switched off.");
+    throw new Trouble(
+      "Carom needs WebAssembly, which this browser does not have or has switched off.",
+    );
   }
   if (!(await canDraw())) {
     throw new Trouble(

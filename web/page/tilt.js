@@ -66,10 +66,9 @@ export function tilt() {
 
 /** Some browsers ask whoever watches, and do so only in answer to a touch. */
 async function askForLeave() {
-  const { requestPermission } =
-    /** @type {{ requestPermission?: () => Promise<string> }} */ (
-      /** @type {unknown} */ (DeviceOrientationEvent)
-    );
+  const { requestPermission } = /** @type {{ requestPermission?: () => Promise<string> }} */ (
+    /** @type {unknown} */ (DeviceOrientationEvent)
+  );
   if (requestPermission === undefined) {
     return;
   }

@@ -65,7 +65,9 @@ async function film(page, film) {
   }, film);
   const file = await download;
   assert.match(file.suggestedFilename(), /^square-2\.5s\.(mp4|webm)$/);
-  const trouble = await page.evaluate(() => /** @type {any} */ (globalThis).carom.services.trouble());
+  const trouble = await page.evaluate(() =>
+    /** @type {any} */ (globalThis).carom.services.trouble(),
+  );
   assert.equal(trouble, null);
   return file.path();
 }

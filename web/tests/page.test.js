@@ -1,4 +1,4 @@
-// The page around the module: how it loads, what it says when it cannot, what it does for the module.
+// The page around the module: how it loads, what it says when it cannot, what the module gets.
 
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
@@ -73,7 +73,9 @@ describe("the page", () => {
   test("asks nobody else for anything", async () => {
     /** @type {string[]} */
     const asked = [];
-    const { close } = await open("", async (page) => page.on("request", (it) => asked.push(it.url())));
+    const { close } = await open("", async (page) =>
+      page.on("request", (it) => asked.push(it.url())),
+    );
     const elsewhere = asked.filter((url) => !url.startsWith(site.url));
     assert.deepEqual(elsewhere, []);
     await close();
@@ -94,7 +96,9 @@ describe("the page", () => {
   }
 
   test("says that the network is not there, and tries again when told to", async () => {
-    const { page, close } = await open("", (page) => page.route(isModule, (route) => route.abort()));
+    const { page, close } = await open("", (page) =>
+      page.route(isModule, (route) => route.abort()),
+    );
     assert.match((await message(page)) ?? "", /Is the network there\?/);
     await page.unroute(isModule);
     await page.click("#again");
@@ -207,13 +211,13 @@ describe("the page, for the module,", () => {
     const { page, close } = await open("");
     const waiting = page.waitForEvent("download");
     await page.evaluate(() => {
-      const bytes = new TextEncoder().encode("name = \"mine\"\n");
+      const bytes = new TextEncoder().encode('name = "mine"\n');
       /** @type {any} */ (globalThis).carom.services.save("mine.toml", "text/plain", bytes);
     });
     const download = await waiting;
     assert.equal(download.suggestedFilename(), "mine.toml");
     const { readFile } = await import("node:fs/promises");
-    assert.equal(await readFile(await download.path(), "utf8"), "name = \"mine\"\n");
+    assert.equal(await readFile(await download.path(), "utf8"), 'name = "mine"\n');
     await close();
   });
 

@@ -16,7 +16,19 @@ import { execFileSync } from "node:child_process";
 export function read(png) {
   // Width and height stand at the beginning of the first chunk, after signature and chunk header.
   const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)];
-  const args = ["-v", "error", "-f", "png_pipe", "-i", "-", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"];
+  const args = [
+    "-v",
+    "error",
+    "-f",
+    "png_pipe",
+    "-i",
+    "-",
+    "-f",
+    "rawvideo",
+    "-pix_fmt",
+    "rgb24",
+    "-",
+  ];
   const rgb = execFileSync("ffmpeg", args, { input: png, maxBuffer: 1e9 });
   return { width, height, rgb };
 }

@@ -51,7 +51,10 @@ async function fingers(viewer) {
 
 test("the picture fills a window that changes", async () => {
   const viewer = await desk.watch("simtest3");
-  for (const [width, height] of [[900, 500], [1400, 900]]) {
+  for (const [width, height] of [
+    [900, 500],
+    [1400, 900],
+  ]) {
     await viewer.page.setViewportSize({ width, height });
     await viewer.pause(300);
     await viewer.redraw();
@@ -71,7 +74,7 @@ test("fine pixels are used", async () => {
   await viewer.close();
 });
 
-test("on a phone a tap chooses a scene, a finger turns the camera and two come nearer", async () => {
+test("on a phone a tap chooses, a finger turns the camera, and two come nearer", async () => {
   const viewer = await desk.open("", PHONE);
   await viewer.keepPicture("phone-chooser");
   const { x, y, width, height } = await viewer.widget("simtest3", "Button");

@@ -10,6 +10,13 @@ import { gunzipSync, gzipSync } from "node:zlib";
 
 import { serve } from "../serve.js";
 
+/**
+ * @typedef {object} Answer
+ * @property {number | undefined} status
+ * @property {import("node:http").IncomingHttpHeaders} headers
+ * @property {Buffer} body
+ */
+
 /** @type {string} */
 let folder;
 /** @type {Awaited<ReturnType<typeof serve>>} */
@@ -35,7 +42,7 @@ after(async () => {
  *
  * @param {string} path
  * @param {Record<string, string>} [headers]
- * @returns {Promise<{ status?: number, headers: import("node:http").IncomingHttpHeaders, body: Buffer }>}
+ * @returns {Promise<Answer>}
  */
 function get(path, headers = {}) {
   return new Promise((resolve, reject) => {

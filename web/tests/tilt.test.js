@@ -22,11 +22,11 @@ test("on its right edge, a ball rolls to the right", () => {
   assertNear(inDevice(0, 90), [1, 0]);
 });
 
-test("on its left edge, its right edge up, a ball rolls to the lower edge of the turned screen", () => {
+test("with its right edge up, a ball rolls to the lower edge of the turned screen", () => {
   assertNear(onScreen(inDevice(0, -90), 90), [0, 1]);
 });
 
-test("on its right edge, its left edge up, a ball rolls to the lower edge of the turned screen", () => {
+test("with its left edge up, a ball rolls to the lower edge of the turned screen", () => {
   assertNear(onScreen(inDevice(0, 90), 270), [0, 1]);
 });
 

@@ -12,7 +12,16 @@ const DIST = process.env.CAROM_DIST ?? fileURLToPath(new URL("../dist/", import.
 /** How long the slowest machine may take for what is asked [ms]: it draws in software. */
 const PATIENCE = 60_000;
 
-/** @typedef {{ role: string, label: string, value: string | null, x: number, y: number, width: number, height: number }} Widget */
+/**
+ * @typedef {object} Widget in CSS pixels
+ * @property {string} role
+ * @property {string} label
+ * @property {string | null} value
+ * @property {number} x
+ * @property {number} y
+ * @property {number} width
+ * @property {number} height
+ */
 
 /** A browser and a server, for the tests of one file. */
 export class Desk {
@@ -190,7 +199,13 @@ export class Viewer {
         dataTransfer.items.add(new File([text], name));
         const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById("carom"));
         for (const type of ["dragenter", "dragover", "drop"]) {
-          const init = { bubbles: true, cancelable: true, dataTransfer, clientX: 600, clientY: 400 };
+          const init = {
+            bubbles: true,
+            cancelable: true,
+            dataTransfer,
+            clientX: 600,
+            clientY: 400,
+          };
           canvas.dispatchEvent(new DragEvent(type, init));
         }
       },

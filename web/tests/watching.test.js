@@ -31,7 +31,10 @@ test("the chooser lists every scene", async () => {
   assert.deepEqual([...scenes].sort(), names.sort());
   const buttons = (await viewer.widgets()).filter((it) => it.role === "Button");
   const offered = buttons.map((it) => it.label);
-  assert.deepEqual(names.filter((name) => !offered.includes(name)), []);
+  assert.deepEqual(
+    names.filter((name) => !offered.includes(name)),
+    [],
+  );
   await viewer.keepPicture("chooser");
   await viewer.close();
 });
@@ -76,7 +79,9 @@ test("a picture is saved as a PNG with the time on it", async () => {
     const file = await viewer.download(() => viewer.page.keyboard.press("Space"));
     assert.match(file.suggestedFilename(), /^simtest1.*\.png$/);
     pictures.push(read(await readFile(await file.path())));
-    await file.saveAs(fileURLToPath(new URL(`../test-results/saved-${frame}.png`, import.meta.url)));
+    await file.saveAs(
+      fileURLToPath(new URL(`../test-results/saved-${frame}.png`, import.meta.url)),
+    );
   }
   const [first, second] = pictures;
   for (const { width, height } of pictures) {

@@ -110,7 +110,9 @@ fn install(needs: &[Need]) -> Outcome {
         run(program, &all)
     };
     with(&["update", "-qq"])?;
-    with(&[&["install", "-y", "-qq", "--no-install-recommends"], &missing[..]].concat())
+    // Rather fail than remove what somebody uses.
+    let install = ["install", "-y", "-qq", "--no-install-recommends", "--no-remove"];
+    with(&[&install[..], &missing].concat())
 }
 
 /// Whether the loader of Vulkan finds a driver.

@@ -43,6 +43,7 @@ pub fn sizes() -> Outcome {
 pub fn test() -> Outcome {
     build()?;
     setup::browser()?;
+    node(&["node_modules/prettier/bin/prettier.cjs", "--check", "."], &[])?;
     node(&["node_modules/typescript/bin/tsc", "--project", "."], &[])?;
     // What a run gives outside of browsers.
     cargo(&["build", "--release", "--package", "carom-cli", "--no-default-features", "--quiet"])?;

@@ -5,7 +5,12 @@ import { Trouble } from "../trouble.js";
 /** @import { Format, Frame, Maker } from "./film.js" */
 
 /** From the most widely played on. */
-const TYPES = ["video/mp4;codecs=avc1", "video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
+const TYPES = [
+  "video/mp4;codecs=avc1",
+  "video/webm;codecs=vp9",
+  "video/webm;codecs=vp8",
+  "video/webm",
+];
 
 /** Enough for spheres at 1280 by 720 not to show blocks [bits per second]. */
 const BITS_PER_SECOND = 8e6;
