@@ -6,6 +6,7 @@ use std::process::Command;
 
 use crate::shell::{Outcome, cargo, finish, root, target_folder};
 use crate::wasm_toolchain::{TARGET, WasmToolchain};
+use crate::web::test_files;
 use crate::web_tools::{folder, npm_packages, wasm_bindgen};
 use crate::{native_hashes, setup};
 
@@ -46,7 +47,8 @@ pub fn test() -> Outcome {
     let compiler = folder().join("node_modules/typescript/bin/tsc");
     let project = ["--project", "tests"];
     finish("tsc", Command::new("node").arg(compiler).args(project).current_dir(&user))?;
-    finish("node", Command::new("node").args(["--test", "tests/"]).current_dir(&user))
+    let files = test_files(&user)?;
+    finish("node", Command::new("node").arg("--test").args(files).current_dir(&user))
 }
 
 /// Measures the package in Node.js against the native engine, frame by frame.

@@ -57,19 +57,46 @@ test("an override changes numbers, words, lists, and takes fields out", () => {
 });
 
 const REFUSED = {
-  "a misspelled field": [(w) => w.addSphere({ radius: 1, velocty: [0, 0, 0] }), /velocty.*"velocity"/],
-  "a name of two words": [(w) => w.addCollider({ shape: "half-space", angularVelocit: [0, 0, 0] }), /"angularVelocity"/],
-  "a negative radius": [(w) => w.addSphere({ radius: -1 }), /spheres\[0\]\.radius: must be positive/],
+  "a misspelled field": [
+    (w) => w.addSphere({ radius: 1, velocty: [0, 0, 0] }),
+    /velocty.*"velocity"/,
+  ],
+  "a name of two words": [
+    (w) => w.addCollider({ shape: "half-space", angularVelocit: [0, 0, 0] }),
+    /"angularVelocity"/,
+  ],
+  "a negative radius": [
+    (w) => w.addSphere({ radius: -1 }),
+    /spheres\[0\]\.radius: must be positive/,
+  ],
   "no size": [(w) => w.addSphere({}), /needs `radius` or `diameter`/],
   "two numbers for a place": [(w) => w.addSphere({ position: [1, 2], radius: 1 }), /position/],
-  "a place that is no number": [(w) => w.addSphere({ position: [NaN, 0, 0], radius: 1 }), /position: must be finite, not \[NaN, 0, 0\]/],
-  "an infinite speed": [(w) => w.addSphere({ velocity: [0, Infinity, 0], radius: 1 }), /must be finite/],
-  "one wrong of several": [(w) => w.add({ spheres: [{ radius: 1 }, { radius: 0 }] }), /spheres\[1\]\.radius/],
-  "a wrong collider after good spheres": [(w) => w.add({ spheres: [{ radius: 1 }], colliders: [{ shape: "cone" }] }), /`cone`/],
+  "a place that is no number": [
+    (w) => w.addSphere({ position: [NaN, 0, 0], radius: 1 }),
+    /position: must be finite, not \[NaN, 0, 0\]/,
+  ],
+  "an infinite speed": [
+    (w) => w.addSphere({ velocity: [0, Infinity, 0], radius: 1 }),
+    /must be finite/,
+  ],
+  "one wrong of several": [
+    (w) => w.add({ spheres: [{ radius: 1 }, { radius: 0 }] }),
+    /spheres\[1\]\.radius/,
+  ],
+  "a wrong collider after good spheres": [
+    (w) => w.add({ spheres: [{ radius: 1 }], colliders: [{ shape: "cone" }] }),
+    /`cone`/,
+  ],
   "an unknown force": [(w) => w.addForce({ viscousDragg: { coefficient: 1 } }), /"viscousDrag"/],
-  "a drag that drives": [(w) => w.addForce({ viscousDrag: { coefficient: -1 } }), /viscousDrag\.coefficient/],
+  "a drag that drives": [
+    (w) => w.addForce({ viscousDrag: { coefficient: -1 } }),
+    /viscousDrag\.coefficient/,
+  ],
   "a restitution above 1": [(w) => w.setCollider(0, { restitution: 1.5 }), /restitution/],
-  "a sphere that is not there": [(w) => w.setSphere(7, { mass: 2 }), /there is no sphere 7 in this world/],
+  "a sphere that is not there": [
+    (w) => w.setSphere(7, { mass: 2 }),
+    /there is no sphere 7 in this world/,
+  ],
   "half an id": [(w) => w.removeSphere(0.5), /there is no sphere 0\.5/],
   "a force that is not there": [(w) => w.removeForce(1), /there is no force 1/],
   "a collider that is not there": [(w) => w.removeCollider(1), /there is no collider 1/],

@@ -17,7 +17,13 @@ test("a dropped ball meets the floor when and as hard as the fall says", () => {
   assert.ok(isNear(impact.time, 0.4) && isNear(impact.approachSpeed, 4));
   assert.ok(isNear(impact.separationSpeed, 2) && isNear(impact.impulse, 12));
   assert.deepEqual(impact.between, { collider: floor, sphere: ball });
-  assert.deepEqual([impact.point, impact.normal], [[3, 0, 0], [0, 1, 0]]);
+  assert.deepEqual(
+    [impact.point, impact.normal],
+    [
+      [3, 0, 0],
+      [0, 1, 0],
+    ],
+  );
 });
 
 test("two spheres are named by their ids, the smaller one first", () => {

@@ -4,7 +4,7 @@
 import { CaromError, IMPACT_COLUMNS, SceneError, scenes, World } from "carom";
 import type { Collider, Impact, Shape, Simulation } from "carom";
 
-const world: World = World.fromScene("tutorial3", { "simulation.rule": "exact", "camera": null });
+const world: World = World.fromScene("tutorial3", { "simulation.rule": "exact", camera: null });
 const titles: string[] = scenes().map(({ title }) => title);
 
 world.step();
