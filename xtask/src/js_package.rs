@@ -77,7 +77,8 @@ fn check_version() -> Outcome {
 fn bind(module: &Path, out: &Path) -> Outcome {
     let options = ["--target", "web", "--omit-default-module-path", "--no-typescript"];
     let mut command = Command::new(wasm_bindgen()?);
-    command.args(options).args(["--remove-producers-section", "--out-name", "engine"]);
+    command.args(options).args(["--remove-name-section", "--remove-producers-section"]);
+    command.args(["--out-name", "engine"]);
     finish("wasm-bindgen", command.arg("--out-dir").arg(out).arg(module))
 }
 

@@ -239,7 +239,10 @@ export class World {
   }
 
   setSimulation(changes) {
-    const text = tables({ simulation: { ...this.simulation, ...changes } });
+    const now = this.simulation;
+    const exact = { ...now.exact, ...changes.exact };
+    const bisect = { ...now.bisect, ...changes.bisect };
+    const text = tables({ simulation: { ...now, ...changes, exact, bisect } });
     attemptPart(() => this.#world.setSimulation(text));
   }
 

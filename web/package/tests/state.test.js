@@ -86,6 +86,8 @@ test("what is described in code is told back", () => {
   assert.deepEqual(world.forces, [{ id: drag, viscousDrag: { coefficient: 2 } }]);
   world.setSimulation({ boundary: { periodic: { size: [10, 20, Infinity] } } });
   assert.deepEqual(world.simulation.boundary, { periodic: { size: [10, 20, Infinity] } });
+  world.setSimulation({ exact: { maxImpacts: 7 } });
+  assert.deepEqual(world.simulation.exact, { contactDuration: 1e-9, maxImpacts: 7 });
   assert.equal(world.frameTime, 0.01, "what was not named stays");
 });
 

@@ -2,7 +2,7 @@
 // `@ts-expect-error` must be wrong.
 
 import { CaromError, IMPACT_COLUMNS, SceneError, scenes, World } from "carom";
-import type { Collider, Impact, Shape, Simulation } from "carom";
+import type { Collider, Impact, Shape, SimulationChanges } from "carom";
 
 const world: World = World.fromScene("tutorial3", { "simulation.rule": "exact", camera: null });
 const titles: string[] = scenes().map(({ title }) => title);
@@ -31,7 +31,8 @@ own.addCollider({ position: [0, 0, 0] });
 own.addForce({ viscousDrag: { coefficient: 0.1 } });
 own.setSphere(ball, { velocity: [0, 1, 0] });
 own.setCollider(0, { restitution: 0.5 });
-own.setSimulation({ impactLaw: "simultaneous" } satisfies Partial<Simulation>);
+const changes: SimulationChanges = { impactLaw: "simultaneous", exact: { maxImpacts: 100 } };
+own.setSimulation(changes);
 
 const text = (impact: Impact): string =>
   "spheres" in impact.between
