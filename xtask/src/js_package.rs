@@ -6,6 +6,7 @@ use std::process::Command;
 
 use crate::shell::{Outcome, cargo, finish, root, target_folder};
 use crate::wasm_toolchain::{TARGET, WasmToolchain};
+use crate::web::test_files;
 use crate::web_tools::{folder, npm_packages, wasm_bindgen};
 use crate::{native_hashes, setup};
 
@@ -29,7 +30,7 @@ pub fn build() -> Outcome<PathBuf> {
     for (from, to) in FILES {
         copy(&root().join(from), &package.join(to))?;
     }
-    bind(&module, &package.join("engine"))?;
+    bind(&module, &package.join("src"))?;
     pack(&package)
 }
 
@@ -46,7 +47,8 @@ pub fn test() -> Outcome {
     let compiler = folder().join("node_modules/typescript/bin/tsc");
     let project = ["--project", "tests"];
     finish("tsc", Command::new("node").arg(compiler).args(project).current_dir(&user))?;
-    finish("node", Command::new("node").args(["--test", "tests/"]).current_dir(&user))
+    let files = test_files(&user)?;
+    finish("node", Command::new("node").arg("--test").args(files).current_dir(&user))
 }
 
 /// Measures the package in Node.js against the native engine, frame by frame.
@@ -75,7 +77,8 @@ fn check_version() -> Outcome {
 fn bind(module: &Path, out: &Path) -> Outcome {
     let options = ["--target", "web", "--omit-default-module-path", "--no-typescript"];
     let mut command = Command::new(wasm_bindgen()?);
-    command.args(options).args(["--remove-producers-section", "--out-name", "carom"]);
+    command.args(options).args(["--remove-name-section", "--remove-producers-section"]);
+    command.args(["--out-name", "engine"]);
     finish("wasm-bindgen", command.arg("--out-dir").arg(out).arg(module))
 }
 

@@ -11,6 +11,7 @@ pub fn check() -> Outcome {
     let packages = [
         "carom",
         "carom-scene",
+        "carom-js",
         "carom-render",
         "carom-maze",
         "carom-session",

@@ -50,17 +50,18 @@ pub fn test() -> Outcome {
     let carom = target_folder().join("release/carom");
     let carom = carom.to_string_lossy();
     // One file after another: frame times are measured, and a browser uses all there is.
-    let files = test_files()?;
+    let files = test_files(&folder())?;
     let files = files.iter().map(String::as_str);
     let arguments: Vec<&str> =
         ["--test", "--test-concurrency=1"].into_iter().chain(files).collect();
     node(&arguments, &[("CAROM", &carom)])
 }
 
-/// The files of tests, by name: not every version of Node.js finds them in a folder.
-fn test_files() -> Outcome<Vec<String>> {
+/// The files in `tests/` of a folder that hold tests, by name: not every version of Node.js finds
+/// them by their folder.
+pub fn test_files(folder: &Path) -> Outcome<Vec<String>> {
     let mut names = Vec::new();
-    let entries = fs::read_dir(folder().join("tests")).map_err(|error| error.to_string())?;
+    let entries = fs::read_dir(folder.join("tests")).map_err(|error| error.to_string())?;
     for entry in entries {
         let name = entry.map_err(|error| error.to_string())?.file_name();
         let name = name.to_string_lossy();

@@ -1,7 +1,8 @@
 //! Changing a world from outside.
 
 use carom::Collider;
-use carom_scene::{Palette, Scene};
+use carom_scene::Palette;
+use carom_scene::scene::{self, Force};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -30,34 +31,46 @@ impl World {
     pub fn add(&mut self, text: &str) -> Result<String, Failure> {
         let mut part = part::read(text)?;
         part.colors.clone_from(&self.described().colors);
+        let (world, palette) = (part.world()?, Palette::new(&part)?);
         let mut added = Added::default();
-        // What was read is checked: nothing below is refused.
-        self.add_forces(&part, &mut added)?;
-        self.add_colliders(&part, &mut added)?;
-        self.add_spheres(&part, &mut added)?;
+        // All is checked by now: nothing below is refused.
+        self.add_forces(&part.forces, &mut added)?;
+        self.add_colliders(&part.colliders, &world, &mut added)?;
+        self.add_spheres(&world, &palette, &mut added)?;
         Ok(serde_json::to_string(&added)?)
     }
 }
 
 impl World {
-    fn add_forces(&mut self, part: &Scene, added: &mut Added) -> Result<(), Failure> {
-        for force in &part.forces {
+    fn add_forces(&mut self, forces: &[Force], added: &mut Added) -> Result<(), Failure> {
+        for force in forces {
             added.forces.push(force::add(&mut self.world, force)?.number());
             self.described_mut().forces.push(force.clone());
         }
         Ok(())
     }
 
-    fn add_colliders(&mut self, part: &Scene, added: &mut Added) -> Result<(), Failure> {
-        for ((_, collider), described) in part.world()?.colliders().zip(&part.colliders) {
+    /// Adds the colliders of another world, which are described so.
+    fn add_colliders(
+        &mut self,
+        described: &[scene::Collider],
+        world: &carom::World,
+        added: &mut Added,
+    ) -> Result<(), Failure> {
+        for ((_, collider), described) in world.colliders().zip(described) {
             added.colliders.push(self.world.add_collider(*collider)?.number());
             self.described_mut().colliders.push(described.clone());
         }
         Ok(())
     }
 
-    fn add_spheres(&mut self, part: &Scene, added: &mut Added) -> Result<(), Failure> {
-        let (world, palette) = (part.world()?, Palette::new(part)?);
+    /// Adds the spheres of another world, in its colours.
+    fn add_spheres(
+        &mut self,
+        world: &carom::World,
+        palette: &Palette,
+        added: &mut Added,
+    ) -> Result<(), Failure> {
         let spheres = world.spheres();
         for (index, id) in spheres.ids().iter().enumerate() {
             let (radius, mass) = (spheres.radii()[index], spheres.masses()[index]);

@@ -26,16 +26,12 @@ impl Failure {
 
     /// What is wrong with a part that was described in code: it has no lines, and no name.
     pub(crate) fn of_part(error: SceneError) -> Self {
-        match error {
-            SceneError::Invalid(fault) => {
-                let name = if fault.field.is_empty() { fault.source_name } else { fault.field };
-                let nameless =
-                    Fault { source_name: name, field: String::new(), line: None, ..fault };
-                let field = nameless.source_name.clone();
-                Self { message: nameless.to_string(), place: Some(Place { field, line: None }) }
-            }
-            other => other.into(),
-        }
+        let SceneError::Invalid(fault) = error else { return error.into() };
+        let place = Place { field: fault.field.clone(), line: None };
+        // The field stands where a file has its name and line.
+        let name = if fault.field.is_empty() { fault.source_name } else { fault.field };
+        let told = Fault { source_name: name, field: String::new(), line: None, ..fault };
+        Self { message: told.to_string(), place: Some(place) }
     }
 }
 

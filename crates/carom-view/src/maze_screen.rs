@@ -7,7 +7,7 @@ use carom_scene::Palette;
 use carom_session::{Link, Pace};
 use egui::{Align2, Area, Frame, Id, Image, Key, Pos2, Response, RichText, Sense, Ui, Vec2};
 
-use crate::orbit::{Orbit, Preset};
+use crate::orbit::{Orbit, Preset, zoom_asked};
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 
@@ -258,9 +258,7 @@ impl MazeScreen {
         let [right, up] = [drag.x, -drag.y].map(|it| std::f64::consts::PI * f64::from(it));
         orbit.turn(right, up);
         if response.hovered() {
-            let (scrolled, pinched) =
-                ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
-            orbit.zoom(f64::from(pinched) * (f64::from(scrolled) / 300.0).exp());
+            orbit.zoom(zoom_asked(ui));
         }
     }
 

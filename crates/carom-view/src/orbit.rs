@@ -3,6 +3,7 @@
 use carom::{DQuat, DVec3};
 pub use carom_render::Preset;
 use carom_render::{Bounds, Camera};
+use egui::Ui;
 
 /// A camera and what it looks at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,4 +78,14 @@ impl Orbit {
     pub fn center_on(&mut self, point: DVec3) {
         self.camera.position = point - self.distance * self.camera.ahead();
     }
+}
+
+/// How far the wheel is turned for e times nearer, in points. Browsers tell a notch as 100 to 120
+/// pixels, desktops as a line, of which the interface makes 40.
+const SCROLL: f64 = if cfg!(target_arch = "wasm32") { 750.0 } else { 300.0 };
+
+/// How many times nearer wheel and fingers ask to come.
+pub fn zoom_asked(ui: &Ui) -> f64 {
+    let (scrolled, pinched) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+    f64::from(pinched) * (f64::from(scrolled) / SCROLL).exp()
 }

@@ -16,7 +16,7 @@ use crate::action::Action;
 use crate::inspector::{self, Throw};
 use crate::layout::is_narrow;
 use crate::look::{self, Look, Marks};
-use crate::orbit::{Orbit, Preset};
+use crate::orbit::{Orbit, Preset, zoom_asked};
 use crate::plots;
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
@@ -393,9 +393,7 @@ impl Watching {
             orbit.pan(right, -down);
         }
         if response.hovered() {
-            let (scrolled, pinched) =
-                ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
-            orbit.zoom(f64::from(pinched) * (f64::from(scrolled) / 300.0).exp());
+            orbit.zoom(zoom_asked(ui));
         }
         if let Some(pointer) = response.interact_pointer_pos()
             && response.clicked()

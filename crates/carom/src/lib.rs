@@ -36,6 +36,7 @@ mod hash;
 mod integrate;
 mod interval;
 mod invariants;
+mod norm;
 mod numbered;
 mod parallel;
 mod report;

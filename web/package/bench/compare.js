@@ -16,30 +16,45 @@ const RUNS = 4;
 const folder = import.meta.dirname;
 const [rain, tutorial4] = [`${folder}/rain.toml`, `${folder}/../../../scenes/tutorial4.toml`];
 const LOADS = [
-  { name: "1,000 spheres, `exact`", file: rain, overrides: { "simulation.rule": "exact" } },
-  { name: "1,000 spheres, `bisect`", file: rain, overrides: { "simulation.rule": "bisect" } },
-  { name: "1,000 spheres, `discrete`", file: rain, overrides: { "simulation.rule": "discrete" } },
-  { name: "tutorial4 as it is (147)", file: tutorial4, overrides: {} },
+  ["1,000 spheres, `exact`", rain, { "simulation.rule": "exact" }],
+  ["1,000 spheres, `bisect`", rain, { "simulation.rule": "bisect" }],
+  ["1,000 spheres, `discrete`", rain, { "simulation.rule": "discrete" }],
+  [
+    "1,000 spheres, `bisect` that winds back all",
+    rain,
+    { "simulation.rule": "bisect", "simulation.bisect.wind_back": "all" },
+  ],
+  ["tutorial4 as it is (147 spheres, likewise)", tutorial4, {}],
 ];
 
-const [native, module] = process.argv.slice(2).map((path) => resolve(path));
+const [program, module] = process.argv.slice(2).map((path) => resolve(path));
 const { World } = await import(pathToFileURL(module));
 
-console.log("| load | | median frame | longest | all frames |\n|---|---|---:|---:|---:|");
-for (const { name, file, overrides } of LOADS) {
+print("load", "", ["median frame", "longest frame", "all frames"]);
+print("---", "---", ["---:", "---:", "---:"]);
+for (const [name, file, overrides] of LOADS) {
   const times = { native: [], package: [] };
   for (let turn = 0; turn < TURNS; turn++) {
     keepShorter(times.native, nativeTimes(file, overrides));
     keepShorter(times.package, packageTimes(file, overrides));
   }
-  const [a, b] = [summary(times.native), summary(times.package)];
-  console.log(row(name, "native", a.map((time) => `${time.toFixed(3)} ms`)));
-  console.log(row("", "Node", b.map((time) => `${time.toFixed(3)} ms`)));
-  console.log(row("", "ratio", b.map((time, i) => (time / a[i]).toFixed(2))));
+  const [native, node] = [summary(times.native), summary(times.package)];
+  print(name, "native", native.map(milliseconds));
+  print("", "Node.js", node.map(milliseconds));
+  print("", "ratio", ratios(node, native));
 }
 
-function row(...cells) {
-  return `| ${cells.flat().join(" | ")} |`;
+/** A row of a table. */
+function print(load, what, values) {
+  console.log(`| ${[load, what, ...values].join(" | ")} |`);
+}
+
+function milliseconds(time) {
+  return `${time.toFixed(3)} ms`;
+}
+
+function ratios(times, others) {
+  return times.map((time, i) => (time / others[i]).toFixed(2));
 }
 
 /** Median, maximum and sum of times [ms]. */
@@ -55,7 +70,7 @@ function keepShorter(shortest, times) {
 
 function nativeTimes(file, overrides) {
   const changes = Object.entries(overrides).map(([path, value]) => `${path}=${value}`);
-  return JSON.parse(execFileSync(native, [file, String(RUNS), ...changes], { encoding: "utf8" }));
+  return JSON.parse(execFileSync(program, [file, String(RUNS), ...changes], { encoding: "utf8" }));
 }
 
 function packageTimes(file, overrides) {

@@ -1,6 +1,6 @@
 // What goes wrong, as JavaScript throws it.
 
-import { Failure } from "../engine/carom.js";
+import { Failure } from "./engine.js";
 import { camelWords } from "./names.js";
 
 /** Something that the engine refused. What it was refused for is as it was before. */

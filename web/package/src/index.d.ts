@@ -160,6 +160,12 @@ export interface Simulation {
   };
 }
 
+/** New values for how a world is stepped; what is not named stays. */
+export type SimulationChanges = Partial<Omit<Simulation, "exact" | "bisect">> & {
+  exact?: Partial<Simulation["exact"]>;
+  bisect?: Partial<Simulation["bisect"]>;
+};
+
 /** What a scene says besides what there is in its world. */
 export interface Scene {
   name: string;
@@ -263,7 +269,7 @@ export type Overrides = Record<string, unknown>;
  */
 export class World {
   /** An empty world at time 0. @throws {SceneError} */
-  constructor(simulation?: Partial<Simulation>);
+  constructor(simulation?: SimulationChanges);
 
   /** The world of a built-in scene, by name or title, or of the text of a scene file.
    *  @throws {SceneError} with the line, where the text is wrong */
@@ -363,7 +369,7 @@ export class World {
   /** Puts a force in the place of another. @throws {CaromError} */
   setForce(id: number, force: Force): void;
   /** Changes what is given of how the world is stepped. @throws {SceneError} */
-  setSimulation(changes: Partial<Simulation>): void;
+  setSimulation(changes: SimulationChanges): void;
   /** @throws {CaromError} if it is not in the world */
   removeSphere(id: number): void;
   /** @throws {CaromError} if there is no such collider */

@@ -1,4 +1,4 @@
-// The package in Node, Deno and Bun: the engine is read at once, nothing is waited for.
+// The package in Node.js: the engine is read at once, nothing is waited for.
 import "./start.node.js";
 
 export * from "./exports.js";

@@ -11,7 +11,9 @@ export function snake(name) {
 
 /** `angular_velocity` as JavaScript spells it. */
 export function camel(name) {
-  return UNHYPHENATED.get(name) ?? name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
+  return (
+    UNHYPHENATED.get(name) ?? name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase())
+  );
 }
 
 /** A text in which every `word_with_underscores` is spelled as JavaScript does. */

@@ -1,4 +1,4 @@
-import * as engine from "../engine/carom.js";
+import * as engine from "./engine.js";
 import { attempt } from "./errors.js";
 import { parse } from "./names.js";
 

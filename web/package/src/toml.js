@@ -24,7 +24,7 @@ export function toml(value) {
       if (Symbol.iterator in value) return `[${Array.from(value, toml).join(", ")}]`;
       return `{ ${fields(value).join(", ")} }`;
   }
-  throw new TypeError(`a scene cannot hold ${value === null ? "null" : `a ${typeof value}`}`);
+  throw new TypeError(`a scene cannot hold ${value === null ? "null" : typeof value}`);
 }
 
 /** The tables of a scene file, from an object that has them as its fields. */

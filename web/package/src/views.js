@@ -1,6 +1,6 @@
 // Arrays of the engine, looked at where they lie in its memory.
 
-import { engineMemory } from "../engine/carom.js";
+import { engineMemory } from "./engine.js";
 
 /**
  * The views of one world. A view is made anew only where the array has moved, has another length, or

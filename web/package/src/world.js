@@ -1,7 +1,7 @@
 // The world, as JavaScript sees it. What its parts mean and which units they have stands in
 // `index.d.ts`, where editors look for it.
 
-import * as engine from "../engine/carom.js";
+import * as engine from "./engine.js";
 import { attempt, attemptPart, CaromError } from "./errors.js";
 import { IMPACT_COLUMNS, impacts } from "./impacts.js";
 import { writeMatrices } from "./matrices.js";
@@ -239,7 +239,10 @@ export class World {
   }
 
   setSimulation(changes) {
-    const text = tables({ simulation: { ...this.simulation, ...changes } });
+    const now = this.simulation;
+    const exact = { ...now.exact, ...changes.exact };
+    const bisect = { ...now.bisect, ...changes.bisect };
+    const text = tables({ simulation: { ...now, ...changes, exact, bisect } });
     attemptPart(() => this.#world.setSimulation(text));
   }
 

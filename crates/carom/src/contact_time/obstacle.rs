@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use crate::norm::Norm;
 use crate::surface::Rectangle;
 
 /// An obstacle at rest. Its core is convex, so the distance from it lies above each of its
@@ -80,7 +81,7 @@ impl Sight {
     /// Of a point or an edge, from the nearest place on it; `across` is the velocity without its
     /// part along the edge. The distance ρ has `ρ'' = (v² - ρ'²)/ρ`.
     fn of_offset(offset: DVec3, across: DVec3, radius: f64, normal_at_zero: DVec3) -> Self {
-        let from_core = offset.length();
+        let from_core = offset.norm();
         let (normal, turning) = if from_core > 0.0 {
             let normal = offset / from_core;
             (normal, normal.cross(across).length_squared() / from_core)

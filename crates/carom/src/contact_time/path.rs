@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::roundoff::Magnitudes;
 use crate::flight::{Flight, Propagator};
+use crate::norm::Norm;
 
 /// A path relative to an obstacle at rest.
 pub(super) trait Path {
@@ -36,7 +37,7 @@ pub(super) struct State {
 impl Path for Flight {
     fn state_at(&self, t: f64) -> State {
         let Propagator { decay, drift, fall } = Propagator::over(t, self.drag_rate);
-        let (speed, pull) = (self.velocity.length(), self.acceleration.length());
+        let (speed, pull) = (self.velocity.norm(), self.acceleration.norm());
         let travel = drift * self.velocity + fall * self.acceleration;
         State {
             position: self.position + travel,
@@ -58,7 +59,7 @@ impl Path for Flight {
     }
 
     fn max_acceleration_anywhere(&self, from: f64, _to: f64) -> f64 {
-        libm::exp(-self.drag_rate * from) * self.initial_acceleration().length()
+        libm::exp(-self.drag_rate * from) * self.initial_acceleration().norm()
     }
 }
 

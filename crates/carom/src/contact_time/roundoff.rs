@@ -3,6 +3,7 @@
 use std::ops::Add;
 
 use crate::flight::Flight;
+use crate::norm::Norm;
 
 /// Rounding of a computed distance, relative to the lengths it is made of (coordinates, ways
 /// and radii). Positions carry a few roundings each from being advanced, their distance a few
@@ -30,11 +31,11 @@ pub(super) struct Magnitudes {
 impl Magnitudes {
     /// Of a flight at its beginning.
     pub fn of(flight: &Flight) -> Self {
-        let speed = flight.velocity.length();
+        let speed = flight.velocity.norm();
         Self {
-            length: flight.position.length(),
+            length: flight.position.norm(),
             speed,
-            acceleration: flight.acceleration.length() + flight.drag_rate * speed,
+            acceleration: flight.acceleration.norm() + flight.drag_rate * speed,
         }
     }
 

@@ -1,5 +1,6 @@
 //! The search for a contact where there is no closed form: conservative advancement.
 
+use crate::norm::Norm;
 use glam::DVec3;
 
 use super::bisection::{Probe, bisect};
@@ -177,7 +178,7 @@ impl Look {
             acceleration: sight.normal.dot(state.acceleration) + sight.turning,
         };
         let zero = if sight.is_round {
-            Zero::round(&size, sight.from_core, state.velocity.length(), sight.turning)
+            Zero::round(&size, sight.from_core, state.velocity.norm(), sight.turning)
         } else {
             Zero::flat(&size)
         };
@@ -253,7 +254,7 @@ impl Look {
     /// 1/ρ for each metre.
     fn opening_pull(&self, path: &impl Path, t: f64, window: f64) -> f64 {
         let anywhere = path.max_acceleration_anywhere(t, t + window);
-        let way = window * (self.state.velocity.length() + 0.5 * anywhere * window);
+        let way = window * (self.state.velocity.norm() + 0.5 * anywhere * window);
         let is_flat = self.sight.flat_within == f64::INFINITY || way <= self.sight.flat_within;
         let turn = if is_flat { 0.0 } else { way / (self.sight.from_core - way) };
         if (0.0..1.0).contains(&turn) {

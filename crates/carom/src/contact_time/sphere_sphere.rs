@@ -7,6 +7,7 @@ use super::path::FlightPair;
 use super::roundoff::{DISTANCE_ROUNDOFF, Gap, Magnitudes, Phase, SPEED_ROUNDOFF, Zero};
 use super::search;
 use crate::flight::{self, Flight};
+use crate::norm::Norm;
 
 /// Time \[s\] at which two spheres come into contact whose relative velocity is constant: both
 /// fly under the same acceleration, without drag.
@@ -39,7 +40,7 @@ pub fn sphere_sphere_linear(
     if !(b < 0.0 && discriminant >= 0.0) {
         return None;
     }
-    let distance = r.length();
+    let distance = r.norm();
     let gap = distance - radius_sum;
     if gap <= DISTANCE_ROUNDOFF * radius_sum {
         let closes = -b > SPEED_ROUNDOFF * distance * v_squared.sqrt();
@@ -100,8 +101,8 @@ pub(super) fn sphere_point(
 }
 
 fn linear_phase(flight: &Flight, radius: f64, size: &Magnitudes) -> Phase {
-    let from_core = flight.position.length();
-    let speed = flight.velocity.length();
+    let from_core = flight.position.norm();
+    let speed = flight.velocity.norm();
     let normal_speed =
         if from_core > 0.0 { flight.position.dot(flight.velocity) / from_core } else { speed };
     // Nothing presses without an acceleration.

@@ -9,6 +9,7 @@ use super::search;
 use super::sphere_sphere::sphere_point;
 use super::turning::{Orbit, Turning, Turns};
 use crate::flight::Flight;
+use crate::norm::Norm;
 use crate::surface::{Form, Rectangle, SurfaceMotion};
 
 /// Time \[s\] at which a sphere in flight comes into contact with a surface.
@@ -31,7 +32,7 @@ pub(crate) fn sphere_surface(
         debug_assert!(horizon.is_finite(), "a turning surface needs a finite horizon");
         return sphere_turning_surface(flight, radius, form, motion, horizon);
     }
-    let drift = Magnitudes { speed: motion.velocity.length(), ..size_of(form, radius) };
+    let drift = Magnitudes { speed: motion.velocity.norm(), ..size_of(form, radius) };
     let size = Magnitudes::of(flight) + drift;
     match *form {
         Form::Sphere { center, radius: own } => {
@@ -61,8 +62,8 @@ fn sphere_turning_surface(
     let SurfaceMotion { origin, velocity, angular_velocity } = *motion;
     let from_origin = flight.seen_from(origin, velocity);
     let turns = Turns::new(angular_velocity);
-    let drift = Magnitudes { speed: velocity.length(), ..size_of(form, radius) };
-    let size = Magnitudes::of(flight) + drift + Magnitudes::of_length(origin.length());
+    let drift = Magnitudes { speed: velocity.norm(), ..size_of(form, radius) };
+    let size = Magnitudes::of(flight) + drift + Magnitudes::of_length(origin.norm());
     let path = Turning { flight: from_origin, turns };
     match *form {
         Form::Sphere { center, radius: own } => {
@@ -87,10 +88,10 @@ fn sphere_turning_surface(
 /// Size of the coordinates of a surface and of the radii.
 fn size_of(form: &Form, radius: f64) -> Magnitudes {
     let length = match *form {
-        Form::Sphere { center, radius } => center.length() + radius,
-        Form::HalfSpace { point, .. } => point.length(),
+        Form::Sphere { center, radius } => center.norm() + radius,
+        Form::HalfSpace { point, .. } => point.norm(),
         Form::Rectangle(Rectangle { center, half_x, half_z, .. }) => {
-            center.length() + half_x + half_z
+            center.norm() + half_x + half_z
         }
         Form::Box(_) => 0.0,
     };

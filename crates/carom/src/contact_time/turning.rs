@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::path::{Path, State};
 use super::roundoff::Magnitudes;
 use crate::flight::Flight;
+use crate::norm::Norm;
 
 /// A steady rotation about an axis through the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,7 +20,7 @@ pub(super) struct Turns {
 impl Turns {
     /// With this angular velocity \[rad/s\], which is not zero.
     pub fn new(angular_velocity: DVec3) -> Self {
-        let rate = angular_velocity.length();
+        let rate = angular_velocity.norm();
         Self { angular_velocity, rate, axis: angular_velocity / rate }
     }
 
@@ -59,7 +60,7 @@ impl Path for Turning {
         let Turns { angular_velocity: omega, rate, .. } = self.turns;
         let State { position: x, velocity: v, acceleration: a, size } = self.flight.state_at(t);
         let back = self.turns.turned(-t);
-        let arm = x.length();
+        let arm = x.norm();
         let swing = rate * arm;
         State {
             position: back(x),
@@ -70,7 +71,7 @@ impl Path for Turning {
                     // The angle is rounded as the time is.
                     length: arm + swing * t,
                     speed: swing * (1.0 + rate * t),
-                    acceleration: rate * (2.0 * v.length() + swing) * (1.0 + rate * t),
+                    acceleration: rate * (2.0 * v.norm() + swing) * (1.0 + rate * t),
                 },
         }
     }
@@ -92,9 +93,9 @@ impl Path for Turning {
         let now = along - 2.0 * m_turn.dot(v) - m_turn.dot(x_turn);
         // Upper bounds over the interval; the acceleration of a flight never grows.
         let ahead = to - from;
-        let (turn, a) = (m_turn.length(), a.length());
-        let v_max = v.length() + a * ahead;
-        let x_turn_max = x_turn.length() + rate * ahead * (v.length() + 0.5 * a * ahead);
+        let (turn, a) = (m_turn.norm(), a.norm());
+        let v_max = v.norm() + a * ahead;
+        let x_turn_max = x_turn.norm() + rate * ahead * (v.norm() + 0.5 * a * ahead);
         let along_max = along.abs() + turn * a * ahead;
         let jerk = self.flight.drag_rate * along_max
             + turn * (3.0 * a + 3.0 * rate * v_max + rate * x_turn_max);
@@ -105,9 +106,9 @@ impl Path for Turning {
 
     fn max_acceleration_anywhere(&self, from: f64, to: f64) -> f64 {
         let State { position: x, velocity: v, acceleration: a, .. } = self.flight.state_at(from);
-        let (rate, ahead, a) = (self.turns.rate, to - from, a.length());
-        let v_max = v.length() + a * ahead;
-        let x_max = x.length() + ahead * (v.length() + 0.5 * a * ahead);
+        let (rate, ahead, a) = (self.turns.rate, to - from, a.norm());
+        let v_max = v.norm() + a * ahead;
+        let x_max = x.norm() + ahead * (v.norm() + 0.5 * a * ahead);
         a + rate * (2.0 * v_max + rate * x_max)
     }
 
@@ -130,7 +131,7 @@ impl Path for Orbit {
         let Turns { angular_velocity: omega, rate, .. } = self.turns;
         let State { position, velocity, acceleration, size } = self.flight.state_at(t);
         let arm = self.turns.turned(t)(self.arm);
-        let length = self.arm.length();
+        let length = self.arm.norm();
         State {
             position: position - arm,
             velocity: velocity - omega.cross(arm),
@@ -148,13 +149,13 @@ impl Path for Orbit {
     fn max_acceleration(&self, direction: DVec3, from: f64, to: f64) -> f64 {
         let rate = self.turns.rate;
         let pull = -self.turns.twice(self.turns.turned(from)(self.arm));
-        let most = pull.length();
+        let most = pull.norm();
         let circling = (direction.dot(pull) + rate * most * (to - from)).min(most);
         self.flight.max_acceleration(direction, from, to) + circling
     }
 
     fn max_acceleration_anywhere(&self, from: f64, to: f64) -> f64 {
-        self.flight.max_acceleration_anywhere(from, to) + self.turns.twice(self.arm).length()
+        self.flight.max_acceleration_anywhere(from, to) + self.turns.twice(self.arm).norm()
     }
 
     fn window(&self) -> f64 {

@@ -11,6 +11,7 @@ use super::touch::{self, Touch};
 use super::{periodic, predict};
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
+use crate::norm::Norm;
 use crate::report::{Impact, ImpactGroup, Participants};
 use crate::respond;
 use crate::respond::TouchingContact;
@@ -174,7 +175,7 @@ fn account_of([before, after]: [&[DVec3]; 2], masses: &[f64]) -> ImpactGroup {
         let terms = masses.iter().zip(velocities).map(|(m, v)| 0.5 * m * v.length_squared());
         terms.collect::<Sum>().value()
     };
-    let sizes = masses.iter().zip(before).map(|(m, v)| m * v.length());
+    let sizes = masses.iter().zip(before).map(|(m, v)| m * v.norm());
     ImpactGroup {
         momentum_before: momentum(before),
         momentum_after: momentum(after),

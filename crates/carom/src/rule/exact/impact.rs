@@ -7,6 +7,7 @@ use super::predict;
 use super::stage::Stage;
 use super::timeline::Timeline;
 use super::{group, periodic};
+use crate::norm::Norm;
 use crate::report::{Impact, ImpactGroup, Participants};
 use crate::respond;
 
@@ -96,7 +97,7 @@ impl PairImpact {
         let kinds = slots.map(|slot| timeline.kind_of(slot));
         let [(x1, v1), (x2, v2)] = slots.map(|slot| timeline.state_of(slot, time));
         let offset = periodic::folded(x2 - x1, stage.period);
-        let normal = offset / offset.length();
+        let normal = offset / offset.norm();
         let [e1, e2] = kinds.map(|kind| kind.restitution);
         let restitution = stage.restitution_rule().combine(e1, e2);
         let bodies = slots.map(|slot| &timeline.bodies[slot as usize]);
@@ -155,7 +156,7 @@ fn account_of(
     ImpactGroup {
         momentum_before: m1 * before[0] + m2 * before[1],
         momentum_after: m1 * after[0] + m2 * after[1],
-        momentum_scale: m1 * before[0].length() + m2 * before[1].length(),
+        momentum_scale: m1 * before[0].norm() + m2 * before[1].norm(),
         energy_before: energy(before),
         energy_after: energy(after),
         energy_demanded: -0.5 * reduced_mass * lost * approach_speed * approach_speed,

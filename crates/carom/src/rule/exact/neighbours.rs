@@ -31,6 +31,7 @@ use super::neighbour::Neighbour;
 use super::periodic::{folded, turns_of, way_round};
 use super::vicinity::{Buffer, CellLists, NeighbourLists, Vicinity};
 use crate::detect::surface_tree::SurfaceTree;
+use crate::norm::Norm;
 use crate::surface::Surface;
 
 /// Radii within this factor share a level.
@@ -373,7 +374,7 @@ impl Neighbours {
     fn place(&mut self, slot: u32, level: u32, position: DVec3, velocity: DVec3) {
         let Level { grid, half_edges, .. } = &self.levels[level as usize];
         let neighbourhood = &mut self.neighbourhoods[slot as usize];
-        let speed = velocity.length();
+        let speed = velocity.norm();
         let is_listed = self.lists.is_some();
         let ahead = if is_listed && speed > 0.0 && speed.is_finite() {
             AHEAD * half_edges * (velocity / speed)

@@ -9,6 +9,7 @@ use super::group::{Group, Member};
 use super::stage::Stage;
 use super::touch::{Bend, Touch, beyond};
 use crate::detect::contact::Bodies;
+use crate::norm::Norm;
 use crate::respond::contact_forces;
 use crate::sum::Sum;
 use crate::surface::Form;
@@ -77,7 +78,7 @@ fn staying(stage: &Stage, group: &Group) -> Vec<Touch> {
     let members = &group.members;
     let is_slow = |touch: &&Touch| {
         let free = touch.first.map_or(DVec3::ZERO, |first| free_acceleration(&members[first]));
-        let free = free.length() + free_acceleration(&members[touch.second]).length();
+        let free = free.norm() + free_acceleration(&members[touch.second]).norm();
         // Thrown up with speed u against an acceleration a, a body is back after 2 u / a.
         let acceleration = free + bias(touch, members).abs();
         let back_within = 0.5 * acceleration * stage.parameters.contact_duration;
@@ -97,7 +98,7 @@ fn staying(stage: &Stage, group: &Group) -> Vec<Touch> {
     let accelerations = borne(members, &slow, &forces);
     let stays = |(touch, force): (Touch, f64)| {
         let all_borne = is_borne[touch.second] && touch.first.is_none_or(|first| is_borne[first]);
-        let scale = free_acceleration(&members[touch.second]).length() + accelerations.largest;
+        let scale = free_acceleration(&members[touch.second]).norm() + accelerations.largest;
         let is_idle = accelerations.along(&touch, members) <= IDLE * scale;
         (force > 0.0 || (all_borne && is_idle)).then_some(touch)
     };
@@ -175,7 +176,7 @@ fn turning_time(members: &[Member], touches: &[Touch], forces: &[f64], frame_lef
     let accelerations = borne(members, touches, forces);
     let mut time = f64::INFINITY;
     for touch in touches {
-        let spin = touch.surface_spin.length();
+        let spin = touch.surface_spin.norm();
         if spin > 0.0 {
             time = time.min(TURN / spin).min(frame_left);
         }
@@ -190,12 +191,12 @@ fn turning_time(members: &[Member], touches: &[Touch], forces: &[f64], frame_lef
         else {
             continue;
         };
-        let scale = IDLE * (accelerations.largest + relative.length());
-        if velocity.length() > 0.0 {
-            time = time.min(TURN * distance / velocity.length());
+        let scale = IDLE * (accelerations.largest + relative.norm());
+        if velocity.norm() > 0.0 {
+            time = time.min(TURN * distance / velocity.norm());
         }
-        if acceleration.length() > scale {
-            time = time.min((2.0 * TURN * distance / acceleration.length()).sqrt());
+        if acceleration.norm() > scale {
+            time = time.min((2.0 * TURN * distance / acceleration.norm()).sqrt());
         }
     }
     time
@@ -250,11 +251,11 @@ fn rest(group: &mut Group, mut accelerations: Accelerations, hold: f64) -> Accel
     }
     let fastest = group.fastest;
     for (member, acceleration) in group.members.iter_mut().zip(&mut accelerations.each) {
-        let scale = member.kind.acceleration.length() + accelerations.largest;
-        if acceleration.length() <= IDLE * scale {
+        let scale = member.kind.acceleration.norm() + accelerations.largest;
+        if acceleration.norm() <= IDLE * scale {
             *acceleration = DVec3::ZERO;
         }
-        if member.velocity.length() <= REST * fastest {
+        if member.velocity.norm() <= REST * fastest {
             member.velocity = DVec3::ZERO;
         }
     }

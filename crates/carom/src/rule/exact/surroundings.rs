@@ -8,6 +8,7 @@ use super::timeline::{Event, Target, Timeline};
 use super::vicinity::Vicinity;
 use crate::contact_time;
 use crate::detect::contact::Bodies;
+use crate::norm::Norm;
 
 /// Relative rounding of the places and of the speeds of two spheres that touch.
 const TOUCH_ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -89,8 +90,8 @@ impl<const FALLS: bool> Pair<'_, FALLS> {
     /// Whether two spheres touch, and close by no more than the rounding of their speeds.
     #[inline(never)]
     fn only_touch(&self, offset: DVec3, velocity: DVec3, gap: f64, radius_sum: f64) -> bool {
-        let speed: f64 = self.bodies.iter().map(|body| body.velocity.length()).sum();
-        let place: f64 = self.bodies.iter().map(|body| body.position.length()).sum();
+        let speed: f64 = self.bodies.iter().map(|body| body.velocity.norm()).sum();
+        let place: f64 = self.bodies.iter().map(|body| body.position.norm()).sum();
         // How far they move in the rounding of the clock is in doubt, too.
         let size = radius_sum + place + speed * self.start.abs();
         gap.abs() <= TOUCH_ROUNDING * radius_sum * size

@@ -11,6 +11,7 @@ use super::timeline::Timeline;
 use super::vicinity::Vicinity;
 use crate::detect::contact::Bodies;
 use crate::detect::{Separation, sphere_rectangle_known_in_front, sphere_sphere, sphere_surface};
+use crate::norm::Norm;
 use crate::respond::TouchingContact;
 use crate::surface::{Form, Rectangle, SurfaceMotion};
 
@@ -105,7 +106,7 @@ impl Touch {
                 let first = &members[self.first?];
                 let centers = [first.position, second.position + self.shift];
                 let separation = sphere_sphere(centers, [first.kind.radius, second.kind.radius]);
-                let distance = (centers[1] - centers[0]).length();
+                let distance = (centers[1] - centers[0]).norm();
                 Some(Self { bend: Bend::Round(distance), ..self.with(separation) })
             }
             Bodies::Surface { surface, .. } => {
@@ -163,9 +164,9 @@ impl Touch {
 
 /// How the normal turns where a sphere about `center` \[m\] touches a surface.
 fn bend_of(form: &Form, center: DVec3, separation: &Separation) -> Bend {
-    let distance = (center - separation.point).length();
+    let distance = (center - separation.point).norm();
     match form {
-        Form::Sphere { center: fixed, .. } => Bend::Round((center - *fixed).length()),
+        Form::Sphere { center: fixed, .. } => Bend::Round((center - *fixed).norm()),
         Form::HalfSpace { .. } | Form::Box(_) => Bend::Flat,
         Form::Rectangle(rectangle) => {
             let [beyond_x, beyond_z] = beyond(rectangle, center);
@@ -183,7 +184,7 @@ fn bend_of(form: &Form, center: DVec3, separation: &Separation) -> Bend {
 /// very edge it counts as beyond, so that what slides over it goes on.
 pub(super) fn beyond(rectangle: &Rectangle, point: DVec3) -> [f64; 2] {
     let offset = point - rectangle.center;
-    let slack = TOUCHING * (offset.length() + rectangle.half_x + rectangle.half_z);
+    let slack = TOUCHING * (offset.norm() + rectangle.half_x + rectangle.half_z);
     [(rectangle.axis_x, rectangle.half_x), (rectangle.axis_z, rectangle.half_z)]
         .map(|(axis, half)| offset.dot(axis).abs() - half + slack)
 }
@@ -300,9 +301,9 @@ impl<'a> Gathering<'a> {
             let (near, shift) = (neighbour.slot(), timeline.neighbours.shift_of(slot, neighbour));
             let (near_place, near_velocity) = timeline.state_of(near, self.time);
             let radius_sum = kind.radius + timeline.kind_of(near).radius;
-            let gap = (near_place + shift - place).length() - radius_sum;
-            let coordinates = place.length() + near_place.length() + radius_sum;
-            let speed = (near_velocity - velocity).length();
+            let gap = (near_place + shift - place).norm() - radius_sum;
+            let coordinates = place.norm() + near_place.norm() + radius_sum;
+            let speed = (near_velocity - velocity).norm();
             if gap <= self.touching_gap(coordinates, speed) {
                 found.push((near, shift));
             }
@@ -321,8 +322,8 @@ impl<'a> Gathering<'a> {
         for (surface, shift) in timeline.surfaces_near(slot) {
             let (form, motion) = self.stage.surface_at(surface, self.time);
             let Some(separation) = sphere_surface(&form, place - shift, radius) else { continue };
-            let speed = (velocity - motion.velocity_at(separation.point)).length();
-            let coordinates = place.length() + separation.point.length() + radius;
+            let speed = (velocity - motion.velocity_at(separation.point)).norm();
+            let coordinates = place.norm() + separation.point.norm() + radius;
             if separation.distance <= self.touching_gap(coordinates, speed) {
                 let bodies = Bodies::Surface { sphere, surface };
                 let found = Found { shift: -shift, is_given: false };
@@ -369,7 +370,7 @@ impl<'a> Gathering<'a> {
             Touch::between(bodies, first, second, found).measured_at(stage, &members, time)
         });
         let touches = touches.collect();
-        let fastest = members.iter().map(|member| member.velocity.length()).fold(0.0, f64::max);
+        let fastest = members.iter().map(|member| member.velocity.norm()).fold(0.0, f64::max);
         Group { time, members, touches, fastest }
     }
 }

@@ -1,0 +1,67 @@
+// The declarations say what there is: this file is never run, only checked. A line after
+// `@ts-expect-error` must be wrong.
+
+import { CaromError, IMPACT_COLUMNS, SceneError, scenes, World } from "carom";
+import type { Collider, Impact, Shape, SimulationChanges } from "carom";
+
+const world: World = World.fromScene("tutorial3", { "simulation.rule": "exact", camera: null });
+const titles: string[] = scenes().map(({ title }) => title);
+
+world.step();
+world.step(0.01);
+// @ts-expect-error: a time is a number
+world.step("0.01");
+
+const positions: Float64Array = world.positions;
+const colors: Float32Array = world.colors;
+// @ts-expect-error: arrays are taken, not given
+world.positions = positions;
+world.writeMatrices(new Float32Array(16 * world.count));
+
+const own = new World({ rule: "exact", frameTime: 1 / 240, boundary: "open" });
+// @ts-expect-error: there is no such rule
+new World({ rule: "exakt" });
+
+const ball: number = own.addSphere({ position: new Float32Array(3), radius: 1, density: 700 });
+// @ts-expect-error: a misspelled field
+own.addSphere({ radus: 1 });
+own.addCollider({ shape: { box: { size: [1, 2, 3] } }, angularVelocity: [0, 1, 0] });
+// @ts-expect-error: a collider needs a shape
+own.addCollider({ position: [0, 0, 0] });
+own.addForce({ viscousDrag: { coefficient: 0.1 } });
+own.setSphere(ball, { velocity: [0, 1, 0] });
+own.setCollider(0, { restitution: 0.5 });
+const changes: SimulationChanges = { impactLaw: "simultaneous", exact: { maxImpacts: 100 } };
+own.setSimulation(changes);
+
+const text = (impact: Impact): string =>
+  "spheres" in impact.between
+    ? impact.between.spheres.join(" and ")
+    : `${impact.between.sphere} on ${impact.between.collider}`;
+const told: string[] = world.impacts.map(text);
+const firstTime: number | undefined = world.impactTable[IMPACT_COLUMNS.time];
+
+const size = (shape: Shape): number => {
+  if (shape === "half-space") return Infinity;
+  if ("sphere" in shape) return 2 * shape.sphere.radius;
+  if ("rectangle" in shape) return Math.max(shape.rectangle.sizeX, shape.rectangle.sizeZ);
+  return Math.max(...shape.box.size);
+};
+const largest: number = Math.max(...world.colliders.map(({ shape }: Collider) => size(shape)));
+
+const [x, , z]: [number, number, number] = world.momentum();
+const before = world.snapshot();
+world.restore(before);
+before.free();
+// @ts-expect-error: a snapshot comes from a world
+world.restore({});
+
+try {
+  world.removeSphere(7);
+} catch (error) {
+  if (error instanceof SceneError) console.log(error.field, error.line?.toFixed());
+  else if (error instanceof CaromError) console.log(error.message);
+}
+
+console.log(titles, colors, told, firstTime, largest, x, z, own.stateHash(), own.toToml());
+own.free();
