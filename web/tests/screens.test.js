@@ -119,8 +119,10 @@ test("on a phone a finger tilts the maze", async () => {
 test("a tilted device tilts the maze", async () => {
   const viewer = await desk.open("#scene=maze", PHONE);
   const { maze: before } = await viewer.until(({ maze }) => maze);
-  const { x, y, width, height } = await viewer.widget("Tilt the device");
-  await viewer.page.touchscreen.tap(x + width / 2, y + height / 2);
+  for (const label of ["Menu", "Tilt the device"]) {
+    const { x, y, width, height } = await viewer.widget(label);
+    await viewer.page.touchscreen.tap(x + width / 2, y + height / 2);
+  }
   await viewer.pause(500);
   const hold = (/** @type {number} */ gamma) =>
     viewer.page.evaluate((gamma) => {

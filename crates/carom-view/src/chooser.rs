@@ -93,7 +93,8 @@ impl Chooser {
                     let edit = TextEdit::singleline(&mut self.filter).hint_text("type to filter");
                     let width = ui.available_width().min(220.0);
                     let response = ui.add(edit.desired_width(width));
-                    if self.just_opened {
+                    // Where fingers point, a keyboard would cover the list.
+                    if self.just_opened && !ui.input(|input| input.has_touch_screen()) {
                         response.request_focus();
                     }
                     if response.changed() {

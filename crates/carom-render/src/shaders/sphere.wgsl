@@ -107,6 +107,7 @@ fn ringed(color: vec3<f32>, local: vec3<f32>, blur: f32) -> vec3<f32> {
     let latitude = local.y * 8.0;
     let line = abs(fract(latitude) - 0.5);
     let soft = 8.0 * blur;
-    let visible = clamp(0.35 - soft, 0.0, 0.35);
+    // From afar none are left: they would look like a flaw of the shadows.
+    let visible = clamp(0.3 - 2.5 * soft, 0.0, 0.3);
     return color * (1.0 - visible * (1.0 - smoothstep(0.03, 0.06 + soft, line)));
 }
