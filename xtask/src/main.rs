@@ -21,7 +21,8 @@ const USAGE: &str = "\
 Usage: cargo xtask COMMAND
 
   demo      set up, run every built-in scene, make pictures and a film in out/, open the window
-  test      set up, then every check: format, clippy, tests, documents, schema, the browser's target
+  test      set up, then every check: format, clippy, tests, documents, schema, the JavaScript
+            package in Node.js, the page in a browser
   web       make the page in web/dist and the JavaScript package; `web --serve [PORT]` makes the
             page and serves it on this machine, `web --sizes` says what takes its space, `web --test`
             tests it in a browser; `web --package` makes the package alone, `web --test-package`

@@ -1,7 +1,7 @@
 //! Every check, in the order in which they fail fastest.
 
 use crate::shell::{Outcome, cargo, cargo_with};
-use crate::{architecture, js_package, setup, wasm, web};
+use crate::{architecture, js_package, setup, web};
 
 /// Runs every check.
 pub fn test() -> Outcome {
@@ -18,7 +18,6 @@ pub fn test() -> Outcome {
     // The command line is built without pictures, too, by those who work on the physics.
     let plain = ["--package", "carom-cli", "--no-default-features", "--quiet"];
     cargo(&[&["check"], &plain[..]].concat())?;
-    wasm::check()?;
     // Graphics libraries ask for this folder, and complain aloud where a system names none.
     let folder = std::env::var("XDG_RUNTIME_DIR").unwrap_or_else(|_| "/tmp".to_owned());
     let graphics = [("XDG_RUNTIME_DIR", folder.as_str())];
