@@ -1,8 +1,8 @@
 //! Hosts the interface of Carom in a page of a browser.
 //!
-//! The page's script makes a [`Page`] on a canvas and gives it what only a page has: downloads,
+//! The page's script makes a `Page` on a canvas and gives it what only a page has: downloads,
 //! films, the tilt of the device, the address bar (`services.rs` lists it). What the page shows can
-//! be read back as data ([`Page::status`], [`Page::widgets`]).
+//! be read back as data (`Page::status`, `Page::widgets`).
 
 #![cfg(target_arch = "wasm32")]
 
