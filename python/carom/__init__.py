@@ -3,7 +3,7 @@
 >>> import carom
 >>> run = carom.load("simtest1").run(seconds=10)
 >>> run.positions.shape
-(501, 18, 3)
+(501, 15, 3)
 
 Right-handed frame, y up, SI units, float64. The same input gives the same bits on every machine.
 """
@@ -22,6 +22,8 @@ from carom._parts import (
     DensityColor,
     Emitter,
     Exact,
+    Force,
+    Generator,
     Gravity,
     HalfSpace,
     Lattice,
@@ -29,6 +31,7 @@ from carom._parts import (
     RandomFill,
     Rectangle,
     Row,
+    Shape,
     Simulation,
     Sphere,
     Sun,
@@ -54,6 +57,8 @@ __all__ = [
     "DensityColor",
     "Emitter",
     "Exact",
+    "Force",
+    "Generator",
     "Gravity",
     "HalfSpace",
     "Lattice",
@@ -64,6 +69,7 @@ __all__ = [
     "Row",
     "Scene",
     "SceneError",
+    "Shape",
     "Simulation",
     "Snapshot",
     "Sphere",

@@ -6,7 +6,19 @@ from typing import Self, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import disjoint_base
 
+__all__ = [
+    "Engine",
+    "Snapshot",
+    "canonical_toml",
+    "find_scene",
+    "list_scenes",
+    "read_scene",
+    "run_command",
+]
+
+@disjoint_base
 class Engine:
     """What `carom.World` stands on: a world, and the arrays that Python sees of it."""
 
@@ -82,13 +94,7 @@ class Engine:
     def _scene_toml(self) -> str: ...
     def _add_described_spheres(self, text: str) -> list[int]: ...
     def _add_spheres(
-        self,
-        n: int,
-        positions: ArrayLike,
-        velocities: ArrayLike,
-        radii: ArrayLike,
-        masses: ArrayLike,
-        restitutions: ArrayLike,
+        self, count: int, quantities: Sequence[ArrayLike]
     ) -> NDArray[np.uint64]: ...
     def _add_force(self, text: str) -> int: ...
     def _add_collider(self, text: str) -> int: ...

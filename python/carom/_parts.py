@@ -14,11 +14,11 @@ from typing import ClassVar, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-Vector: TypeAlias = "Sequence[float] | NDArray[np.float64]"
+Vector: TypeAlias = Sequence[float] | NDArray[np.float64]
 """Three numbers x, y, z."""
-Quaternion: TypeAlias = "Sequence[float] | NDArray[np.float64]"
+Quaternion: TypeAlias = Sequence[float] | NDArray[np.float64]
 """A rotation x, y, z, w."""
-Color: TypeAlias = "Sequence[float]"
+Color: TypeAlias = Sequence[float]
 """Red, green, blue, each in [0, 1] (sRGB)."""
 
 _ORIGIN = (0.0, 0.0, 0.0)
@@ -102,7 +102,7 @@ class ViscousDrag(Part):
     coefficient: float
 
 
-Force: TypeAlias = "ConstantForce | Gravity | ViscousDrag"
+Force: TypeAlias = ConstantForce | Gravity | ViscousDrag
 """A force on every sphere; several add up."""
 
 
@@ -151,7 +151,7 @@ class Box(Part):
     size: Vector
 
 
-Shape: TypeAlias = "Ball | Rectangle | HalfSpace | Box"
+Shape: TypeAlias = Ball | Rectangle | HalfSpace | Box
 """Form of a collider in its own frame."""
 
 
@@ -265,7 +265,7 @@ class RandomFill(Part):
     radius_range: Sequence[float] | None = None
 
 
-Generator: TypeAlias = "Row | Lattice | RandomFill"
+Generator: TypeAlias = Row | Lattice | RandomFill
 """Places for many spheres."""
 
 

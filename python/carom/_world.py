@@ -157,9 +157,14 @@ class World(Engine):
         >>> world.add_spheres([(0, 0, 0), (3, 0, 0)], radii=[1.0, 0.5])
         array([0, 1], dtype=uint64)
         """
-        count = len(np.atleast_2d(np.asarray(positions, dtype=object)))
+        try:
+            shape = np.shape(positions)
+        except ValueError:
+            # Rows of different lengths: refused below, by name.
+            shape = ()
+        count = shape[0] if len(shape) == 2 else 1
         given = (positions, velocities, radii, masses, restitutions)
-        return self._add_spheres(count, *given)
+        return self._add_spheres(count, given)
 
     def sphere(self, id: int) -> parts.Sphere:
         """The sphere with this id, as it is now.

@@ -94,7 +94,7 @@ def test_a_scene_of_python_comes_before_a_built_in_one() -> None:
 
 
 def test_a_function_that_returns_no_scene_is_told() -> None:
-    carom.scene("nothing")(lambda: None)  # type: ignore[arg-type, return-value]
+    carom.scene("nothing")(lambda: None)  # type: ignore[type-var]
     with pytest.raises(TypeError, match="nothing: its function returned a NoneType"):
         carom.load("nothing")
 

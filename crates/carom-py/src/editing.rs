@@ -24,25 +24,21 @@ impl Engine {
         Ok(ids.iter().map(|id| id.number()).collect())
     }
 
-    /// Adds n spheres by their arrays, each spread over all of them, and answers with their ids.
-    #[pyo3(name = "_add_spheres", signature = (n, positions, velocities, radii, masses, restitutions))]
+    /// Adds `count` spheres by their quantities, in the order of [`Quantity::ALL`], each spread over
+    /// all of them, and answers with their ids.
+    #[pyo3(name = "_add_spheres")]
     fn add_spheres_by_arrays<'py>(
         &self,
         py: Python<'py>,
-        n: usize,
-        positions: &Bound<'py, PyAny>,
-        velocities: &Bound<'py, PyAny>,
-        radii: &Bound<'py, PyAny>,
-        masses: &Bound<'py, PyAny>,
-        restitutions: &Bound<'py, PyAny>,
+        count: usize,
+        quantities: [Bound<'py, PyAny>; Quantity::ALL.len()],
     ) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        let given = [positions, velocities, radii, masses, restitutions];
         let read = |(quantity, values): (Quantity, _)| {
-            arguments::array(quantity.name(), values, &quantity.shape(n))
+            arguments::array(quantity.name(), &values, &quantity.shape(count))
         };
         let columns: Vec<Vec<f64>> =
-            Quantity::ALL.into_iter().zip(given).map(read).collect::<PyResult<_>>()?;
-        let spheres: Vec<Sphere> = (0..n).map(|index| sphere_at(&columns, index)).collect();
+            Quantity::ALL.into_iter().zip(quantities).map(read).collect::<PyResult<_>>()?;
+        let spheres: Vec<Sphere> = (0..count).map(|index| sphere_at(&columns, index)).collect();
         let ids = self.change(py, |inner| add_all(&mut inner.world, &spheres))?;
         Ok(arrays::numbers(py, &ids))
     }

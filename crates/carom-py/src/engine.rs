@@ -1,5 +1,8 @@
 //! A world as Python holds it.
 
+// What is said of methods here is read in Python, where units stand in plain brackets.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 use std::sync::{Arc, Mutex, MutexGuard};
 
 use carom::{DVec3, World};

@@ -1,5 +1,8 @@
 //! Many frames in one call, recorded.
 
+// What is said of methods here is read in Python, where units stand in plain brackets.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 use std::ops::Range;
 use std::time::{Duration, Instant};
 

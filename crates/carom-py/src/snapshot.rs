@@ -1,5 +1,8 @@
 //! A world at one moment, to return to.
 
+// What is said of methods here is read in Python, where units stand in plain brackets.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 use std::sync::Arc;
 
 use carom_scene::Scene;

@@ -24,10 +24,10 @@ impl Force {
     pub fn replace_in(&self, world: &mut World, id: ForceId) -> Result<(), Error> {
         match *self {
             Self::Constant { force } => world.set_force(id, ConstantForce::new(force.into())),
-            Self::Gravity { acceleration } => world.set_force(id, Gravity::new(acceleration.into())),
-            Self::ViscousDrag { coefficient } => {
-                world.set_force(id, ViscousDrag::new(coefficient))
+            Self::Gravity { acceleration } => {
+                world.set_force(id, Gravity::new(acceleration.into()))
             }
+            Self::ViscousDrag { coefficient } => world.set_force(id, ViscousDrag::new(coefficient)),
         }
     }
 }
