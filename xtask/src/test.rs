@@ -1,7 +1,7 @@
 //! Every check, in the order in which they fail fastest.
 
 use crate::shell::{Outcome, cargo, cargo_with};
-use crate::{architecture, setup, wasm, web};
+use crate::{architecture, python, setup, wasm, web};
 
 /// Runs every check.
 pub fn test() -> Outcome {
@@ -39,5 +39,6 @@ pub fn test() -> Outcome {
         test("carom", "exact")?;
         test("carom-scene", "scenes")?;
     }
+    python::test()?;
     web::test()
 }
