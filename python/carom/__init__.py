@@ -9,7 +9,6 @@ Right-handed frame, y up, SI units, float64. The same input gives the same bits 
 """
 
 from carom._carom import Snapshot
-from carom.errors import CaromError, SceneError, StepError, UnknownError
 from carom._library import Listed, load, scene, scenes
 from carom._parts import (
     Ball,
@@ -41,6 +40,7 @@ from carom._scene import Scene
 from carom._tables import IMPACT, LEDGER, TRIGGER
 from carom._trajectory import Trajectory
 from carom._world import World
+from carom.errors import CaromError, SceneError, StepError, UnknownError
 
 __all__ = [
     "IMPACT",

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 
 from carom._carom import run_command
-from carom.errors import CaromError
 from carom._library import registered_texts
+from carom.errors import CaromError
 
 
 def main() -> int:

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from carom._carom import find_scene, list_scenes
-from carom.errors import CaromError
 from carom._scene import NO_CHANGES, Scene, overrides
 from carom._text import fields_of
+from carom.errors import CaromError
 
 _Maker = TypeVar("_Maker", bound=Callable[..., Scene])
 
@@ -42,9 +42,10 @@ class Listed(NamedTuple):
 def scene(name: str, description: str = "") -> Callable[[_Maker], _Maker]:
     """Has a function that returns a `Scene` found by name, by `load` and ``python -m carom``.
 
-    The scene gets this name, and this description if it has none. A later one of the same name takes
-    its place. Parameters of the function are given to `load`; each needs a default. Other packages
-    announce such a function by an entry point of the group ``carom.scenes``, under its name.
+    The scene gets this name, and this description if it has none. A later one of the same name
+    takes its place. Parameters of the function are given to `load`; each needs a default. Other
+    packages announce such a function by an entry point of the group ``carom.scenes``, under its
+    name.
 
     Raises:
         CaromError: For an empty name.
@@ -58,7 +59,7 @@ def scene(name: str, description: str = "") -> Callable[[_Maker], _Maker]:
     5
     """
     if not name.strip():
-        raise CaromError("name: must not be empty")
+        raise CaromError("name: must not be empty", "name")
 
     def register(make: _Maker) -> _Maker:
         _registered[name] = _Registered(make, description)

@@ -193,7 +193,7 @@ class Emitter(Part):
         period: Time between two spheres [s], > 0.
         position: Where spheres appear [m].
         rotation: How the emitter, and with it the velocity of its spheres, is turned.
-        max_spheres: With this many of its spheres alive, the oldest makes place; ``None``: no limit.
+        max_spheres: How many of its spheres live at most, the oldest making place; ``None``: any.
         name: What it is called.
     """
 
@@ -252,7 +252,7 @@ class RandomFill(Part):
         seed: The same seed gives the same scene.
         sphere: What they have in common.
         speed: Speed in a random direction, on top of the common velocity [m/s], >= 0.
-        radius_range: Smallest and largest radius [m], evenly distributed, instead of the common one.
+        radius_range: Smallest and largest radius [m], evenly spread, instead of the common one.
     """
 
     tag: ClassVar[str] = "random"
@@ -274,8 +274,8 @@ class Exact(Part):
     """Parameters of the rule ``exact``.
 
     Attributes:
-        contact_duration: How long a contact lasts [s], > 0: bodies that would meet again sooner stay
-            together.
+        contact_duration: How long a contact lasts [s], > 0: bodies that would meet again sooner
+            stay together.
         max_impacts: Impacts per sphere in a frame, >= 1; more are refused.
     """
 

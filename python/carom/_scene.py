@@ -23,8 +23,8 @@ NO_CHANGES: Mapping[str, Any] = MappingProxyType({})
 class Scene(parts.Part):
     """Spheres, what acts on them, what they bounce off, and how to look at it.
 
-    A scene is a value: plain, comparable, to be pickled. ``dataclasses.replace`` makes another one of
-    it, `with_changes` likewise by the paths of scene files.
+    A scene is a value: it can be compared, copied and pickled. ``dataclasses.replace`` makes
+    another one of it, `with_changes` likewise by the paths of scene files.
 
     Attributes:
         name: Short name, to find it by.
@@ -103,7 +103,7 @@ class Scene(parts.Part):
         Raises:
             SceneError: If the scene makes no sense.
         """
-        return canonical_toml(self._written())
+        return canonical_toml(toml_of(self))
 
     def with_changes(self, changes: Mapping[str, Any]) -> Scene:
         """The same scene with other values, by their paths.
@@ -112,7 +112,7 @@ class Scene(parts.Part):
         >>> carom.load("simtest1").with_changes({"simulation.rule": "exact"}).simulation.rule
         'exact'
         """
-        return Scene.from_toml(self._written(), source=self.name, changes=changes)
+        return Scene.from_toml(toml_of(self), source=self.name, changes=changes)
 
     def world(self) -> World:
         """The world at the start of the scene.
@@ -132,9 +132,6 @@ class Scene(parts.Part):
     ) -> Trajectory:
         """Runs the scene from its start, and records what happens: see `World.run`."""
         return self.world().run(seconds, frames=frames, dt=dt, every=every)
-
-    def _written(self) -> str:
-        return toml_of(self)
 
 
 def overrides(changes: Mapping[str, Any]) -> list[str]:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from carom import _parts as parts
+from carom.errors import CaromError
 
 
 def toml_of(table: parts.Part) -> str:
@@ -18,6 +20,7 @@ def toml_of(table: parts.Part) -> str:
 
     Raises:
         TypeError: For a value that no scene file can hold; the message names its field.
+        CaromError: For a whole number that is too large; likewise.
     """
     lines = [f"{key} = {toml_value(value, key)}" for key, value in _fields(table).items()]
     return "\n".join(lines) + "\n"
@@ -34,6 +37,8 @@ def toml_value(value: object, name: str) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):
+        if not -(2**63) <= value < 2**63:
+            raise CaromError(f"{name}: must be in [-2^63, 2^63), not {value}", name)
         return str(value)
     if isinstance(value, float):
         # Python writes inf and nan as TOML does.
@@ -47,12 +52,21 @@ def toml_value(value: object, name: str) -> str:
             return toml_value({tag: fields} if fields else tag, name)
         return toml_value(fields, name)
     if isinstance(value, Mapping):
-        pairs = [f"{key} = {toml_value(item, f'{name}.{key}')}" for key, item in value.items()]
+        pairs = [
+            f"{_key(key)} = {toml_value(item, f'{name}.{key}')}" for key, item in value.items()
+        ]
         return "{ " + ", ".join(pairs) + " }"
     if isinstance(value, Sequence):
         items = [toml_value(item, f"{name}[{index}]") for index, item in enumerate(value)]
         return "[" + ", ".join(items) + "]"
     raise TypeError(f"{name}: a scene can hold no {type(value).__name__}")
+
+
+def _key(name: object) -> str:
+    """A key of a table as TOML."""
+    text = str(name)
+    is_bare = re.fullmatch("[A-Za-z0-9_-]+", text) is not None
+    return text if is_bare else toml_value(text, "key")
 
 
 def _fields(part: parts.Part) -> dict[str, object]:

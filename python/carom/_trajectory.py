@@ -52,8 +52,10 @@ class Trajectory:
         )
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A row for each sphere that is there at each time, in the columns of ``carom run --out``:
-        ``t``, ``ball``, ``x``, ``y``, ``z``, ``vx``, ``vy``, ``vz``.
+        """A row for each sphere that is there at each time.
+
+        The columns are those of ``carom run --out``: ``t``, ``ball``, ``x``, ``y``, ``z``, ``vx``,
+        ``vy``, ``vz``.
 
         Raises:
             ModuleNotFoundError: Where pandas is not installed.
@@ -81,8 +83,9 @@ class Trajectory:
         return pandas.DataFrame(flat_columns(self.impacts))
 
     def to_xarray(self) -> xarray.Dataset:
-        """Positions and velocities over ``time``, ``sphere`` and ``axis``, radii and masses over
-        ``sphere``; the arrays are shared.
+        """Positions and velocities over ``time``, ``sphere`` and ``axis``; the arrays are shared.
+
+        Radii and masses are there, too, over ``sphere``.
 
         Raises:
             ModuleNotFoundError: Where xarray is not installed.

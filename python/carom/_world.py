@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from carom import _parts as parts
 from carom import _tables as tables
 from carom._carom import Engine
-from carom._text import read_part, read_parts, toml_value
+from carom._text import read_part, read_parts, toml_of, toml_value
 from carom._trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -53,8 +53,13 @@ class World(Engine):
 
     def __new__(cls, scene: Scene | None = None) -> World:
         """Makes the world of a scene."""
-        text = 'name = "world"\n' if scene is None else scene._written()
-        return super().__new__(cls, text)
+        from carom._scene import Scene
+
+        if scene is None:
+            scene = Scene(name="world")
+        if not isinstance(scene, Scene):
+            raise TypeError(f"scene: must be a carom.Scene, not {type(scene).__name__}")
+        return super().__new__(cls, toml_of(scene))
 
     def __init__(self, scene: Scene | None = None) -> None:
         """Everything is made by then."""
@@ -74,8 +79,8 @@ class World(Engine):
     ) -> Trajectory:
         """Runs on, and records what happens.
 
-        Other threads run meanwhile; Ctrl-C stops after the frame at work, and leaves the world there.
-        If a frame is refused, the world is as it was before the call.
+        Other threads run meanwhile; Ctrl-C stops after the frame at work, and leaves the world
+        there. If a frame is refused, the world is as it was before the call.
 
         Args:
             seconds: How long [s], up to whole frames; the scene's own duration unless given.
@@ -109,8 +114,10 @@ class World(Engine):
 
     @property
     def ledger(self) -> NDArray[np.void]:
-        """The impacts of the last frame with momentum and energy before and after, records of
-        `carom.LEDGER`. Empty under the rules ``discrete`` and ``bisect``. A copy."""
+        """The impacts of the last frame with the account of their groups.
+
+        Records of `carom.LEDGER`, a copy; none under the rules ``discrete`` and ``bisect``.
+        """
         return tables.records(self._ledger_words(), tables.LEDGER)
 
     @property
@@ -148,8 +155,8 @@ class World(Engine):
             restitutions: Coefficients of restitution in [0, 1], spread to shape (n,).
 
         Raises:
-            CaromError: For shapes that do not fit, and numbers that make no sense; then no sphere is
-                added.
+            CaromError: For shapes that do not fit, and numbers that make no sense; then no sphere
+                is added.
             TypeError: For arrays that are not of numbers.
 
         >>> import carom
@@ -209,8 +216,7 @@ class World(Engine):
         return self._add_collider(f"colliders = [{toml_value(collider, 'collider')}]")
 
     def set_collider(self, id: int, collider: parts.Collider) -> None:
-        """Changes a collider: it is elsewhere at once, without a velocity that spheres could feel
-        but its own."""
+        """Changes a collider; spheres feel no velocity but the one it is given."""
         self._set_collider(id, f"colliders = [{toml_value(collider, 'collider')}]")
 
     @property

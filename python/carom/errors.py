@@ -11,8 +11,10 @@ class CaromError(ValueError):
         line: Line in the text of a scene, from 1.
     """
 
-    field: str | None = None
-    line: int | None = None
+    def __init__(self, message: str, field: str | None = None, line: int | None = None) -> None:
+        super().__init__(message)
+        self.field = field
+        self.line = line
 
 
 class SceneError(CaromError):

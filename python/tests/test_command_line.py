@@ -22,7 +22,9 @@ def test_mistakes_end_as_they_do_on_the_command_line() -> None:
     assert "Usage" in carom_command("--help").stdout
 
 
-def test_scenes_of_other_packages_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_scenes_of_other_packages_are_found(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "far_away.py").write_text("import carom\nlone = lambda: carom.Scene(name='x')\n")
     information = tmp_path / "far_away-1.0.dist-info"
     information.mkdir()

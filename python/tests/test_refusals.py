@@ -1,5 +1,6 @@
 """What is refused names the argument, in the words of the engine, and changes nothing."""
 
+import pickle
 from collections.abc import Callable
 from typing import Any
 
@@ -104,9 +105,7 @@ def test_an_array_of_another_shape(
     "values", ["abc", [1j], [None], [[1, 2], [3]], [True], np.array(["1"]), object()]
 )
 @pytest.mark.parametrize("quantity", ["velocities", "masses"])
-def test_an_array_that_is_not_of_numbers(
-    world: carom.World, quantity: str, values: object
-) -> None:
+def test_an_array_that_is_not_of_numbers(world: carom.World, quantity: str, values: object) -> None:
     words = f"{quantity}: must be an array of numbers"
     refused(world, lambda: setattr(world, quantity, values), TypeError, words)
 
@@ -144,9 +143,7 @@ def test_spheres_that_make_no_sense(
         (carom.Sphere(radius="big"), "spheres[0].radius"),  # type: ignore[arg-type]
     ],
 )
-def test_a_sphere_that_makes_no_sense(
-    world: carom.World, sphere: carom.Sphere, words: str
-) -> None:
+def test_a_sphere_that_makes_no_sense(world: carom.World, sphere: carom.Sphere, words: str) -> None:
     refused(world, lambda: world.add_sphere(sphere), carom.SceneError, words)
     refused(world, lambda: world.set_sphere(0, sphere), carom.SceneError, words)
 
@@ -164,6 +161,10 @@ def test_other_parts_that_make_no_sense(world: carom.World) -> None:
 
 
 def test_what_no_scene_can_hold(world: carom.World) -> None:
+    heavy = carom.Sphere(radius=1, mass=10**400)
+    refused(world, lambda: world.add_sphere(heavy), carom.CaromError, "sphere.mass: must be in")
+    with pytest.raises(TypeError, match=r"scene: must be a carom\.Scene, not str"):
+        carom.World("simtest1")  # type: ignore[arg-type]
     force = carom.Gravity(object())  # type: ignore[arg-type]
     words = "force.gravity.acceleration: a scene can hold no object"
     refused(world, lambda: world.add_force(force), TypeError, words)
@@ -208,8 +209,16 @@ def test_a_broken_scene_text_is_told_with_its_line() -> None:
 def test_a_change_that_leads_nowhere() -> None:
     with pytest.raises(carom.SceneError, match="there is no element 7"):
         carom.load("simtest1", {"emitters.7.period": 1})
-    with pytest.raises(carom.SceneError, match="--set simulation.frame_time=-1"):
+    with pytest.raises(carom.SceneError, match=r"--set simulation\.frame_time=-1"):
         carom.load("simtest1", {"simulation.frame_time": -1})
+
+
+def test_an_error_survives_the_way_to_another_process() -> None:
+    with pytest.raises(carom.SceneError) as caught:
+        carom.Scene.from_toml('name = "x"\nspheres = [{ radius = -1 }]\n')
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert str(again) == str(caught.value)
+    assert (again.field, again.line) == ("spheres[0].radius", 2)
 
 
 def test_every_refusal_is_a_value_error() -> None:

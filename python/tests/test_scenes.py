@@ -115,7 +115,9 @@ def test_a_scene_of_another_package_is_found_by_its_entry_point(
     )
     information = tmp_path / "other_package-1.0.dist-info"
     information.mkdir()
-    (information / "METADATA").write_text("Metadata-Version: 2.1\nName: other-package\nVersion: 1.0\n")
+    (information / "METADATA").write_text(
+        "Metadata-Version: 2.1\nName: other-package\nVersion: 1.0\n"
+    )
     (information / "entry_points.txt").write_text("[carom.scenes]\nswarm = other_package:swarm\n")
     monkeypatch.syspath_prepend(str(tmp_path))
     assert "swarm" in [scene.name for scene in carom.scenes()]

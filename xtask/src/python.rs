@@ -15,8 +15,8 @@ pub fn build() -> Outcome<PathBuf> {
     Ok(wheel)
 }
 
-/// Builds the wheel, installs it into a clean environment, and runs every check of it: tests,
-/// examples in documentation, types, stubs.
+/// Builds the wheel, installs it into a clean environment, and runs every check of it: format,
+/// lints, tests, examples in documentation, types, stubs.
 pub fn test() -> Outcome {
     let environment = Environment::new("python/test")?;
     let wheel = wheel(&environment)?;
@@ -25,6 +25,10 @@ pub fn test() -> Outcome {
     let hashes = environment.folder.join("native_hashes.json");
     fs::write(&hashes, native_hashes::json()?).map_err(|error| said(&hashes, error))?;
 
+    let folder = root().join("python");
+    let folder = folder.to_string_lossy();
+    environment.python(&["-m", "ruff", "format", "--quiet", "--check", "--diff", &folder])?;
+    environment.python(&["-m", "ruff", "check", "--quiet", "--no-cache", &folder])?;
     let tests = root().join("python/tests");
     environment.python(&[
         "-m",

@@ -1,5 +1,8 @@
 //! Changing a world from outside.
 
+// What is said of methods here is read in Python: units in plain brackets, errors in Google's style.
+#![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_rust_codeblocks)]
+
 use carom::{Collider, ColliderId, DVec3, Emitter, EmitterId, ForceId, Sphere, SphereId, World};
 use carom_scene::Scene;
 use numpy::PyArray1;
@@ -93,6 +96,9 @@ impl Engine {
     }
 
     /// Takes a sphere out of the world. Those after it move up in the arrays.
+    ///
+    /// Raises:
+    ///     UnknownError: If it is not in the world (any more).
     fn remove_sphere(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
         let id = arguments::id("sphere", id)?;
         self.change(py, |inner| {
@@ -116,6 +122,9 @@ impl Engine {
     }
 
     /// Takes a force out of the world.
+    ///
+    /// Raises:
+    ///     UnknownError: If it is not in the world (any more).
     fn remove_force(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
         let id = arguments::id("force", id)?;
         self.change(py, |inner| {
@@ -141,6 +150,9 @@ impl Engine {
     }
 
     /// Takes a collider out of the world.
+    ///
+    /// Raises:
+    ///     UnknownError: If it is not in the world (any more).
     fn remove_collider(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
         let id = arguments::id("collider", id)?;
         self.change(py, |inner| {
@@ -166,6 +178,9 @@ impl Engine {
     }
 
     /// Takes an emitter out of the world; its spheres stay.
+    ///
+    /// Raises:
+    ///     UnknownError: If it is not in the world (any more).
     fn remove_emitter(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
         let id = arguments::id("emitter", id)?;
         self.change(py, |inner| {

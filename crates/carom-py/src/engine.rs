@@ -1,7 +1,7 @@
 //! A world as Python holds it.
 
-// What is said of methods here is read in Python, where units stand in plain brackets.
-#![allow(rustdoc::broken_intra_doc_links)]
+// What is said of methods here is read in Python: units in plain brackets, errors in Google's style.
+#![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_rust_codeblocks)]
 
 use std::sync::{Arc, Mutex, MutexGuard};
 
@@ -108,9 +108,12 @@ impl Engine {
 
     /// Advances the world by `frames` frames of `dt` [s], or of the scene's own frame time.
     ///
-    /// Other threads run meanwhile. A step that is refused (`StepError` if a number would overflow
-    /// or there are too many impacts, `CaromError` if `dt` is not positive and finite) leaves the
-    /// world as it was before the call.
+    /// Other threads run meanwhile. If a frame is refused, the world is as it was before the call.
+    ///
+    /// Raises:
+    ///     CaromError: If `dt` is not positive and finite, an emitter runs away, or a periodic box
+    ///         is too small for the spheres.
+    ///     StepError: If a number would overflow, or there are too many impacts.
     #[pyo3(signature = (dt = None, *, frames = None), text_signature = "($self, dt=None, *, frames=1)")]
     fn step(
         &self,

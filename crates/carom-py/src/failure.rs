@@ -123,8 +123,6 @@ impl From<Failure> for PyErr {
 fn exception(py: Python<'_>, failure: &Failure) -> PyResult<PyErr> {
     let class =
         py.import("carom.errors")?.getattr(failure.kind.exception())?.cast_into::<PyType>()?;
-    let exception = class.call1((&failure.message,))?;
-    exception.setattr("field", &failure.field)?;
-    exception.setattr("line", failure.line)?;
+    let exception = class.call1((&failure.message, &failure.field, failure.line))?;
     Ok(PyErr::from_value(exception))
 }
