@@ -6,6 +6,7 @@ mod architecture;
 mod demo;
 mod js_package;
 mod native_hashes;
+mod python;
 mod schema;
 mod setup;
 mod shell;
@@ -22,11 +23,12 @@ Usage: cargo xtask COMMAND
 
   demo      set up, run every built-in scene, make pictures and a film in out/, open the window
   test      set up, then every check: format, clippy, tests, documents, schema, the JavaScript
-            package in Node.js, the page in a browser
+            package in Node.js, the Python package, the page in a browser
   web       make the page in web/dist and the JavaScript package; `web --serve [PORT]` makes the
             page and serves it on this machine, `web --sizes` says what takes its space, `web --test`
             tests it in a browser; `web --package` makes the package alone, `web --test-package`
             tests it in Node.js
+  python    make the wheel of the Python package; `python --test` also installs and tests it
   schema    write scenes/scene.schema.json anew from the scene types
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
             pictures and of the interface, `bench web` the JavaScript package against the native
@@ -45,6 +47,8 @@ fn main() -> ExitCode {
         ["web", "--test"] => web::test(),
         ["web", "--package"] => js_package::build().map(drop),
         ["web", "--test-package"] => js_package::test(),
+        ["python"] => python::build().map(drop),
+        ["python", "--test"] => python::test(),
         ["schema"] => schema::write(),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "web"] => js_package::bench(),

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::python;
 use crate::shell::{Outcome, output, run, succeeds};
 
 /// Adds the toolchain's formatter and linter where they are missing.
@@ -49,6 +50,10 @@ const BROWSER: &[Need] = &[
     Need { is_met: || has_files("/usr/share/fonts"), packages: &["fonts-dejavu-core"] },
 ];
 
+/// What builds and tests the Python package.
+const PYTHON: &[Need] =
+    &[Need { is_met: python::is_there, packages: &["python3", "python3-venv"] }];
+
 /// What compiles for browsers where the standard library for them cannot be fetched.
 const DEBIAN_WASM: &[Need] = &[Need {
     is_met: || succeeds("/usr/bin/wasm-ld-22", &["--version"]) && has_files("/usr/lib/rustlib/src"),
@@ -78,6 +83,16 @@ pub fn page() -> Outcome {
 /// Installs what the tests of the page need besides.
 pub fn browser() -> Outcome {
     install(BROWSER)
+}
+
+/// Installs what builds and tests the Python package.
+pub fn python() -> Outcome {
+    install(PYTHON)?;
+    if python::is_there() {
+        Ok(())
+    } else {
+        Err("the Python package needs CPython 3.10 or newer, with venv".to_owned())
+    }
 }
 
 /// Installs Debian's compiler for browsers.

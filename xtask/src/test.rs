@@ -1,7 +1,7 @@
 //! Every check, in the order in which they fail fastest.
 
 use crate::shell::{Outcome, cargo, cargo_with};
-use crate::{architecture, js_package, setup, web};
+use crate::{architecture, js_package, python, setup, web};
 
 /// Runs every check.
 pub fn test() -> Outcome {
@@ -40,5 +40,6 @@ pub fn test() -> Outcome {
     }
     // And in other languages and places.
     js_package::test()?;
+    python::test()?;
     web::test()
 }

@@ -1,7 +1,6 @@
 //! How a command fails: one line on the standard error stream, and an exit code.
 
 use std::io::{self, Write};
-use std::process::ExitCode;
 
 use carom_scene::SceneError;
 use carom_scene::recording::RecordingError;
@@ -20,20 +19,23 @@ pub enum Failure {
     Interrupted,
 }
 
+/// The code of a command line that asks for what does not exist or makes no sense.
+pub const USAGE: u8 = 2;
+
 impl Failure {
     /// Says what went wrong and with which code to end.
-    pub fn report(self) -> ExitCode {
+    pub fn report(self) -> u8 {
         match self {
             Self::Usage(message) => {
                 complain(&format!("carom: {message}"));
-                ExitCode::from(2)
+                USAGE
             }
             Self::Fault(message) => {
                 complain(&format!("carom: {message}"));
-                ExitCode::from(1)
+                1
             }
-            Self::OutputClosed => ExitCode::SUCCESS,
-            Self::Interrupted => ExitCode::from(130),
+            Self::OutputClosed => 0,
+            Self::Interrupted => 130,
         }
     }
 }

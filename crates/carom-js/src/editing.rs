@@ -8,7 +8,6 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::failure::Failure;
 use crate::find::{self, only};
-use crate::force;
 use crate::part;
 use crate::world::World;
 
@@ -44,7 +43,7 @@ impl World {
 impl World {
     fn add_forces(&mut self, forces: &[Force], added: &mut Added) -> Result<(), Failure> {
         for force in forces {
-            added.forces.push(force::add(&mut self.world, force)?.number());
+            added.forces.push(force.add_to(&mut self.world)?.number());
             self.described_mut().forces.push(force.clone());
         }
         Ok(())
@@ -151,7 +150,7 @@ impl World {
         let (id, place) = find::force(&self.world, id)?;
         let part = part::read(text)?;
         let force = only(&part.forces)?;
-        force::set(&mut self.world, id, force)?;
+        force.replace_in(&mut self.world, id)?;
         self.described_mut().forces[place].clone_from(force);
         Ok(())
     }

@@ -17,7 +17,6 @@ mod description;
 mod editing;
 mod failure;
 mod find;
-mod force;
 mod impact_table;
 mod members;
 mod part;

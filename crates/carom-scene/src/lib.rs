@@ -19,6 +19,7 @@ mod builtin;
 mod check;
 mod error;
 mod expand;
+mod force;
 mod generate;
 mod library;
 mod load;

@@ -61,17 +61,12 @@ pub(crate) fn build(scene: &Scene) -> Result<World, Problem> {
 
 fn add_forces(world: &mut World, forces: &[Force]) -> Result<(), Problem> {
     for (i, force) in forces.iter().enumerate() {
-        let (kind, added) = match *force {
-            Force::Constant { force } => {
-                ("constant", world.add_force(carom::ConstantForce::new(vector(force))))
-            }
-            Force::Gravity { acceleration } => {
-                ("gravity", world.add_force(carom::Gravity::new(vector(acceleration))))
-            }
-            Force::ViscousDrag { coefficient } => {
-                ("viscous-drag", world.add_force(carom::ViscousDrag::new(coefficient)))
-            }
+        let kind = match force {
+            Force::Constant { .. } => "constant",
+            Force::Gravity { .. } => "gravity",
+            Force::ViscousDrag { .. } => "viscous-drag",
         };
+        let added = force.add_to(world);
         added.map_err(|error| problem(&format!("forces[{i}].{kind}"), error))?;
     }
     Ok(())

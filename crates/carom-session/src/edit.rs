@@ -132,7 +132,7 @@ pub(crate) fn apply(edit: &Edit, scene: &Scene, to: Subjects) -> Result<(), Sess
         }
         Edit::Force(id, force) => set_force(*id, force, world, setup),
         Edit::AddForce(force) => {
-            let id = add_force(force, world)?;
+            let id = force.add_to(world)?;
             Arc::make_mut(setup).forces.push((id, force.clone()));
             Ok(())
         }
@@ -214,31 +214,13 @@ fn check_writable(scene: &Scene, setup: &Setup, smallest: f64) -> Result<(), Sce
     probe.world().map(drop)
 }
 
-fn add_force(force: &Force, world: &mut World) -> Result<ForceId, Error> {
-    match *force {
-        Force::Constant { force } => world.add_force(carom::ConstantForce::new(force.into())),
-        Force::Gravity { acceleration } => {
-            world.add_force(carom::Gravity::new(acceleration.into()))
-        }
-        Force::ViscousDrag { coefficient } => world.add_force(carom::ViscousDrag::new(coefficient)),
-    }
-}
-
 fn set_force(
     id: ForceId,
     force: &Force,
     world: &mut World,
     setup: &mut Arc<Setup>,
 ) -> Result<(), SessionError> {
-    match *force {
-        Force::Constant { force } => world.set_force(id, carom::ConstantForce::new(force.into())),
-        Force::Gravity { acceleration } => {
-            world.set_force(id, carom::Gravity::new(acceleration.into()))
-        }
-        Force::ViscousDrag { coefficient } => {
-            world.set_force(id, carom::ViscousDrag::new(coefficient))
-        }
-    }?;
+    force.replace_in(world, id)?;
     let forces = &mut Arc::make_mut(setup).forces;
     forces.iter_mut().filter(|it| it.0 == id).for_each(|it| it.1 = force.clone());
     Ok(())

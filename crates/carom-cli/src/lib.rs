@@ -1,0 +1,75 @@
+//! The command line of Carom: what the program `carom` does, and `python -m carom`.
+
+#![warn(clippy::unwrap_used)]
+
+mod args;
+mod bench;
+mod compare;
+mod failure;
+mod gas;
+mod interruption;
+mod link;
+mod machine;
+mod numbers;
+#[cfg(feature = "pictures")]
+mod pictures;
+mod progress;
+mod run;
+mod scenes;
+mod summary;
+mod table;
+mod verify;
+#[cfg(feature = "view")]
+mod window;
+
+use std::ffi::OsString;
+
+use carom_scene::{Library, Scene};
+use clap::Parser;
+
+use args::{Args, Command};
+use failure::Failure;
+
+/// Does what `arguments` ask for, the name of the program first, and says with which code the
+/// program is to end. `registered` are scenes that are found by name besides those on the disk.
+pub fn main(arguments: impl IntoIterator<Item = OsString>, registered: Vec<Scene>) -> u8 {
+    let result = match Args::try_parse_from(arguments) {
+        Ok(args) => obey(args, registered),
+        Err(refusal) => {
+            // If the output is gone, nobody is there to be told.
+            refusal.print().ok();
+            return refusal.exit_code().try_into().unwrap_or(failure::USAGE);
+        }
+    };
+    match result {
+        Ok(()) => 0,
+        Err(failure) => failure.report(),
+    }
+}
+
+fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
+    let (folders, command) = args.split();
+    let library = || -> Result<Library, Failure> {
+        let mut library = folders.library()?;
+        registered.into_iter().try_for_each(|scene| library.register(scene))?;
+        Ok(library)
+    };
+    match &command {
+        Command::Scenes { json } => scenes::list(&library()?, *json),
+        Command::Check { files } => scenes::check(files),
+        Command::Show(show) => scenes::show(&library()?, show),
+        Command::Run(run) => run::run(&library()?, run),
+        Command::Link(link) => link::link(&library()?, link),
+        Command::Verify(verify) => verify::verify(verify),
+        Command::Compare(compare) => compare::compare(&library()?, compare),
+        Command::Bench(bench) => bench::bench(bench),
+        #[cfg(feature = "pictures")]
+        Command::Picture(picture) => pictures::picture(&library()?, picture),
+        #[cfg(feature = "pictures")]
+        Command::Record(record) => pictures::record(&library()?, record),
+        #[cfg(feature = "pictures")]
+        Command::Maze(maze) => pictures::maze(library()?, maze),
+        #[cfg(feature = "view")]
+        Command::View(view) => window::view(library()?, view),
+    }
+}

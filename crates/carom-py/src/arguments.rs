@@ -1,0 +1,94 @@
+//! What Python gives for one argument; every refusal names it.
+
+use numpy::{PyArrayDyn, PyArrayMethods};
+use pyo3::exceptions::{PyOverflowError, PyTypeError};
+use pyo3::prelude::*;
+
+use crate::failure::Failure;
+
+/// Reads whatever NumPy makes an array of: numbers, spread to `shape` by NumPy's rules of
+/// broadcasting, in C order.
+///
+/// # Errors
+/// `TypeError` for what are no numbers, [`Failure`] for numbers of another shape; both name the
+/// argument `name`.
+pub fn array(name: &str, values: &Bound<'_, PyAny>, shape: &[usize]) -> PyResult<Vec<f64>> {
+    let numpy = values.py().import("numpy")?;
+    let no_numbers = |what: &str| {
+        let message = format!("{name}: must be an array of numbers, not {what}");
+        PyTypeError::new_err(message)
+    };
+    let Ok(array) = numpy.call_method1("asarray", (values,)) else {
+        return Err(no_numbers("a list of rows of different lengths"));
+    };
+    let dtype = array.getattr("dtype")?;
+    // Floating-point numbers, integers, and unsigned ones.
+    if !["f", "i", "u"].contains(&dtype.getattr("kind")?.extract::<String>()?.as_str()) {
+        return Err(no_numbers(&format!("of {dtype}")));
+    }
+    let own: Vec<usize> = array.getattr("shape")?.extract()?;
+    let Ok(spread) = numpy.call_method1("broadcast_to", (&array, shape.to_vec())) else {
+        let (wanted, own) = (written(shape), written(&own));
+        return Err(
+            Failure::value(name, format_args!("must be of shape {wanted}, not {own}")).into()
+        );
+    };
+    let numbers =
+        spread.call_method1("astype", ("float64", "C"))?.cast_into::<PyArrayDyn<f64>>()?;
+    Ok(numbers.to_vec()?)
+}
+
+/// Reads a number.
+///
+/// # Errors
+/// `TypeError` for what is none.
+pub fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    value.extract().map_err(|_| wrong_kind(name, "a number", value))
+}
+
+/// Reads a number that may be missing.
+///
+/// # Errors
+/// As [`number`].
+pub fn optional_number(name: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<f64>> {
+    value.map(|value| number(name, value)).transpose()
+}
+
+/// Reads a count.
+///
+/// # Errors
+/// `TypeError` for what is no whole number, [`Failure`] for one that is negative or too large.
+pub fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
+    let py = value.py();
+    value.extract().map_err(|error: PyErr| match error.is_instance_of::<PyOverflowError>(py) {
+        true => Failure::value(name, format_args!("must be in [0, 2^64), not {value}")).into(),
+        false => wrong_kind(name, "a whole number", value),
+    })
+}
+
+/// Reads the id of something of this kind, like `"sphere"`.
+///
+/// # Errors
+/// `TypeError` for what is no whole number, [`Failure`] for one that cannot be an id.
+pub fn id(kind: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
+    let py = value.py();
+    value.extract().map_err(|error: PyErr| match error.is_instance_of::<PyOverflowError>(py) {
+        true => Failure::unknown(kind, value).into(),
+        false => wrong_kind("id", "a whole number", value),
+    })
+}
+
+fn wrong_kind(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyErr {
+    let kind = value.get_type();
+    let kind = kind.name().map_or_else(|_| "something else".to_owned(), |it| it.to_string());
+    PyTypeError::new_err(format!("{name}: must be {wanted}, not {kind}"))
+}
+
+/// A shape as Python writes it.
+fn written(shape: &[usize]) -> String {
+    let lengths: Vec<String> = shape.iter().map(ToString::to_string).collect();
+    match lengths.as_slice() {
+        [one] => format!("({one},)"),
+        all => format!("({})", all.join(", ")),
+    }
+}

@@ -1,0 +1,200 @@
+//! Arrays of spheres, as NumPy sees them.
+//!
+//! The memory belongs to Python: an array that somebody holds can be read for as long as it is
+//! held, whatever becomes of the world. To read costs nothing; for that, an array that was asked
+//! for once is written anew after every frame, as long as the same spheres are there. When spheres
+//! come or go, the world lets go of its arrays and makes others when they are next asked for; the
+//! old ones keep the last values of their spheres.
+
+use carom::{DVec3, SphereId, Spheres};
+use numpy::{PyArray, PyArray1, PyArrayDyn, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::IntoPyDict;
+
+/// A quantity that all spheres have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    Positions,
+    Velocities,
+    Radii,
+    Masses,
+    Restitutions,
+}
+
+impl Quantity {
+    pub const ALL: [Self; 5] =
+        [Self::Positions, Self::Velocities, Self::Radii, Self::Masses, Self::Restitutions];
+
+    /// As Python calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Positions => "positions",
+            Self::Velocities => "velocities",
+            Self::Radii => "radii",
+            Self::Masses => "masses",
+            Self::Restitutions => "restitutions",
+        }
+    }
+
+    /// The shape of its array for `count` spheres.
+    pub fn shape(self, count: usize) -> Vec<usize> {
+        match self {
+            Self::Positions | Self::Velocities => vec![count, 3],
+            Self::Radii | Self::Masses | Self::Restitutions => vec![count],
+        }
+    }
+
+    fn values(self, spheres: &Spheres) -> Values<'_> {
+        match self {
+            Self::Positions => Values::Vectors(spheres.positions()),
+            Self::Velocities => Values::Vectors(spheres.velocities()),
+            Self::Radii => Values::Numbers(spheres.radii()),
+            Self::Masses => Values::Numbers(spheres.masses()),
+            Self::Restitutions => Values::Numbers(spheres.restitutions()),
+        }
+    }
+}
+
+/// What the engine holds of a quantity.
+enum Values<'a> {
+    Vectors(&'a [DVec3]),
+    Numbers(&'a [f64]),
+}
+
+impl Values<'_> {
+    fn to_vec(&self) -> Vec<f64> {
+        match self {
+            Self::Vectors(vectors) => flat(vectors),
+            Self::Numbers(numbers) => numbers.to_vec(),
+        }
+    }
+
+    fn write(&self, place: &mut [f64]) {
+        match self {
+            Self::Vectors(vectors) => {
+                for (place, vector) in place.chunks_exact_mut(3).zip(*vectors) {
+                    place.copy_from_slice(&vector.to_array());
+                }
+            }
+            Self::Numbers(numbers) => {
+                place.iter_mut().zip(*numbers).for_each(|(place, number)| *place = *number);
+            }
+        }
+    }
+}
+
+/// Three numbers of each vector, in a row.
+pub fn flat(vectors: &[DVec3]) -> Vec<f64> {
+    vectors.iter().flat_map(|vector| vector.to_array()).collect()
+}
+
+/// The arrays of a world that were asked for.
+#[derive(Debug, Default)]
+pub struct Arrays {
+    /// Whose rows they have.
+    members: Vec<SphereId>,
+    /// By [`Quantity`].
+    shown: [Option<Shown>; Quantity::ALL.len()],
+    ids: Option<Py<PyArray1<u64>>>,
+}
+
+/// An array, and what Python gets to see of it.
+#[derive(Debug)]
+struct Shown {
+    own: Py<PyArrayDyn<f64>>,
+    /// The same memory, not to be written to.
+    view: Py<PyAny>,
+}
+
+impl Arrays {
+    /// The array of a quantity, with the values of now.
+    pub fn get(
+        &mut self,
+        py: Python<'_>,
+        quantity: Quantity,
+        spheres: &Spheres,
+    ) -> PyResult<Py<PyAny>> {
+        self.follow(spheres);
+        if let Some(shown) = &self.shown[quantity as usize] {
+            return Ok(shown.view.clone_ref(py));
+        }
+        let values = PyArray1::from_vec(py, quantity.values(spheres).to_vec());
+        let own = values.reshape(quantity.shape(spheres.len()))?;
+        let view = read_only(&own)?;
+        let shown = Shown { own: own.unbind(), view: view.clone_ref(py) };
+        self.shown[quantity as usize] = Some(shown);
+        Ok(view)
+    }
+
+    /// Ids, ascending.
+    pub fn ids(&mut self, py: Python<'_>, spheres: &Spheres) -> PyResult<Py<PyArray1<u64>>> {
+        self.follow(spheres);
+        if let Some(ids) = &self.ids {
+            return Ok(ids.clone_ref(py));
+        }
+        let ids = numbers(py, spheres.ids());
+        freeze(&ids)?;
+        let ids = ids.unbind();
+        self.ids = Some(ids.clone_ref(py));
+        Ok(ids)
+    }
+
+    /// Writes what a frame changes into the arrays that are there.
+    pub fn write_motion(&mut self, py: Python<'_>, spheres: &Spheres) {
+        self.write(py, spheres, &[Quantity::Positions, Quantity::Velocities]);
+    }
+
+    /// Writes everything into the arrays that are there.
+    pub fn write_all(&mut self, py: Python<'_>, spheres: &Spheres) {
+        self.write(py, spheres, &Quantity::ALL);
+    }
+
+    fn write(&mut self, py: Python<'_>, spheres: &Spheres, quantities: &[Quantity]) {
+        self.follow(spheres);
+        for &quantity in quantities {
+            let place = &mut self.shown[quantity as usize];
+            let Some(shown) = place else { continue };
+            let array = shown.own.bind(py);
+            let mut borrowed = array.try_readwrite();
+            match borrowed.as_mut().map(|array| array.as_slice_mut()) {
+                Ok(Ok(slice)) => quantity.values(spheres).write(slice),
+                // Somebody in another language is reading it: theirs stays as it is.
+                _ => *place = None,
+            }
+        }
+    }
+
+    /// Lets go of the arrays if their spheres are others.
+    fn follow(&mut self, spheres: &Spheres) {
+        if self.members != spheres.ids() {
+            *self = Self { members: spheres.ids().to_vec(), ..Self::default() };
+        }
+    }
+}
+
+/// Ids as an array of their own.
+pub fn numbers<'py>(py: Python<'py>, ids: &[SphereId]) -> Bound<'py, PyArray1<u64>> {
+    PyArray1::from_vec(py, ids.iter().map(|id| id.number()).collect())
+}
+
+/// Another array of the same memory, not to be written to.
+fn read_only(array: &Bound<'_, PyArrayDyn<f64>>) -> PyResult<Py<PyAny>> {
+    let view = array.call_method0("view")?;
+    freeze(&view)?;
+    Ok(view.unbind())
+}
+
+/// Has NumPy refuse to write to an array.
+fn freeze(array: &Bound<'_, PyAny>) -> PyResult<()> {
+    let kwargs = [("write", false)].into_py_dict(array.py())?;
+    array.call_method("setflags", (), Some(&kwargs)).map(drop)
+}
+
+/// A list of numbers as an array of this shape; the memory goes to Python uncopied.
+pub fn shaped<'py>(
+    py: Python<'py>,
+    values: Vec<f64>,
+    shape: Vec<usize>,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    PyArray::from_vec(py, values).reshape(shape)
+}

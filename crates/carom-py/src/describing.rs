@@ -1,0 +1,95 @@
+//! Telling what is in a world, as JSON. Infinite numbers are `null`.
+
+use carom::Mass;
+use carom_scene::scene::{Collider, Sphere};
+use pyo3::prelude::*;
+
+use crate::arguments;
+use crate::engine::{Engine, Inner};
+use crate::failure::Failure;
+
+#[pymethods]
+impl Engine {
+    /// How the world is stepped.
+    #[pyo3(name = "_simulation_json")]
+    fn simulation_json(&self, py: Python<'_>) -> PyResult<String> {
+        json(&self.lock(py)?.described.simulation)
+    }
+
+    /// Forces by their ids.
+    #[pyo3(name = "_forces_json")]
+    fn forces_json(&self, py: Python<'_>) -> PyResult<String> {
+        let inner = &*self.lock(py)?;
+        let ids = inner.world.forces().map(|(id, _)| id.number());
+        json(&ids.zip(&inner.described.forces).collect::<Vec<_>>())
+    }
+
+    /// Colliders by their ids, where they are now.
+    #[pyo3(name = "_colliders_json")]
+    fn colliders_json(&self, py: Python<'_>) -> PyResult<String> {
+        let inner = &*self.lock(py)?;
+        let ids = inner.world.colliders().map(|(id, _)| id.number());
+        json(&ids.zip(colliders_now(inner)).collect::<Vec<_>>())
+    }
+
+    /// Emitters by their ids.
+    #[pyo3(name = "_emitters_json")]
+    fn emitters_json(&self, py: Python<'_>) -> PyResult<String> {
+        let inner = &*self.lock(py)?;
+        let ids = inner.world.emitters().map(|(id, _)| id.number());
+        json(&ids.zip(&inner.described.emitters).collect::<Vec<_>>())
+    }
+
+    /// One sphere.
+    #[pyo3(name = "_sphere_json")]
+    fn sphere_json(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<String> {
+        let id = arguments::id("sphere", id)?;
+        let inner = &*self.lock(py)?;
+        let sphere = inner.world.sphere(carom::SphereId::from_number(id)).map_err(Failure::from)?;
+        json(&described(&sphere))
+    }
+
+    /// The text of a scene that begins as the world is now: time begins at 0 there, and emitters
+    /// begin anew.
+    #[pyo3(name = "_scene_toml")]
+    fn scene_toml(&self, py: Python<'_>) -> PyResult<String> {
+        let inner = &*self.lock(py)?;
+        let (spheres, mut scene) = (inner.world.spheres(), (*inner.described).clone());
+        scene.colliders = colliders_now(inner);
+        scene.spheres = (0..spheres.len()).map(|i| described(&spheres.get(i))).collect();
+        // Rules that find contacts late let spheres overlap; a scene has to admit it.
+        if !scene.simulation.allow_overlap && scene.world().is_err() {
+            scene.simulation.allow_overlap = true;
+        }
+        Ok(scene.to_toml())
+    }
+}
+
+fn json(it: &impl serde::Serialize) -> PyResult<String> {
+    Ok(serde_json::to_string(it).map_err(Failure::from)?)
+}
+
+/// The colliders of a world, where they are now.
+fn colliders_now(inner: &Inner) -> Vec<Collider> {
+    let poses = inner.world.colliders().map(|(_, collider)| collider.pose);
+    let moved = |(collider, pose): (&Collider, carom::Pose)| Collider {
+        position: pose.position.to_array(),
+        rotation: pose.rotation.to_array(),
+        ..collider.clone()
+    };
+    inner.described.colliders.iter().zip(poses).map(moved).collect()
+}
+
+/// A sphere as scene files write it.
+fn described(sphere: &carom::Sphere) -> Sphere {
+    let mass = match sphere.mass {
+        Mass::Kilograms(mass) => mass,
+        Mass::Density(_) => sphere.kilograms(),
+    };
+    Sphere {
+        velocity: sphere.velocity.to_array(),
+        mass: Some(mass),
+        restitution: sphere.restitution,
+        ..Sphere::at(sphere.position.to_array(), sphere.radius)
+    }
+}

@@ -1,0 +1,265 @@
+//! Changing a world from outside.
+
+// What is said of methods here is read in Python: units in plain brackets, errors in Google's style.
+#![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_rust_codeblocks)]
+
+use carom::{Collider, ColliderId, DVec3, Emitter, EmitterId, ForceId, Sphere, SphereId, World};
+use carom_scene::Scene;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use crate::arguments;
+use crate::arrays::{self, Quantity};
+
+use crate::engine::{Engine, Inner};
+use crate::failure::Failure;
+use crate::part::{self, only};
+
+/// Adding. What is refused leaves the world as it was.
+#[pymethods]
+impl Engine {
+    /// Adds the spheres that `text` describes, and answers with their ids.
+    #[pyo3(name = "_add_described_spheres")]
+    fn add_spheres_of(&self, py: Python<'_>, text: &str) -> PyResult<Vec<u64>> {
+        let part = part::read(text)?;
+        let spheres = spheres_of(&part)?;
+        let ids = self.change(py, |inner| add_all(&mut inner.world, &spheres))?;
+        Ok(ids.iter().map(|id| id.number()).collect())
+    }
+
+    /// Adds `count` spheres by their quantities, in the order of [`Quantity::ALL`], each spread over
+    /// all of them, and answers with their ids.
+    #[pyo3(name = "_add_spheres")]
+    fn add_spheres_by_arrays<'py>(
+        &self,
+        py: Python<'py>,
+        count: usize,
+        quantities: [Bound<'py, PyAny>; Quantity::ALL.len()],
+    ) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        let read = |(quantity, values): (Quantity, _)| {
+            arguments::array(quantity.name(), &values, &quantity.shape(count))
+        };
+        let columns: Vec<Vec<f64>> =
+            Quantity::ALL.into_iter().zip(quantities).map(read).collect::<PyResult<_>>()?;
+        let spheres: Vec<Sphere> = (0..count).map(|index| sphere_at(&columns, index)).collect();
+        let ids = self.change(py, |inner| add_all(&mut inner.world, &spheres))?;
+        Ok(arrays::numbers(py, &ids))
+    }
+
+    /// Adds the force that `text` describes, and answers with its id.
+    #[pyo3(name = "_add_force")]
+    fn add_force_of(&self, py: Python<'_>, text: &str) -> PyResult<usize> {
+        let part = part::read(text)?;
+        let force = only(&part.forces)?;
+        self.change(py, |inner| {
+            let id = force.add_to(&mut inner.world)?;
+            inner.described_mut().forces.push(force.clone());
+            Ok(id.number())
+        })
+    }
+
+    /// Adds the collider that `text` describes, and answers with its id.
+    #[pyo3(name = "_add_collider")]
+    fn add_collider_of(&self, py: Python<'_>, text: &str) -> PyResult<usize> {
+        let part = part::read(text)?;
+        let collider = collider_of(&part)?;
+        self.change(py, |inner| {
+            let id = inner.world.add_collider(collider)?;
+            inner.described_mut().colliders.extend(part.colliders);
+            Ok(id.number())
+        })
+    }
+
+    /// Adds the emitter that `text` describes, and answers with its id.
+    #[pyo3(name = "_add_emitter")]
+    fn add_emitter_of(&self, py: Python<'_>, text: &str) -> PyResult<usize> {
+        let part = part::read(text)?;
+        let emitter = emitter_of(&part)?;
+        self.change(py, |inner| {
+            let id = inner.world.add_emitter(emitter)?;
+            inner.described_mut().emitters.extend(part.emitters);
+            Ok(id.number())
+        })
+    }
+}
+
+/// Changing and removing. Ids are numbers as they were given; any other is refused.
+#[pymethods]
+impl Engine {
+    /// Changes a sphere to the one that `text` describes.
+    #[pyo3(name = "_set_sphere")]
+    fn set_sphere_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
+        let id = arguments::id("sphere", id)?;
+        let spheres = spheres_of(&part::read(text)?)?;
+        let sphere = *only(&spheres)?;
+        self.change(py, |inner| Ok(inner.world.set_sphere(SphereId::from_number(id), sphere)?))
+    }
+
+    /// Takes a sphere out of the world. Those after it move up in the arrays.
+    ///
+    /// Raises:
+    ///     UnknownError: If it is not in the world (any more).
+    fn remove_sphere(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
+        let id = arguments::id("sphere", id)?;
+        self.change(py, |inner| {
+            inner.world.remove_sphere(SphereId::from_number(id))?;
+            Ok(())
+        })
+    }
+
+    /// Puts the force that `text` describes in the place of another.
+    #[pyo3(name = "_set_force")]
+    fn set_force_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
+        let id = arguments::id("force", id)?;
+        let part = part::read(text)?;
+        let force = only(&part.forces)?;
+        self.change(py, |inner| {
+            let (id, place) = find_force(&inner.world, id)?;
+            force.replace_in(&mut inner.world, id)?;
+            inner.described_mut().forces[place].clone_from(force);
+            Ok(())
+        })
+    }
+
+    /// Takes a force out of the world.
+    ///
+    /// Raises:
+    ///     UnknownError: If it is not in the world (any more).
+    fn remove_force(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
+        let id = arguments::id("force", id)?;
+        self.change(py, |inner| {
+            let (id, place) = find_force(&inner.world, id)?;
+            inner.world.remove_force(id)?;
+            inner.described_mut().forces.remove(place);
+            Ok(())
+        })
+    }
+
+    /// Changes a collider to the one that `text` describes.
+    #[pyo3(name = "_set_collider")]
+    fn set_collider_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
+        let id = arguments::id("collider", id)?;
+        let part = part::read(text)?;
+        let collider = collider_of(&part)?;
+        self.change(py, |inner| {
+            let (id, place) = find_collider(&inner.world, id)?;
+            inner.world.set_collider(id, collider)?;
+            inner.described_mut().colliders[place].clone_from(only(&part.colliders)?);
+            Ok(())
+        })
+    }
+
+    /// Takes a collider out of the world.
+    ///
+    /// Raises:
+    ///     UnknownError: If it is not in the world (any more).
+    fn remove_collider(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
+        let id = arguments::id("collider", id)?;
+        self.change(py, |inner| {
+            let (id, place) = find_collider(&inner.world, id)?;
+            inner.world.remove_collider(id)?;
+            inner.described_mut().colliders.remove(place);
+            Ok(())
+        })
+    }
+
+    /// Changes an emitter to the one that `text` describes. With another period it starts anew, now.
+    #[pyo3(name = "_set_emitter")]
+    fn set_emitter_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
+        let id = arguments::id("emitter", id)?;
+        let part = part::read(text)?;
+        let emitter = emitter_of(&part)?;
+        self.change(py, |inner| {
+            let (id, place) = find_emitter(&inner.world, id)?;
+            inner.world.set_emitter(id, emitter)?;
+            inner.described_mut().emitters[place].clone_from(only(&part.emitters)?);
+            Ok(())
+        })
+    }
+
+    /// Takes an emitter out of the world; its spheres stay.
+    ///
+    /// Raises:
+    ///     UnknownError: If it is not in the world (any more).
+    fn remove_emitter(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
+        let id = arguments::id("emitter", id)?;
+        self.change(py, |inner| {
+            let (id, place) = find_emitter(&inner.world, id)?;
+            inner.world.remove_emitter(id)?;
+            inner.described_mut().emitters.remove(place);
+            Ok(())
+        })
+    }
+
+    /// Steps the world as `text` says from now on.
+    #[pyo3(name = "_set_simulation")]
+    fn set_simulation_of(&self, py: Python<'_>, text: &str) -> PyResult<()> {
+        let part = part::read_simulation(text)?;
+        self.change(py, |inner: &mut Inner| {
+            inner.world.set_settings(part.settings())?;
+            inner.described_mut().simulation = part.simulation;
+            Ok(())
+        })
+    }
+}
+
+/// Adds spheres; if one is refused, none is added.
+fn add_all(world: &mut World, spheres: &[Sphere]) -> Result<Vec<SphereId>, Failure> {
+    let before = world.snapshot();
+    let added: Result<Vec<SphereId>, carom::Error> =
+        spheres.iter().map(|sphere| world.add_sphere(*sphere)).collect();
+    if added.is_err() {
+        world.restore(&before);
+    }
+    Ok(added?)
+}
+
+/// The sphere at an index of columns in the order of [`Quantity::ALL`].
+fn sphere_at(columns: &[Vec<f64>], index: usize) -> Sphere {
+    let vector = |quantity| DVec3::from_slice(&columns[quantity as usize][3 * index..]);
+    let number = |quantity| columns[quantity as usize][index];
+    Sphere::new(vector(Quantity::Positions), number(Quantity::Radii))
+        .with_velocity(vector(Quantity::Velocities))
+        .with_mass(number(Quantity::Masses))
+        .with_restitution(number(Quantity::Restitutions))
+}
+
+fn spheres_of(part: &Scene) -> Result<Vec<Sphere>, Failure> {
+    let world = part.world()?;
+    let spheres = world.spheres();
+    Ok((0..spheres.len()).map(|index| spheres.get(index)).collect())
+}
+
+fn collider_of(part: &Scene) -> Result<Collider, Failure> {
+    let world = part.world()?;
+    let colliders: Vec<Collider> = world.colliders().map(|(_, collider)| *collider).collect();
+    only(&colliders).copied()
+}
+
+fn emitter_of(part: &Scene) -> Result<Emitter, Failure> {
+    let world = part.world()?;
+    let emitters: Vec<Emitter> = world.emitters().map(|(_, emitter)| *emitter).collect();
+    only(&emitters).copied()
+}
+
+/// The id of a force, and its place in the order. Asked first: to remove what is not there would
+/// let all flights begin anew.
+fn find_force(world: &World, number: u64) -> Result<(ForceId, usize), Failure> {
+    let place = world.forces().position(|(id, _)| id.number() as u64 == number);
+    let found = place.map(|place| (ForceId::from_number(number as usize), place));
+    found.ok_or_else(|| Failure::unknown("force", number))
+}
+
+/// Likewise of a collider.
+fn find_collider(world: &World, number: u64) -> Result<(ColliderId, usize), Failure> {
+    let place = world.colliders().position(|(id, _)| id.number() as u64 == number);
+    let found = place.map(|place| (ColliderId::from_number(number as usize), place));
+    found.ok_or_else(|| Failure::unknown("collider", number))
+}
+
+/// Likewise of an emitter.
+fn find_emitter(world: &World, number: u64) -> Result<(EmitterId, usize), Failure> {
+    let place = world.emitters().position(|(id, _)| id.number() as u64 == number);
+    let found = place.map(|place| (EmitterId::from_number(number as usize), place));
+    found.ok_or_else(|| Failure::unknown("emitter", number))
+}

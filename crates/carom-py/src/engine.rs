@@ -1,0 +1,373 @@
+//! A world as Python holds it.
+
+// What is said of methods here is read in Python: units in plain brackets, errors in Google's style.
+#![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_rust_codeblocks)]
+
+use std::sync::{Arc, Mutex, MutexGuard};
+
+use carom::{DVec3, World};
+use carom_scene::Scene;
+use numpy::PyArray1;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::sync::MutexExt;
+
+use crate::arguments;
+use crate::arrays::{self, Arrays, Quantity};
+
+use crate::failure::Failure;
+use crate::snapshot::Snapshot;
+use crate::tables::Table;
+
+/// What `carom.World` stands on: a world, and the arrays that Python sees of it.
+///
+/// Several threads may use one: their calls wait for each other.
+#[pyclass(frozen, subclass, module = "carom._carom")]
+#[derive(Debug)]
+pub struct Engine(Mutex<Inner>);
+
+/// What the lock guards.
+#[derive(Debug)]
+pub struct Inner {
+    pub world: World,
+    /// What there is besides spheres. Forces, colliders and emitters are those of the world, in its
+    /// order; colliders stand where they were when they were described.
+    pub described: Arc<Scene>,
+    pub arrays: Arrays,
+    /// Start of the last frame \[s\].
+    pub frame_start: f64,
+}
+
+impl Inner {
+    /// The description, to be changed together with the world.
+    pub fn described_mut(&mut self) -> &mut Scene {
+        Arc::make_mut(&mut self.described)
+    }
+
+    /// The state, to return to.
+    pub fn snapshot(&self) -> Snapshot {
+        let (world, described) = (self.world.snapshot(), Arc::clone(&self.described));
+        Snapshot { world, described, time: self.world.time() }
+    }
+
+    /// Returns to a state. What happened in the last frame is forgotten.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.world.restore(&snapshot.world);
+        self.described = Arc::clone(&snapshot.described);
+        self.frame_start = snapshot.time;
+    }
+
+    /// Takes one frame.
+    pub fn take_frame(&mut self, dt: f64) -> Result<(), carom::Error> {
+        let start = self.world.time();
+        self.world.step(dt)?;
+        self.frame_start = start;
+        Ok(())
+    }
+
+    /// The length of a frame \[s\]: as asked for, or the scene's own.
+    pub fn frame_time(&self, dt: Option<f64>) -> f64 {
+        dt.unwrap_or(self.described.simulation.frame_time)
+    }
+}
+
+impl Engine {
+    /// Waits until no other thread is at work on this world.
+    pub fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
+        let broken = |_| PyRuntimeError::new_err("the engine of this world has failed before");
+        self.0.lock_py_attached(py).map_err(broken)
+    }
+
+    /// Changes the world, and brings the arrays up to date.
+    pub fn change<T>(
+        &self,
+        py: Python<'_>,
+        change: impl FnOnce(&mut Inner) -> Result<T, Failure>,
+    ) -> PyResult<T> {
+        let mut guard = self.lock(py)?;
+        let inner = &mut *guard;
+        let result = change(inner)?;
+        inner.arrays.write_all(py, inner.world.spheres());
+        Ok(result)
+    }
+}
+
+/// Making a world, and moving it.
+#[pymethods]
+impl Engine {
+    /// The world at the start of the scene that `text` describes in TOML.
+    #[new]
+    fn new(text: &str) -> Result<Self, Failure> {
+        let mut scene = Scene::from_toml(text, "scene").map_err(Failure::of_part)?;
+        let world = scene.world()?;
+        scene.spheres.clear();
+        scene.generators.clear();
+        let (described, arrays) = (Arc::new(scene), Arrays::default());
+        Ok(Self(Mutex::new(Inner { world, described, arrays, frame_start: 0.0 })))
+    }
+
+    /// Advances the world by `frames` frames of `dt` [s], or of the scene's own frame time.
+    ///
+    /// Other threads run meanwhile. If a frame is refused, the world is as it was before the call.
+    ///
+    /// Raises:
+    ///     CaromError: If `dt` is not positive and finite, an emitter runs away, or a periodic box
+    ///         is too small for the spheres.
+    ///     StepError: If a number would overflow, or there are too many impacts.
+    #[pyo3(signature = (dt = None, *, frames = None), text_signature = "($self, dt=None, *, frames=1)")]
+    fn step(
+        &self,
+        py: Python<'_>,
+        dt: Option<&Bound<'_, PyAny>>,
+        frames: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let dt = arguments::optional_number("dt", dt)?;
+        let frames = frames.map_or(Ok(1), |frames| arguments::count("frames", frames))?;
+        let mut guard = self.lock(py)?;
+        let inner = &mut *guard;
+        let dt = inner.frame_time(dt);
+        py.detach(|| step(inner, dt, frames))?;
+        inner.arrays.write_motion(py, inner.world.spheres());
+        Ok(())
+    }
+
+    /// Time since the beginning [s].
+    #[getter]
+    fn time(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.lock(py)?.world.time())
+    }
+
+    /// Length of a frame of the scene [s].
+    #[getter]
+    fn frame_time(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.lock(py)?.frame_time(None))
+    }
+
+    /// The number of spheres.
+    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+        Ok(self.lock(py)?.world.spheres().len())
+    }
+
+    /// The state as 16 hexadecimal digits, equal for equal states on every platform.
+    ///
+    /// It covers time, spheres, places of colliders and emissions, not settings, forces and shapes.
+    #[getter]
+    fn state_hash(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(self.lock(py)?.world.state_hash().to_string())
+    }
+
+    /// Everything the future depends on, to return to.
+    fn snapshot(&self, py: Python<'_>) -> PyResult<Snapshot> {
+        Ok(self.lock(py)?.snapshot())
+    }
+
+    /// Returns to a snapshot, bit for bit. What happened in the last frame is forgotten.
+    fn restore(&self, py: Python<'_>, snapshot: &Snapshot) -> PyResult<()> {
+        self.change(py, |inner| {
+            inner.restore(snapshot);
+            Ok(())
+        })
+    }
+}
+
+/// Takes frames of `dt` \[s\]; if one of them is refused, none was taken.
+fn step(inner: &mut Inner, dt: f64, frames: u64) -> Result<(), Failure> {
+    // A single frame that is refused leaves the world as it was by itself.
+    let before = (frames > 1).then(|| inner.snapshot());
+    for _ in 0..frames {
+        if let Err(error) = inner.take_frame(dt) {
+            before.iter().for_each(|before| inner.restore(before));
+            return Err(error.into());
+        }
+    }
+    Ok(())
+}
+
+/// Arrays of spheres, in ascending order of id. Each is made when it is first asked for, and then
+/// the same object for as long as no sphere comes or goes: every frame writes into it. It cannot be
+/// written to; to set a quantity, assign to the attribute.
+#[pymethods]
+impl Engine {
+    /// Centres [m], shape (n, 3).
+    #[getter]
+    fn positions(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::Positions)
+    }
+
+    #[setter]
+    fn set_positions(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::Positions, values)
+    }
+
+    /// Velocities [m/s], shape (n, 3).
+    #[getter]
+    fn velocities(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::Velocities)
+    }
+
+    #[setter]
+    fn set_velocities(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::Velocities, values)
+    }
+
+    /// Radii [m], shape (n,).
+    #[getter]
+    fn radii(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::Radii)
+    }
+
+    #[setter]
+    fn set_radii(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::Radii, values)
+    }
+
+    /// Masses [kg], shape (n,).
+    #[getter]
+    fn masses(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::Masses)
+    }
+
+    #[setter]
+    fn set_masses(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::Masses, values)
+    }
+
+    /// Coefficients of restitution in [0, 1], shape (n,).
+    #[getter]
+    fn restitutions(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::Restitutions)
+    }
+
+    #[setter]
+    fn set_restitutions(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::Restitutions, values)
+    }
+
+    /// Ids, ascending, shape (n,), uint64. An id is never given twice in one world.
+    #[getter]
+    fn ids(&self, py: Python<'_>) -> PyResult<Py<PyArray1<u64>>> {
+        let inner = &mut *self.lock(py)?;
+        inner.arrays.ids(py, inner.world.spheres())
+    }
+}
+
+impl Engine {
+    fn quantity(&self, py: Python<'_>, quantity: Quantity) -> PyResult<Py<PyAny>> {
+        let inner = &mut *self.lock(py)?;
+        inner.arrays.get(py, quantity, inner.world.spheres())
+    }
+
+    fn set_quantity(&self, quantity: Quantity, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        let py = values.py();
+        // To read what Python gives can run any code of Python: not under the lock.
+        let count = self.lock(py)?.world.spheres().len();
+        let values = arguments::array(quantity.name(), values, &quantity.shape(count))?;
+        self.change(py, |inner| {
+            if inner.world.spheres().len() != count {
+                let problem = "spheres came or went in another thread meanwhile";
+                return Err(Failure::value(quantity.name(), problem));
+            }
+            set_all(&mut inner.world, quantity, &values)
+        })
+    }
+}
+
+/// Sets a quantity of all spheres; if a value is refused, none is set.
+fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<(), Failure> {
+    let before = world.snapshot();
+    let ids = world.spheres().ids().to_vec();
+    for (index, id) in ids.into_iter().enumerate() {
+        let mut sphere = world.spheres().get(index);
+        match quantity {
+            Quantity::Positions => sphere.position = DVec3::from_slice(&values[3 * index..]),
+            Quantity::Velocities => sphere.velocity = DVec3::from_slice(&values[3 * index..]),
+            Quantity::Radii => sphere.radius = values[index],
+            Quantity::Masses => sphere = sphere.with_mass(values[index]),
+            Quantity::Restitutions => sphere.restitution = values[index],
+        }
+        if let Err(error) = world.set_sphere(id, sphere) {
+            world.restore(&before);
+            return Err(Failure::from(error).about(quantity.name()));
+        }
+    }
+    Ok(())
+}
+
+/// Sums over all spheres.
+#[pymethods]
+impl Engine {
+    /// Kinetic energy [J], the sum of m v² / 2.
+    #[getter]
+    fn kinetic_energy(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.lock(py)?.world.kinetic_energy())
+    }
+
+    /// Potential energy [J] in all forces that have one.
+    #[getter]
+    fn potential_energy(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.lock(py)?.world.potential_energy())
+    }
+
+    /// Kinetic and potential energy [J].
+    #[getter]
+    fn total_energy(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.lock(py)?.world.total_energy())
+    }
+
+    /// Momentum [kg m/s], the sum of m v, shape (3,).
+    #[getter]
+    fn momentum<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let momentum = self.lock(py)?.world.momentum();
+        Ok(PyArray1::from_slice(py, &momentum.to_array()))
+    }
+
+    /// Angular momentum about the origin [kg m²/s], the sum of m x × v, shape (3,).
+    #[getter]
+    fn angular_momentum<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let momentum = self.lock(py)?.world.angular_momentum();
+        Ok(PyArray1::from_slice(py, &momentum.to_array()))
+    }
+}
+
+/// What happened in the last frame.
+#[pymethods]
+impl Engine {
+    /// The impacts, as words.
+    #[pyo3(name = "_impact_words")]
+    fn impact_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        let inner = &*self.lock(py)?;
+        let mut table = Table::default();
+        table.push_impacts(inner.frame_start, &inner.world.report().impacts);
+        Ok(PyArray1::from_vec(py, table.into_words()))
+    }
+
+    /// The ledger, as words.
+    #[pyo3(name = "_ledger_words")]
+    fn ledger_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        let inner = &*self.lock(py)?;
+        let mut table = Table::default();
+        table.push_ledger(inner.frame_start, inner.world.report());
+        Ok(PyArray1::from_vec(py, table.into_words()))
+    }
+
+    /// The spheres inside triggers, as words.
+    #[pyo3(name = "_trigger_words")]
+    fn trigger_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        let inner = &*self.lock(py)?;
+        let mut table = Table::default();
+        table.push_triggers(&inner.world.report().triggers);
+        Ok(PyArray1::from_vec(py, table.into_words()))
+    }
+
+    /// Ids of the spheres that emitters put into the world in the last frame, ascending.
+    #[getter]
+    fn emitted<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        Ok(arrays::numbers(py, &self.lock(py)?.world.report().emitted))
+    }
+
+    /// Ids of the spheres that emitters took out of the world in the last frame.
+    #[getter]
+    fn retired<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        Ok(arrays::numbers(py, &self.lock(py)?.world.report().retired))
+    }
+}

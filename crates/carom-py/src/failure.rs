@@ -1,0 +1,128 @@
+//! What a Python exception is made of.
+
+use carom_scene::{Fault, SceneError};
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+
+/// Why a call was refused: an exception of `carom.errors`, in the words of the engine.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Failure {
+    kind: Kind,
+    message: String,
+    /// Path of what is to blame, like `colliders[1].restitution`.
+    field: Option<String>,
+    /// Line in the text of a scene, from 1.
+    line: Option<usize>,
+}
+
+/// Which exception it becomes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// A value makes no sense where it was given.
+    Value,
+    /// A scene, or a part of one, is to blame.
+    Scene,
+    /// A name or number that names nothing.
+    Unknown,
+    /// A step that cannot be taken.
+    Step,
+}
+
+impl Kind {
+    fn exception(self) -> &'static str {
+        match self {
+            Self::Value => "CaromError",
+            Self::Scene => "SceneError",
+            Self::Unknown => "UnknownError",
+            Self::Step => "StepError",
+        }
+    }
+}
+
+impl Failure {
+    fn new(kind: Kind, message: impl ToString) -> Self {
+        Self { kind, message: message.to_string(), field: None, line: None }
+    }
+
+    /// A value that makes no sense in the argument `field`.
+    pub fn value(field: &str, problem: impl std::fmt::Display) -> Self {
+        let failure = Self::new(Kind::Value, format!("{field}: {problem}"));
+        Self { field: Some(field.to_owned()), ..failure }
+    }
+
+    /// The same failure, in the argument `field`.
+    pub fn about(self, field: &str) -> Self {
+        Self {
+            message: format!("{field}: {}", self.message),
+            field: Some(field.to_owned()),
+            ..self
+        }
+    }
+
+    /// A number that names nothing of this kind.
+    pub fn unknown(kind: &str, number: impl std::fmt::Display) -> Self {
+        // In the words of `carom::Error::Unknown`.
+        Self::new(Kind::Unknown, format!("there is no {kind} {number} in this world"))
+    }
+
+    /// What is wrong with a part that was described in code: it has no lines, and no name.
+    pub fn of_part(error: SceneError) -> Self {
+        match error {
+            SceneError::Invalid(fault) if !fault.field.is_empty() => {
+                let nameless = Fault {
+                    source_name: fault.field.clone(),
+                    field: String::new(),
+                    line: None,
+                    ..fault
+                };
+                let failure = Self::new(Kind::Scene, nameless);
+                Self { field: Some(fault.field), ..failure }
+            }
+            other => other.into(),
+        }
+    }
+}
+
+impl From<carom::Error> for Failure {
+    fn from(error: carom::Error) -> Self {
+        let (kind, field) = match &error {
+            carom::Error::Invalid { source, .. } => (Kind::Value, Some(source.field.to_owned())),
+            carom::Error::Unknown(_) => (Kind::Unknown, None),
+            _ => (Kind::Step, None),
+        };
+        Self { field, ..Self::new(kind, error) }
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        let message = error.to_string();
+        let (kind, field, line) = match error {
+            SceneError::Invalid(fault) => (Kind::Scene, Some(fault.field), fault.line),
+            SceneError::Overridden { fault, .. } => (Kind::Scene, Some(fault.field), None),
+            SceneError::Unknown { .. } => (Kind::Unknown, None, None),
+            _ => (Kind::Scene, None, None),
+        };
+        Self { kind, message, field, line }
+    }
+}
+
+/// A fault of the engine: what it describes can always be written.
+impl From<serde_json::Error> for Failure {
+    fn from(error: serde_json::Error) -> Self {
+        Self::new(Kind::Value, error)
+    }
+}
+
+impl From<Failure> for PyErr {
+    fn from(failure: Failure) -> Self {
+        Python::attach(|py| exception(py, &failure).unwrap_or_else(|error| error))
+    }
+}
+
+fn exception(py: Python<'_>, failure: &Failure) -> PyResult<PyErr> {
+    let class =
+        py.import("carom.errors")?.getattr(failure.kind.exception())?.cast_into::<PyType>()?;
+    let exception = class.call1((&failure.message, &failure.field, failure.line))?;
+    Ok(PyErr::from_value(exception))
+}

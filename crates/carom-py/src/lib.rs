@@ -1,0 +1,45 @@
+//! The engine of the Python package `carom`: it converts, and holds no physics.
+//!
+//! What users call is Python (`python/carom`), which stands on [`Engine`] here. Between the two go
+//! numbers, arrays and text:
+//!
+//! - what users describe comes as TOML, in the words of scene files, and is read and checked by
+//!   `carom-scene` (`part`); descriptions go back as JSON;
+//! - arrays belong to Python, and are written after every frame (`arrays`): whoever holds one can
+//!   read it for as long as it is held, and no `unsafe` is needed for it;
+//! - what happened goes as tables of words (`tables`).
+//!
+//! A refused call leaves the world as it was and raises an exception of `carom.errors`
+//! (`failure`). Calls that take long let other threads of Python run.
+
+#![warn(clippy::unwrap_used)]
+
+mod arguments;
+mod arrays;
+mod command_line;
+mod describing;
+mod editing;
+mod engine;
+mod failure;
+mod part;
+mod recording;
+mod running;
+mod scenes;
+mod snapshot;
+mod tables;
+
+pub use engine::Engine;
+pub use snapshot::Snapshot;
+
+/// The compiled part of the package `carom`. Its interface is that of the package, not this one.
+#[pyo3::pymodule(gil_used = true)]
+mod _carom {
+    #[pymodule_export]
+    use crate::Engine;
+    #[pymodule_export]
+    use crate::Snapshot;
+    #[pymodule_export]
+    use crate::command_line::run_command;
+    #[pymodule_export]
+    use crate::scenes::{canonical_toml, find_scene, list_scenes, read_scene};
+}

@@ -1,0 +1,156 @@
+//! Many frames in one call, recorded.
+
+// What is said of methods here is read in Python, where units stand in plain brackets.
+#![allow(rustdoc::broken_intra_doc_links)]
+
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+use numpy::{PyArray1, PyArrayDyn};
+use pyo3::prelude::*;
+
+use crate::arguments;
+use crate::arrays::{self, shaped};
+use crate::engine::{Engine, Inner};
+use crate::failure::Failure;
+use crate::recording::Recording;
+use crate::snapshot::Snapshot;
+
+/// How long a run goes on before it asks whether somebody wants to stop it.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Time, ids, radii, masses, positions, velocities, and the impacts as words.
+type Arrays<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<u64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArrayDyn<f64>>,
+    Bound<'py, PyArrayDyn<f64>>,
+    Bound<'py, PyArray1<u64>>,
+);
+
+#[pymethods]
+impl Engine {
+    /// How many frames of `dt` [s], or of the scene's own, take `seconds` [s], or the scene's own
+    /// duration, up to whole ones.
+    #[pyo3(name = "_count_frames", signature = (seconds, dt))]
+    fn count_frames(
+        &self,
+        py: Python<'_>,
+        seconds: Option<&Bound<'_, PyAny>>,
+        dt: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<u64> {
+        let seconds = arguments::optional_number("seconds", seconds)?;
+        let dt = arguments::optional_number("dt", dt)?;
+        let inner = &*self.lock(py)?;
+        let seconds = seconds.unwrap_or(inner.described.simulation.duration);
+        Ok(whole_frames(seconds, inner.frame_time(dt))?)
+    }
+
+    /// Takes `frames` frames of `dt` [s], and records the state now and after every `every` of them.
+    #[pyo3(name = "_record", signature = (frames, dt, every))]
+    fn record<'py>(
+        &self,
+        py: Python<'py>,
+        frames: &Bound<'py, PyAny>,
+        dt: Option<&Bound<'py, PyAny>>,
+        every: &Bound<'py, PyAny>,
+    ) -> PyResult<Arrays<'py>> {
+        let frames = arguments::count("frames", frames)?;
+        let dt = arguments::optional_number("dt", dt)?;
+        let every = arguments::count("every", every)?;
+        if every == 0 {
+            return Err(Failure::value("every", "must be at least 1, not 0").into());
+        }
+        let mut recording = Recording::default();
+        let before = {
+            let inner = &*self.lock(py)?;
+            recording.push(&inner.world);
+            inner.snapshot()
+        };
+        let mut frame = 0;
+        while frame < frames {
+            frame = self.take_frames(frame..frames, dt, every, (py, &before, &mut recording))?;
+            // Whoever stops the run may ask the world how far it came: the lock is free by now.
+            py.check_signals()?;
+        }
+        arrays_of(py, recording)
+    }
+}
+
+impl Engine {
+    /// Takes frames for a while, and records them. Returns how many were taken by then; if one is
+    /// refused, the world is as it was `before`.
+    fn take_frames(
+        &self,
+        frames: Range<u64>,
+        dt: Option<f64>,
+        every: u64,
+        (py, before, recording): (Python<'_>, &Snapshot, &mut Recording),
+    ) -> PyResult<u64> {
+        let inner = &mut *self.lock(py)?;
+        let taken = py.detach(|| take_frames(inner, frames, dt, every, recording));
+        if taken.is_err() {
+            inner.restore(before);
+        }
+        inner.arrays.write_motion(py, inner.world.spheres());
+        Ok(taken?)
+    }
+}
+
+/// Takes frames for a while. Returns how many were taken by then.
+fn take_frames(
+    inner: &mut Inner,
+    frames: Range<u64>,
+    dt: Option<f64>,
+    every: u64,
+    recording: &mut Recording,
+) -> Result<u64, Failure> {
+    let (began, end) = (Instant::now(), frames.end);
+    for frame in frames {
+        inner.take_frame(inner.frame_time(dt))?;
+        recording.impacts.push_impacts(inner.frame_start, &inner.world.report().impacts);
+        if (frame + 1).is_multiple_of(every) {
+            recording.push(&inner.world);
+        }
+        if began.elapsed() > PATIENCE {
+            return Ok(frame + 1);
+        }
+    }
+    Ok(end)
+}
+
+fn arrays_of(py: Python<'_>, recording: Recording) -> PyResult<Arrays<'_>> {
+    let (times, states, impacts) = py.detach(|| recording.finish());
+    let shape = vec![times.len(), states.ids.len(), 3];
+    Ok((
+        PyArray1::from_vec(py, times),
+        arrays::numbers(py, &states.ids),
+        PyArray1::from_vec(py, states.radii),
+        PyArray1::from_vec(py, states.masses),
+        shaped(py, states.positions, shape.clone())?,
+        shaped(py, states.velocities, shape)?,
+        PyArray1::from_vec(py, impacts.into_words()),
+    ))
+}
+
+/// How many frames of `dt` \[s\] take this long \[s\], up to whole ones.
+fn whole_frames(seconds: f64, dt: f64) -> Result<u64, Failure> {
+    let is_duration = seconds.is_finite() && seconds >= 0.0;
+    if !is_duration {
+        let problem = format_args!("must be zero or positive, and finite, not {seconds}");
+        return Err(Failure::value("seconds", problem));
+    }
+    if !(dt.is_finite() && dt > 0.0) {
+        return Err(Failure::value("dt", format_args!("must be positive and finite, not {dt}")));
+    }
+    // A billionth of a frame is rounding.
+    let frames = (seconds / dt - 1e-9).ceil();
+    // Larger numbers cannot be counted one by one.
+    if frames >= 2f64.powi(53) {
+        let problem = format_args!("{frames} frames of {dt} s are more than can be counted");
+        return Err(Failure::value("seconds", problem));
+    }
+    Ok(frames as u64)
+}

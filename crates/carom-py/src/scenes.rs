@@ -1,0 +1,71 @@
+//! Scenes: read, written, found.
+
+use std::path::PathBuf;
+
+use carom_scene::{Library, Override, Scene, SceneError, Source};
+use pyo3::prelude::*;
+
+use crate::failure::Failure;
+
+/// Reads a scene from TOML, with some values changed (`path=value`), and answers with it as JSON;
+/// infinite numbers are `null`. `source` is what errors call it.
+#[pyfunction]
+pub fn read_scene(text: &str, source: &str, overrides: Vec<String>) -> Result<String, Failure> {
+    let scene = Scene::from_toml_with(text, source, &parsed(&overrides)?)?;
+    Ok(serde_json::to_string(&scene)?)
+}
+
+/// The scene that `text` describes in TOML, every default written out.
+#[pyfunction]
+pub fn canonical_toml(text: &str) -> Result<String, Failure> {
+    Ok(Scene::from_toml(text, "scene").map_err(Failure::of_part)?.to_toml())
+}
+
+/// Finds a scene by its name, title or file, as the command line does, among the scenes registered
+/// in Python (name and title of each), those in folders, and the built-in ones.
+///
+/// Answers with it as JSON, or with the name under which it is registered: then it is still to be
+/// made.
+#[pyfunction]
+pub fn find_scene(
+    name: &str,
+    overrides: Vec<String>,
+    folders: Vec<PathBuf>,
+    registered: Vec<(String, String)>,
+) -> Result<(Option<String>, String), Failure> {
+    let library = library(&folders, registered)?;
+    let overrides = parsed(&overrides)?;
+    // What is registered is found by its name alone: no value of it is there yet to be changed.
+    if let Ok((scene, Source::Registered)) = library.find(name, &[]) {
+        return Ok((None, scene.name));
+    }
+    let (scene, source) = library.find(name, &overrides)?;
+    Ok((Some(serde_json::to_string(&scene)?), source.to_string()))
+}
+
+/// The scenes that can be found: name, title, description, and where each comes from.
+#[pyfunction]
+pub fn list_scenes(folders: Vec<PathBuf>) -> Result<Vec<[String; 4]>, Failure> {
+    let entries = library(&folders, Vec::new())?.entries()?;
+    let row = |entry: carom_scene::Entry| {
+        let (name, source) = (entry.name, entry.source.to_string());
+        match entry.scene {
+            Ok(scene) => [name, scene.title, scene.description, source],
+            Err(error) => [name, String::new(), format!("cannot be read: {error}"), source],
+        }
+    };
+    Ok(entries.into_iter().map(row).collect())
+}
+
+fn library(folders: &[PathBuf], registered: Vec<(String, String)>) -> Result<Library, SceneError> {
+    let mut library = Library::new();
+    for (name, title) in registered {
+        library.register(Scene { title, ..Scene::new(name) })?;
+    }
+    folders.iter().try_for_each(|folder| library.add_folder(folder))?;
+    Ok(library)
+}
+
+fn parsed(overrides: &[String]) -> Result<Vec<Override>, SceneError> {
+    overrides.iter().map(|text| text.parse()).collect()
+}

@@ -1,0 +1,68 @@
+//! What happened, as tables of 64-bit words: many rows reach NumPy without an object each.
+//!
+//! NumPy sees the words as records; their fields stand in `python/carom/_tables.py`, in the order in
+//! which they are written here.
+
+use carom::{Impact, LedgerEntry, Participants, StepReport, TriggerContact};
+
+/// Rows of words, numbers as their bits.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Table(Vec<u64>);
+
+impl Table {
+    /// The words.
+    pub fn into_words(self) -> Vec<u64> {
+        self.0
+    }
+
+    /// Appends the impacts of a frame that started at `start` \[s\].
+    pub fn push_impacts(&mut self, start: f64, impacts: &[Impact]) {
+        impacts.iter().for_each(|impact| self.push_impact(start, impact));
+    }
+
+    /// Appends the ledger of a frame that started at `start` \[s\].
+    pub fn push_ledger(&mut self, start: f64, report: &StepReport) {
+        for LedgerEntry { impact, group } in report.ledger() {
+            self.push_impact(start, impact);
+            let number = report.groups.partition_point(|it| it.first < group.first);
+            self.integers([number as i64, group.count as i64]);
+            self.numbers(group.momentum_before.to_array());
+            self.numbers(group.momentum_after.to_array());
+            self.numbers([group.energy_before, group.energy_after, group.energy_demanded]);
+        }
+    }
+
+    /// Appends spheres inside triggers.
+    pub fn push_triggers(&mut self, triggers: &[TriggerContact]) {
+        for contact in triggers {
+            self.integers([contact.collider.number() as i64, contact.sphere.number() as i64]);
+            self.numbers(contact.point.to_array());
+            self.numbers(contact.normal.to_array());
+        }
+    }
+
+    fn push_impact(&mut self, start: f64, impact: &Impact) {
+        let (collider, sphere_1, sphere_2) = match impact.between {
+            Participants::Spheres(first, second) => (NOBODY, first.number() as i64, second),
+            Participants::Collider { collider, sphere } => {
+                (collider.number() as i64, NOBODY, sphere)
+            }
+        };
+        self.numbers([start + impact.time]);
+        self.integers([collider, sphere_1, sphere_2.number() as i64]);
+        self.numbers(impact.point.to_array());
+        self.numbers(impact.normal.to_array());
+        self.numbers([impact.approach_speed, impact.separation_speed, impact.impulse]);
+    }
+
+    fn integers<const N: usize>(&mut self, values: [i64; N]) {
+        self.0.extend(values.map(i64::cast_unsigned));
+    }
+
+    fn numbers<const N: usize>(&mut self, values: [f64; N]) {
+        self.0.extend(values.map(f64::to_bits));
+    }
+}
+
+/// In the place of an id: body 1 is of the other kind.
+const NOBODY: i64 = -1;

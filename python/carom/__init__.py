@@ -1,0 +1,85 @@
+"""Carom moves spheres exactly: event-driven hard spheres, for NumPy.
+
+>>> import carom
+>>> run = carom.load("simtest1").run(seconds=10)
+>>> run.positions.shape
+(501, 15, 3)
+
+Right-handed frame, y up, SI units, float64. The same input gives the same bits on every machine.
+"""
+
+from carom._carom import Snapshot
+from carom._library import Listed, load, scene, scenes
+from carom._parts import (
+    Ball,
+    Bisect,
+    Box,
+    Camera,
+    Collider,
+    Colors,
+    ConstantForce,
+    DensityColor,
+    Emitter,
+    Exact,
+    Force,
+    Generator,
+    Gravity,
+    HalfSpace,
+    Lattice,
+    Periodic,
+    RandomFill,
+    Rectangle,
+    Row,
+    Shape,
+    Simulation,
+    Sphere,
+    Sun,
+    ViscousDrag,
+)
+from carom._scene import Scene
+from carom._tables import IMPACT, LEDGER, TRIGGER
+from carom._trajectory import Trajectory
+from carom._world import World
+from carom.errors import CaromError, SceneError, StepError, UnknownError
+
+__all__ = [
+    "IMPACT",
+    "LEDGER",
+    "TRIGGER",
+    "Ball",
+    "Bisect",
+    "Box",
+    "Camera",
+    "CaromError",
+    "Collider",
+    "Colors",
+    "ConstantForce",
+    "DensityColor",
+    "Emitter",
+    "Exact",
+    "Force",
+    "Generator",
+    "Gravity",
+    "HalfSpace",
+    "Lattice",
+    "Listed",
+    "Periodic",
+    "RandomFill",
+    "Rectangle",
+    "Row",
+    "Scene",
+    "SceneError",
+    "Shape",
+    "Simulation",
+    "Snapshot",
+    "Sphere",
+    "StepError",
+    "Sun",
+    "Trajectory",
+    "UnknownError",
+    "ViscousDrag",
+    "World",
+    "load",
+    "scene",
+    "scenes",
+]

@@ -1,0 +1,142 @@
+"""Finding scenes by name: those registered in Python, those in folders, the built-in ones."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+
+from carom._carom import find_scene, list_scenes
+from carom._scene import NO_CHANGES, Scene, overrides
+from carom._text import fields_of
+from carom.errors import CaromError
+
+_Maker = TypeVar("_Maker", bound=Callable[..., Scene])
+
+GROUP = "carom.scenes"
+"""Entry points of this group are scenes of other packages: functions that return a `Scene`."""
+
+
+class _Registered(NamedTuple):
+    make: Callable[..., Scene]
+    description: str
+
+
+_registered: dict[str, _Registered] = {}
+
+
+class Listed(NamedTuple):
+    """A scene as it is listed."""
+
+    name: str
+    title: str
+    description: str
+    source: str
+    """Where it comes from: ``built-in``, ``registered``, or a file."""
+
+
+def scene(name: str, description: str = "") -> Callable[[_Maker], _Maker]:
+    """Has a function that returns a `Scene` found by name, by `load` and ``python -m carom``.
+
+    The scene gets this name, and this description if it has none. A later one of the same name
+    takes its place. Parameters of the function are given to `load`; each needs a default. Other
+    packages announce such a function by an entry point of the group ``carom.scenes``, under its
+    name.
+
+    Raises:
+        CaromError: For an empty name.
+
+    >>> import carom
+    >>> @carom.scene("row", "Balls in a row.")
+    ... def row(count: int = 3) -> carom.Scene:
+    ...     balls = carom.Row(count, (0, 0, 0), (1, 0, 0), carom.Sphere(radius=0.4))
+    ...     return carom.Scene(name="row", generators=[balls])
+    >>> len(carom.load("row", count=5).world())
+    5
+    """
+    if not name.strip():
+        raise CaromError("name: must not be empty", "name")
+
+    def register(make: _Maker) -> _Maker:
+        _registered[name] = _Registered(make, description)
+        return make
+
+    return register
+
+
+def load(name: str, changes: Mapping[str, Any] = NO_CHANGES, **parameters: Any) -> Scene:
+    """The scene with a name or title, in any case, or in a file whose path is given.
+
+    Of several with one name, one registered in Python counts before one of another package, that
+    before one in a folder of ``$CAROM_SCENES``, and that before a built-in one.
+
+    Args:
+        name: Name, title, or path of a scene file.
+        changes: Other values, by their paths, as in `Scene.with_changes`.
+        parameters: For the function that makes the scene, if it is one of Python.
+
+    Raises:
+        UnknownError: If there is none; the message says what is most like it.
+        SceneError: If the scene makes no sense, or not with these changes.
+
+    >>> import carom
+    >>> carom.load("simtest1").name
+    'simtest1'
+    """
+    announced = _announced()
+    names = [(own, "") for own in dict.fromkeys([*_registered, *announced])]
+    text, found = find_scene(name, overrides(changes), _folders(), names)
+    if text is None:
+        scene = _make(found, announced, parameters)
+        return scene.with_changes(changes) if changes else scene
+    if parameters:
+        raise TypeError(f"{name}: takes no parameters ({', '.join(parameters)}); it is a file")
+    return Scene(**fields_of(json.loads(text)))
+
+
+def scenes() -> list[Listed]:
+    """All scenes that `load` finds, in the order in which names are looked up."""
+    announced = _announced()
+    own = [Listed(name, "", it.description, "registered") for name, it in _registered.items()]
+    others = [Listed(name, "", "", it.value) for name, it in announced.items()]
+    found = [Listed(*row) for row in list_scenes(_folders())]
+    # Of several with one name, only the first can be found.
+    first: dict[str, Listed] = {}
+    for listed in [*own, *others, *found]:
+        first.setdefault(listed.name.lower(), listed)
+    return list(first.values())
+
+
+def registered_texts() -> list[str]:
+    """The texts of all scenes of Python, for the command line."""
+    announced = _announced()
+    names = dict.fromkeys([*_registered, *announced])
+    return [_make(name, announced, {}).to_toml() for name in names]
+
+
+def _make(name: str, announced: Mapping[str, EntryPoint], parameters: Mapping[str, Any]) -> Scene:
+    """Makes a scene of Python."""
+    if name not in _registered:
+        make = announced[name].load()
+        # Its own decorator has registered it by now, unless it has none.
+        _registered.setdefault(name, _Registered(make, ""))
+    make, description = _registered[name]
+    made = make(**parameters)
+    if not isinstance(made, Scene):
+        raise TypeError(f"{name}: its function returned a {type(made).__name__}, not a carom.Scene")
+    return replace(made, name=name, description=made.description or description)
+
+
+def _announced() -> dict[str, EntryPoint]:
+    """Scenes of other packages that are not loaded yet."""
+    found = entry_points(group=GROUP)
+    return {point.name: point for point in found if point.name not in _registered}
+
+
+def _folders() -> list[Path]:
+    folders = os.environ.get("CAROM_SCENES", "").split(os.pathsep)
+    return [Path(folder) for folder in folders if folder]

@@ -1,0 +1,419 @@
+"""What a scene is made of: plain values in the words of scene files.
+
+Right-handed frame, y up, SI units. Vectors are any three numbers, tuples or arrays; quaternions are
+x, y, z, w and of any length but zero. Values are checked when they come into a scene or a world.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, fields
+from typing import ClassVar, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector: TypeAlias = Sequence[float] | NDArray[np.float64]
+"""Three numbers x, y, z."""
+Quaternion: TypeAlias = Sequence[float] | NDArray[np.float64]
+"""A rotation x, y, z, w."""
+Color: TypeAlias = Sequence[float]
+"""Red, green, blue, each in [0, 1] (sRGB)."""
+
+_ORIGIN = (0.0, 0.0, 0.0)
+_UNTURNED = (0.0, 0.0, 0.0, 1.0)
+
+
+class Part:
+    """Something that a scene is made of. Arrays and lists become tuples: parts are values."""
+
+    def __post_init__(self) -> None:
+        for each in fields(self):  # type: ignore[arg-type]  # Only dataclasses are made of it.
+            object.__setattr__(self, each.name, _plain(getattr(self, each.name)))
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, (np.ndarray, np.generic)):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return tuple(_plain(item) for item in value)
+    return value
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sphere(Part):
+    """A sphere, or what the spheres of a generator or an emitter have in common.
+
+    Attributes:
+        position: Centre [m]; in a generator or an emitter an offset from the place it gives.
+        velocity: Velocity [m/s]; in an emitter in the emitter's frame.
+        radius: Radius [m], > 0. Give this or ``diameter``.
+        diameter: Diameter [m], > 0.
+        mass: Mass [kg], > 0; 1 unless this or ``density`` is given.
+        density: Density [kg/m³], > 0.
+        restitution: Coefficient of restitution in [0, 1].
+        color: Colour; by density or the scene's own where it is missing.
+    """
+
+    position: Vector = _ORIGIN
+    velocity: Vector = _ORIGIN
+    radius: float | None = None
+    diameter: float | None = None
+    mass: float | None = None
+    density: float | None = None
+    restitution: float = 1.0
+    color: Color | None = None
+
+
+@dataclass(frozen=True)
+class ConstantForce(Part):
+    """The same force on every sphere, whatever its mass.
+
+    Attributes:
+        force: In N.
+    """
+
+    tag: ClassVar[str] = "constant"
+    force: Vector
+
+
+@dataclass(frozen=True)
+class Gravity(Part):
+    """The same acceleration for every sphere.
+
+    Attributes:
+        acceleration: In m/s².
+    """
+
+    tag: ClassVar[str] = "gravity"
+    acceleration: Vector = (0.0, -9.81, 0.0)
+
+
+@dataclass(frozen=True)
+class ViscousDrag(Part):
+    """Drag against the velocity and proportional to it.
+
+    Attributes:
+        coefficient: In kg/s, >= 0.
+    """
+
+    tag: ClassVar[str] = "viscous-drag"
+    coefficient: float
+
+
+Force: TypeAlias = ConstantForce | Gravity | ViscousDrag
+"""A force on every sphere; several add up."""
+
+
+@dataclass(frozen=True)
+class Ball(Part):
+    """A sphere that spheres bounce off.
+
+    Attributes:
+        radius: In m, > 0.
+    """
+
+    tag: ClassVar[str] = "sphere"
+    radius: float
+
+
+@dataclass(frozen=True)
+class Rectangle(Part):
+    """A rectangle in its local xz plane that faces local +y; from behind spheres pass it.
+
+    Attributes:
+        size_x: Full length along local x [m], > 0.
+        size_z: Full length along local z [m], > 0.
+    """
+
+    tag: ClassVar[str] = "rectangle"
+    size_x: float
+    size_z: float
+
+
+@dataclass(frozen=True)
+class HalfSpace(Part):
+    """Everything below the local xz plane."""
+
+    tag: ClassVar[str] = "half-space"
+
+
+@dataclass(frozen=True)
+class Box(Part):
+    """A box of six rectangles that face outward.
+
+    Attributes:
+        size: Full lengths along local x, y, z [m], each > 0.
+    """
+
+    tag: ClassVar[str] = "box"
+    size: Vector
+
+
+Shape: TypeAlias = Ball | Rectangle | HalfSpace | Box
+"""Form of a collider in its own frame."""
+
+
+@dataclass(frozen=True)
+class Collider(Part):
+    """A shape that spheres bounce off, at rest or moved from outside.
+
+    Attributes:
+        shape: Its form.
+        position: Where its centre is [m].
+        rotation: How it is turned.
+        velocity: How fast its centre moves [m/s].
+        angular_velocity: How fast it turns about its centre, along the axis [rad/s].
+        restitution: Coefficient of restitution in [0, 1].
+        trigger: A trigger reports contact and deflects nothing.
+        name: What it is called.
+        visible: Whether it is drawn.
+        color: Its colour; the scene's own for surfaces where it is missing.
+    """
+
+    shape: Shape
+    position: Vector = _ORIGIN
+    rotation: Quaternion = _UNTURNED
+    velocity: Vector = _ORIGIN
+    angular_velocity: Vector = _ORIGIN
+    restitution: float = 1.0
+    trigger: bool = False
+    name: str = ""
+    visible: bool = True
+    color: Color | None = None
+
+
+@dataclass(frozen=True)
+class Emitter(Part):
+    """Emits a sphere at the times 0, period, 2 period, ...
+
+    Attributes:
+        sphere: What is emitted.
+        period: Time between two spheres [s], > 0.
+        position: Where spheres appear [m].
+        rotation: How the emitter, and with it the velocity of its spheres, is turned.
+        max_spheres: How many of its spheres live at most, the oldest making place; ``None``: any.
+        name: What it is called.
+    """
+
+    sphere: Sphere
+    period: float
+    position: Vector = _ORIGIN
+    rotation: Quaternion = _UNTURNED
+    max_spheres: int | None = None
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Row(Part):
+    """Spheres one after the other along a line.
+
+    Attributes:
+        count: How many, >= 1.
+        start: Centre of the first [m].
+        step: From each centre to the next [m].
+        sphere: What they have in common.
+    """
+
+    tag: ClassVar[str] = "row"
+    count: int
+    start: Vector
+    step: Vector
+    sphere: Sphere
+
+
+@dataclass(frozen=True)
+class Lattice(Part):
+    """Spheres on a box-shaped lattice; x runs fastest, then y, then z.
+
+    Attributes:
+        counts: How many along x, y and z, each >= 1.
+        start: Centre of the first [m].
+        spacing: Distance of neighbours along x, y and z [m].
+        sphere: What they have in common.
+    """
+
+    tag: ClassVar[str] = "lattice"
+    counts: Sequence[int]
+    start: Vector
+    spacing: Vector
+    sphere: Sphere
+
+
+@dataclass(frozen=True)
+class RandomFill(Part):
+    """Spheres scattered in a box, none overlapping another sphere or a collider.
+
+    Attributes:
+        count: How many, >= 1.
+        min: Lower corner of the box that holds the whole spheres [m].
+        max: Upper corner of the box [m].
+        seed: The same seed gives the same scene.
+        sphere: What they have in common.
+        speed: Speed in a random direction, on top of the common velocity [m/s], >= 0.
+        radius_range: Smallest and largest radius [m], evenly spread, instead of the common one.
+    """
+
+    tag: ClassVar[str] = "random"
+    count: int
+    min: Vector
+    max: Vector
+    seed: int
+    sphere: Sphere
+    speed: float = 0.0
+    radius_range: Sequence[float] | None = None
+
+
+Generator: TypeAlias = Row | Lattice | RandomFill
+"""Places for many spheres."""
+
+
+@dataclass(frozen=True)
+class Exact(Part):
+    """Parameters of the rule ``exact``.
+
+    Attributes:
+        contact_duration: How long a contact lasts [s], > 0: bodies that would meet again sooner
+            stay together.
+        max_impacts: Impacts per sphere in a frame, >= 1; more are refused.
+    """
+
+    contact_duration: float | None = None
+    max_impacts: int | None = None
+
+
+@dataclass(frozen=True)
+class Bisect(Part):
+    """Parameters of the rule ``bisect``.
+
+    Attributes:
+        tolerance: Distance of surfaces that counts as touching [m], >= 0.
+        max_halvings: Halvings in search of a contact, >= 1.
+        max_impacts: How often two bodies may meet in a frame, >= 1.
+        wind_back: Which spheres go through the pieces into which a contact cuts the frame.
+    """
+
+    tolerance: float | None = None
+    max_halvings: int | None = None
+    max_impacts: int | None = None
+    wind_back: Literal["touched", "all"] = "touched"
+
+
+@dataclass(frozen=True)
+class Periodic(Part):
+    """A box about the origin that repeats itself without end; only with the rule ``exact``.
+
+    Attributes:
+        size: Edges [m], each > 0; infinite along an axis that is open.
+    """
+
+    tag: ClassVar[str] = "periodic"
+    size: Vector = (math.inf, math.inf, math.inf)
+
+
+Rule: TypeAlias = Literal["exact", "bisect", "discrete"]
+"""A step rule."""
+Integrator: TypeAlias = Literal[
+    "semi-implicit-euler", "explicit-euler", "velocity-verlet", "runge-kutta-4"
+]
+"""How spheres move under forces, by the rules ``bisect`` and ``discrete``."""
+RestitutionRule: TypeAlias = Literal["product", "minimum", "maximum", "average"]
+"""Restitution of a contact from that of its two bodies."""
+ImpactLaw: TypeAlias = Literal["reflection", "simultaneous", "sequential"]
+"""How impacts at one instant among spheres that touch are answered, by the rule ``exact``."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Simulation(Part):
+    """How a scene is stepped.
+
+    Attributes:
+        rule: The step rule.
+        integrator: How spheres move under forces.
+        frame_time: Length of a frame [s], > 0.
+        duration: Time worth watching [s], > 0: what a run takes unless told.
+        spheres_collide: Whether spheres collide with one another; with colliders they always do.
+        restitution_rule: Restitution of a contact from that of its two bodies.
+        allow_overlap: Whether spheres may overlap each other or colliders at the start.
+        impact_law: How impacts at one instant are answered.
+        boundary: What is around the spheres, besides colliders.
+        exact: Parameters of the rule ``exact``.
+        bisect: Parameters of the rule ``bisect``.
+    """
+
+    rule: Rule = "exact"
+    integrator: Integrator = "semi-implicit-euler"
+    frame_time: float = 1.0 / 60.0
+    duration: float = 10.0
+    spheres_collide: bool = True
+    restitution_rule: RestitutionRule = "product"
+    allow_overlap: bool = False
+    impact_law: ImpactLaw = "reflection"
+    boundary: Literal["open"] | Periodic = "open"
+    exact: Exact = field(default_factory=Exact)
+    bisect: Bisect = field(default_factory=Bisect)
+
+
+@dataclass(frozen=True)
+class Camera(Part):
+    """Where to look from. The camera looks along its local -z.
+
+    Attributes:
+        position: In m.
+        rotation: How it is turned.
+        vertical_fov_degrees: Vertical field of view in degrees, in (0, 180).
+        near: Nearest distance drawn [m], > 0.
+        far: Farthest distance drawn [m], > near.
+    """
+
+    position: Vector
+    rotation: Quaternion = _UNTURNED
+    vertical_fov_degrees: float = 60.0
+    near: float = 0.3
+    far: float = 1000.0
+
+
+@dataclass(frozen=True)
+class Sun(Part):
+    """The light. It travels along its local -z.
+
+    Attributes:
+        rotation: How it is turned.
+        color: Colour of the light.
+        intensity: Brightness, >= 0; 1 is plain daylight.
+    """
+
+    rotation: Quaternion
+    color: Color
+    intensity: float = 1.0
+
+
+@dataclass(frozen=True)
+class DensityColor(Part):
+    """The colour of spheres of one density.
+
+    Attributes:
+        density: In kg/m³, > 0.
+        color: Their colour.
+    """
+
+    density: float
+    color: Color
+
+
+@dataclass(frozen=True)
+class Colors(Part):
+    """Colours of what has none of its own.
+
+    Attributes:
+        background: Behind everything.
+        colliders: Colliders.
+        spheres: Spheres whose density is not listed.
+        densities: Spheres by their density.
+    """
+
+    background: Color | None = None
+    colliders: Color | None = None
+    spheres: Color | None = None
+    densities: Sequence[DensityColor] = ()

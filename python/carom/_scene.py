@@ -1,0 +1,142 @@
+"""Scenes: what there is at the start."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from carom import _parts as parts
+from carom._carom import canonical_toml, read_scene
+from carom._text import fields_of, toml_of, toml_value
+from carom._trajectory import Trajectory
+from carom._world import World
+
+NO_CHANGES: Mapping[str, Any] = MappingProxyType({})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scene(parts.Part):
+    """Spheres, what acts on them, what they bounce off, and how to look at it.
+
+    A scene is a value: it can be compared, copied and pickled. ``dataclasses.replace`` makes
+    another one of it, `with_changes` likewise by the paths of scene files.
+
+    Attributes:
+        name: Short name, to find it by.
+        title: Name as shown to people; the scene is found by it too.
+        description: What there is to see, in a sentence or two.
+        origin: Where the scene comes from.
+        simulation: How it is stepped.
+        forces: Forces on every sphere; they add up.
+        spheres: Single spheres.
+        generators: Rows, lattices and random fillings of spheres, placed after the single ones.
+        colliders: Shapes that spheres bounce off.
+        emitters: Sources of spheres.
+        camera: Where to look from; fitted to the scene where it is missing.
+        sun: The light.
+        colors: Colours of what has none of its own.
+
+    >>> import carom
+    >>> drop = carom.Scene(
+    ...     name="drop",
+    ...     forces=[carom.Gravity((0, -10, 0))],
+    ...     spheres=[carom.Sphere(position=(0, 5.5, 0), radius=0.5)],
+    ...     colliders=[carom.Collider(carom.HalfSpace())],
+    ... )
+    >>> run = drop.run(seconds=2)
+    >>> run.impacts["time"].round(12)
+    array([1.])
+    """
+
+    name: str
+    title: str = ""
+    description: str = ""
+    origin: str = ""
+    simulation: parts.Simulation = field(default_factory=parts.Simulation)
+    forces: Sequence[parts.Force] = ()
+    spheres: Sequence[parts.Sphere] = ()
+    generators: Sequence[parts.Generator] = ()
+    colliders: Sequence[parts.Collider] = ()
+    emitters: Sequence[parts.Emitter] = ()
+    camera: parts.Camera | None = None
+    sun: parts.Sun | None = None
+    colors: parts.Colors | None = None
+
+    @classmethod
+    def from_toml(
+        cls, text: str, *, source: str = "scene", changes: Mapping[str, Any] = NO_CHANGES
+    ) -> Scene:
+        """Reads a scene from the text of a scene file.
+
+        Args:
+            text: TOML.
+            source: What errors call it.
+            changes: Other values, by their paths, like ``{"simulation.rule": "exact"}``; ``None``
+                takes a value out.
+
+        Raises:
+            SceneError: With the field and line of what is wrong.
+        """
+        return cls(**fields_of(json.loads(read_scene(text, source, overrides(changes)))))
+
+    @classmethod
+    def from_file(
+        cls, path: str | os.PathLike[str], *, changes: Mapping[str, Any] = NO_CHANGES
+    ) -> Scene:
+        """Reads a scene file.
+
+        Raises:
+            OSError: If it cannot be read.
+            SceneError: With the field and line of what is wrong.
+        """
+        text = Path(path).read_text(encoding="utf-8")
+        return cls.from_toml(text, source=os.fspath(path), changes=changes)
+
+    def to_toml(self) -> str:
+        """The text of a scene file, every default written out.
+
+        Raises:
+            SceneError: If the scene makes no sense.
+        """
+        return canonical_toml(toml_of(self))
+
+    def with_changes(self, changes: Mapping[str, Any]) -> Scene:
+        """The same scene with other values, by their paths.
+
+        >>> import carom
+        >>> carom.load("simtest1").with_changes({"simulation.rule": "exact"}).simulation.rule
+        'exact'
+        """
+        return Scene.from_toml(toml_of(self), source=self.name, changes=changes)
+
+    def world(self) -> World:
+        """The world at the start of the scene.
+
+        Raises:
+            SceneError: If the scene makes no sense.
+        """
+        return World(self)
+
+    def run(
+        self,
+        seconds: float | None = None,
+        *,
+        frames: int | None = None,
+        dt: float | None = None,
+        every: int = 1,
+    ) -> Trajectory:
+        """Runs the scene from its start, and records what happens: see `World.run`."""
+        return self.world().run(seconds, frames=frames, dt=dt, every=every)
+
+
+def overrides(changes: Mapping[str, Any]) -> list[str]:
+    """Changes as the command line takes them."""
+    return [
+        f"{path}={'none' if value is None else toml_value(value, path)}"
+        for path, value in changes.items()
+    ]

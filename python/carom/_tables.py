@@ -1,0 +1,84 @@
+"""What happened, as records of NumPy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+IMPACT = np.dtype(
+    [
+        ("time", "f8"),
+        ("collider", "i8"),
+        ("sphere_1", "i8"),
+        ("sphere_2", "i8"),
+        ("point", "f8", (3,)),
+        ("normal", "f8", (3,)),
+        ("approach_speed", "f8"),
+        ("separation_speed", "f8"),
+        ("impulse", "f8"),
+    ]
+)
+"""An impact, in the order of time.
+
+============================ ===============================================================
+``time``                     when, on the world's clock [s]
+``collider``                 id of body 1 if it is a collider, else -1
+``sphere_1``                 id of body 1 if it is a sphere, else -1
+``sphere_2``                 id of body 2
+``point``                    where on the surface of body 1 [m]
+``normal``                   unit normal from body 1 to body 2
+``approach_speed``           along the normal before the impact [m/s], > 0
+``separation_speed``         along the normal after it and all others at the same instant [m/s]
+``impulse``                  on body 2 along the normal, and against it on body 1 [N s]
+============================ ===============================================================
+"""
+
+LEDGER = np.dtype(
+    [
+        *IMPACT.descr,
+        ("group", "i8"),
+        ("group_size", "i8"),
+        ("momentum_before", "f8", (3,)),
+        ("momentum_after", "f8", (3,)),
+        ("energy_before", "f8"),
+        ("energy_after", "f8"),
+        ("energy_demanded", "f8"),
+    ]
+)
+"""An impact with the account of its group: the impacts at one instant among bodies that touch.
+
+============================ ===============================================================
+``group``                    number of the group in the frame
+``group_size``               how many impacts it has
+``momentum_before``          of its spheres [kg m/s]
+``momentum_after``           likewise, less what colliders gave
+``energy_before``            kinetic energy of its spheres [J]
+``energy_after``             likewise, less the work of moving colliders
+``energy_demanded``          change of kinetic energy that restitution demands [J], <= 0
+============================ ===============================================================
+"""
+
+TRIGGER = np.dtype(
+    [("collider", "i8"), ("sphere", "i8"), ("point", "f8", (3,)), ("normal", "f8", (3,))]
+)
+"""A sphere inside a trigger at the end of a frame: who, the nearest point of its surface [m], and
+the unit normal there."""
+
+
+def records(words: NDArray[np.uint64], kind: np.dtype[np.void]) -> NDArray[np.void]:
+    """The words that the engine wrote as records; nothing is copied."""
+    return words.view(kind)
+
+
+def flat_columns(table: NDArray[np.void]) -> dict[str, NDArray[Any]]:
+    """The columns of a table, vectors as three columns ``name_x``, ``name_y``, ``name_z``."""
+    columns: dict[str, NDArray[Any]] = {}
+    for name in table.dtype.names or ():
+        column = table[name]
+        if column.ndim == 1:
+            columns[name] = column
+        else:
+            columns.update({f"{name}_{axis}": column[:, i] for i, axis in enumerate("xyz")})
+    return columns

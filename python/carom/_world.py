@@ -1,0 +1,251 @@
+"""Worlds: spheres, what acts on them, and what they bounce off, moving."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom import _parts as parts
+from carom import _tables as tables
+from carom._carom import Engine
+from carom._text import read_part, read_parts, toml_of, toml_value
+from carom._trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from carom._scene import Scene
+
+
+class World(Engine):
+    """Spheres that move.
+
+    A world is made from a scene, and then has a life of its own. Arrays of spheres (``positions``,
+    ``velocities``, ``radii``, ``masses``, ``restitutions``, ``ids``) are in ascending order of id:
+
+    - To read one copies nothing: it is the same object for as long as no sphere comes or goes, and
+      every frame writes the new state into it. Take ``world.positions.copy()`` to keep a state.
+    - When spheres come or go, the attribute is a new array; the old one stays valid, with the last
+      values of its spheres.
+    - It cannot be written to. To set a quantity, assign to the attribute: ``world.velocities = 0``.
+      What is assigned is copied, spread by NumPy's rules of broadcasting, and checked first.
+
+    Calls that take long let other threads run; threads that use one world wait for each other. What
+    is refused raises a `carom.CaromError` that names the argument, and leaves the world unchanged.
+
+    Args:
+        scene: What there is at the start; an empty world, stepped by the rule ``exact``, unless
+            given.
+
+    >>> import carom
+    >>> world = carom.World()
+    >>> world.add_force(carom.Gravity((0, -9.81, 0)))
+    0
+    >>> world.add_collider(carom.Collider(carom.HalfSpace()))
+    0
+    >>> ball = world.add_sphere(carom.Sphere(position=(0, 2, 0), radius=0.5))
+    >>> world.step(frames=60)
+    >>> world.positions.shape
+    (1, 3)
+    >>> bool(world.positions[0, 1] > 0.499)
+    True
+    """
+
+    def __new__(cls, scene: Scene | None = None) -> World:
+        """Makes the world of a scene."""
+        from carom._scene import Scene
+
+        if scene is None:
+            scene = Scene(name="world")
+        if not isinstance(scene, Scene):
+            raise TypeError(f"scene: must be a carom.Scene, not {type(scene).__name__}")
+        return super().__new__(cls, toml_of(scene))
+
+    def __init__(self, scene: Scene | None = None) -> None:
+        """Everything is made by then."""
+
+    def __repr__(self) -> str:
+        return f"<carom.World at {self.time} s, {len(self)} spheres>"
+
+    # Time
+
+    def run(
+        self,
+        seconds: float | None = None,
+        *,
+        frames: int | None = None,
+        dt: float | None = None,
+        every: int = 1,
+    ) -> Trajectory:
+        """Runs on, and records what happens.
+
+        Other threads run meanwhile; Ctrl-C stops after the frame at work, and leaves the world
+        there. If a frame is refused, the world is as it was before the call.
+
+        Args:
+            seconds: How long [s], up to whole frames; the scene's own duration unless given.
+            frames: How many frames instead.
+            dt: Length of a frame [s]; the scene's own unless given.
+            every: States are recorded after every so many frames, and at the beginning.
+
+        Raises:
+            CaromError: For a number that makes no sense.
+            StepError: If a number would overflow, or there are too many impacts.
+
+        >>> import carom
+        >>> trajectory = carom.load("simtest1").world().run(1.0)
+        >>> trajectory.time.shape, trajectory.positions.shape
+        ((51,), (51, 2, 3))
+        """
+        if frames is None:
+            frames = self._count_frames(seconds, dt)
+        elif seconds is not None:
+            raise TypeError("seconds and frames: give one of them")
+        time, ids, radii, masses, positions, velocities, words = self._record(frames, dt, every)
+        impacts = tables.records(words, tables.IMPACT)
+        return Trajectory(time, positions, velocities, ids, radii, masses, impacts)
+
+    # What happened in the last frame
+
+    @property
+    def impacts(self) -> NDArray[np.void]:
+        """The impacts of the last frame, records of `carom.IMPACT`. A copy."""
+        return tables.records(self._impact_words(), tables.IMPACT)
+
+    @property
+    def ledger(self) -> NDArray[np.void]:
+        """The impacts of the last frame with the account of their groups.
+
+        Records of `carom.LEDGER`, a copy; none under the rules ``discrete`` and ``bisect``.
+        """
+        return tables.records(self._ledger_words(), tables.LEDGER)
+
+    @property
+    def triggers(self) -> NDArray[np.void]:
+        """The spheres inside triggers at the end of the last frame, records of `carom.TRIGGER`."""
+        return tables.records(self._trigger_words(), tables.TRIGGER)
+
+    # Spheres
+
+    def add_sphere(self, sphere: parts.Sphere) -> int:
+        """Adds a sphere, which may overlap others, and returns its id.
+
+        Raises:
+            SceneError: For a number that makes no sense.
+        """
+        [number] = self._add_described_spheres(f"spheres = [{toml_value(sphere, 'sphere')}]")
+        return number
+
+    def add_spheres(
+        self,
+        positions: ArrayLike,
+        radii: ArrayLike,
+        *,
+        velocities: ArrayLike = 0.0,
+        masses: ArrayLike = 1.0,
+        restitutions: ArrayLike = 1.0,
+    ) -> NDArray[np.uint64]:
+        """Adds n spheres, which may overlap, and returns their ids, shape (n,).
+
+        Args:
+            positions: Centres [m], shape (n, 3).
+            radii: Radii [m], > 0, spread to shape (n,).
+            velocities: Velocities [m/s], spread to shape (n, 3).
+            masses: Masses [kg], > 0, spread to shape (n,).
+            restitutions: Coefficients of restitution in [0, 1], spread to shape (n,).
+
+        Raises:
+            CaromError: For shapes that do not fit, and numbers that make no sense; then no sphere
+                is added.
+            TypeError: For arrays that are not of numbers.
+
+        >>> import carom
+        >>> world = carom.World()
+        >>> world.add_spheres([(0, 0, 0), (3, 0, 0)], radii=[1.0, 0.5])
+        array([0, 1], dtype=uint64)
+        """
+        try:
+            shape = np.shape(positions)
+        except ValueError:
+            # Rows of different lengths: refused below, by name.
+            shape = ()
+        count = shape[0] if len(shape) == 2 else 1
+        given = (positions, velocities, radii, masses, restitutions)
+        return self._add_spheres(count, given)
+
+    def sphere(self, id: int) -> parts.Sphere:
+        """The sphere with this id, as it is now.
+
+        Raises:
+            UnknownError: If it is not in the world (any more).
+        """
+        sphere: parts.Sphere = read_part("sphere", self._sphere_json(id))
+        return sphere
+
+    def set_sphere(self, id: int, sphere: parts.Sphere) -> None:
+        """Changes a sphere.
+
+        Raises:
+            UnknownError: If it is not in the world.
+            SceneError: For a number that makes no sense.
+        """
+        self._set_sphere(id, f"spheres = [{toml_value(sphere, 'sphere')}]")
+
+    # Forces, colliders, emitters
+
+    @property
+    def forces(self) -> dict[int, parts.Force]:
+        """The forces by their ids, in the order in which they are added up. A copy."""
+        return read_parts("forces", self._forces_json())
+
+    def add_force(self, force: parts.Force) -> int:
+        """Adds a force on every sphere, and returns its id."""
+        return self._add_force(f"forces = [{toml_value(force, 'force')}]")
+
+    def set_force(self, id: int, force: parts.Force) -> None:
+        """Puts a force in the place of another."""
+        self._set_force(id, f"forces = [{toml_value(force, 'force')}]")
+
+    @property
+    def colliders(self) -> dict[int, parts.Collider]:
+        """The colliders by their ids, where they are now. A copy."""
+        return read_parts("colliders", self._colliders_json())
+
+    def add_collider(self, collider: parts.Collider) -> int:
+        """Adds a collider, and returns its id."""
+        return self._add_collider(f"colliders = [{toml_value(collider, 'collider')}]")
+
+    def set_collider(self, id: int, collider: parts.Collider) -> None:
+        """Changes a collider; spheres feel no velocity but the one it is given."""
+        self._set_collider(id, f"colliders = [{toml_value(collider, 'collider')}]")
+
+    @property
+    def emitters(self) -> dict[int, parts.Emitter]:
+        """The emitters by their ids. A copy."""
+        return read_parts("emitters", self._emitters_json())
+
+    def add_emitter(self, emitter: parts.Emitter) -> int:
+        """Adds an emitter, and returns its id; its first sphere is due now."""
+        return self._add_emitter(f"emitters = [{toml_value(emitter, 'emitter')}]")
+
+    def set_emitter(self, id: int, emitter: parts.Emitter) -> None:
+        """Changes an emitter; with another period it starts anew, now."""
+        self._set_emitter(id, f"emitters = [{toml_value(emitter, 'emitter')}]")
+
+    # How it is stepped
+
+    @property
+    def simulation(self) -> parts.Simulation:
+        """How the world is stepped: rule, impact law, boundary and the like. Can be assigned to."""
+        simulation: parts.Simulation = read_part("simulation", self._simulation_json())
+        return simulation
+
+    @simulation.setter
+    def simulation(self, simulation: parts.Simulation) -> None:
+        self._set_simulation(f"simulation = {toml_value(simulation, 'simulation')}")
+
+    def to_scene(self) -> Scene:
+        """A scene that begins as the world is now: time begins at 0 there, emitters begin anew."""
+        from carom._scene import Scene
+
+        return Scene.from_toml(self._scene_toml())

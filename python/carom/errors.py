@@ -1,0 +1,29 @@
+"""What is raised, in the words of the engine."""
+
+from __future__ import annotations
+
+
+class CaromError(ValueError):
+    """A value makes no sense where it was given. Nothing was changed.
+
+    Attributes:
+        field: What is to blame, like ``radii``, ``dt`` or ``colliders[1].restitution``.
+        line: Line in the text of a scene, from 1.
+    """
+
+    def __init__(self, message: str, field: str | None = None, line: int | None = None) -> None:
+        super().__init__(message)
+        self.field = field
+        self.line = line
+
+
+class SceneError(CaromError):
+    """A scene, or a part of one, makes no sense."""
+
+
+class UnknownError(CaromError, LookupError):
+    """A name or an id that names nothing."""
+
+
+class StepError(CaromError, ArithmeticError):
+    """A step that cannot be taken: a number would overflow, or there are too many impacts."""

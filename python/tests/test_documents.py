@@ -1,0 +1,24 @@
+"""The examples of the guide run."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import carom
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize("file", ["README.md", "docs/python.md", "python/README.md"])
+def test_the_examples_run_one_after_the_other(file: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("pandas")
+    pytest.importorskip("xarray")
+    monkeypatch.setattr(carom._library, "_registered", {})
+    blocks = re.findall(
+        r"```python\n(.*?)```", (ROOT / file).read_text(encoding="utf-8"), re.DOTALL
+    )
+    assert blocks
+    names: dict[str, object] = {"carom": carom}
+    for block in blocks:
+        exec(block, names)

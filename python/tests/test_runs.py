@@ -1,0 +1,83 @@
+"""Runs record what the command line records."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from command import carom_command
+
+import carom
+
+
+@pytest.mark.parametrize("name", ["simtest1", "simtest4", "tutorial4"])
+def test_a_run_is_that_of_the_command_line(name: str, tmp_path: Path) -> None:
+    states, impacts = tmp_path / "states.csv", tmp_path / "impacts.csv"
+    files = ["--out", str(states), "--impacts", str(impacts)]
+    carom_command("run", name, "--seconds", "5", *files)
+    run = carom.load(name).run(seconds=5)
+
+    rows = np.loadtxt(states, delimiter=",", skiprows=1)
+    written = {(row[0], int(row[1])): row[2:] for row in rows}
+    is_there = ~np.isnan(run.positions[1:, :, 0])
+    assert is_there.sum() == len(rows)
+    for frame, column in np.argwhere(is_there):
+        row = written[run.time[1 + frame], int(run.ids[column])]
+        assert row[:3].tolist() == run.positions[1 + frame, column].tolist()
+        assert row[3:].tolist() == run.velocities[1 + frame, column].tolist()
+
+    lines = [line.split(",") for line in impacts.read_text().splitlines()[1:]]
+    assert len(lines) == len(run.impacts)
+    for line, impact in zip(lines, run.impacts, strict=True):
+        other = impact["collider" if line[1] == "collider" else "sphere_1"]
+        assert (int(line[2]), int(line[3])) == (other, impact["sphere_2"])
+        numbers = [impact["time"], *impact["point"], *impact["normal"]]
+        numbers += [impact["approach_speed"], impact["impulse"]]
+        assert [float(text) for text in (line[0], *line[4:])] == numbers
+
+
+def test_the_first_state_is_that_at_the_beginning() -> None:
+    scene = carom.load("tutorial4")
+    run = scene.run(frames=4, every=2)
+    assert len(run) == 3
+    np.testing.assert_array_equal(run.time, np.arange(3) * 2 * scene.simulation.frame_time)
+    assert run.positions[0].tolist() == scene.world().positions.tolist()
+    assert run.positions.flags.c_contiguous
+    assert run.positions.dtype == np.float64
+
+
+def test_a_run_goes_on_where_the_world_is() -> None:
+    whole, halves = carom.load("simtest2").world(), carom.load("simtest2").world()
+    all_of_it = whole.run(frames=100)
+    first, second = halves.run(frames=50), halves.run(frames=50)
+    assert whole.state_hash == halves.state_hash
+    assert len(first.impacts) + len(second.impacts) == len(all_of_it.impacts)
+    assert second.time[0] == first.time[-1]
+
+
+def test_a_run_takes_the_duration_of_the_scene_unless_told() -> None:
+    scene = carom.load("simtest1").with_changes({"simulation.duration": 0.5})
+    assert scene.run().time[-1] == pytest.approx(0.5)
+
+
+def test_tables_of_pandas() -> None:
+    pandas = pytest.importorskip("pandas")
+    run = carom.load("simtest1").run(seconds=3)
+    table = run.to_pandas()
+    assert list(table.columns) == ["t", "ball", "x", "y", "z", "vx", "vy", "vz"]
+    assert len(table) == (~np.isnan(run.positions[:, :, 0])).sum()
+    last = table[(table.t == run.time[-1]) & (table.ball == run.ids[0])]
+    assert last[["x", "y", "z"]].to_numpy()[0].tolist() == run.positions[-1, 0].tolist()
+    impacts = run.impacts_to_pandas()
+    assert isinstance(impacts, pandas.DataFrame)
+    assert impacts.normal_y.tolist() == run.impacts["normal"][:, 1].tolist()
+
+
+def test_a_dataset_of_xarray() -> None:
+    pytest.importorskip("xarray")
+    run = carom.load("simtest1").run(seconds=3)
+    data = run.to_xarray()
+    assert dict(data.sizes) == {"time": len(run), "sphere": len(run.ids), "axis": 3}
+    assert np.shares_memory(data.position.values, run.positions)
+    assert data.velocity.attrs["units"] == "m/s"
+    height = data.position.sel(axis="y", sphere=0).isel(time=-1)
+    assert float(height) == run.positions[-1, 0, 1]

@@ -1,0 +1,148 @@
+"""Scenes: values, found by name, written and read."""
+
+import copy
+import pickle
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+from carom import _library
+
+
+@pytest.fixture(autouse=True)
+def only_own_scenes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a test registers is gone after it."""
+    monkeypatch.setattr(_library, "_registered", {})
+    monkeypatch.delenv("CAROM_SCENES", raising=False)
+
+
+def test_every_built_in_scene_is_listed_and_loads() -> None:
+    listed = carom.scenes()
+    assert "simtest1" in [scene.name for scene in listed]
+    for scene in listed:
+        assert carom.load(scene.name).name == scene.name
+        assert carom.load(scene.title or scene.name).name == scene.name
+
+
+@pytest.mark.parametrize("name", [scene.name for scene in carom.scenes()])
+def test_a_scene_survives_text_pickle_and_copy(name: str) -> None:
+    scene = carom.load(name)
+    assert carom.Scene.from_toml(scene.to_toml()) == scene
+    assert pickle.loads(pickle.dumps(scene)) == scene
+    assert copy.deepcopy(scene) == scene
+
+
+def test_every_kind_of_part_survives_text() -> None:
+    ball = carom.Sphere(diameter=0.5, density=3.0, color=(1, 0, 0.5))
+    fill = carom.RandomFill(4, (0, 5, 0), (9, 9, 9), 1, ball, 2.0, (0.1, 0.2))
+    scene = carom.Scene(
+        name="all",
+        title='Quotes " and \\ and \x7f and ü',
+        description="Two\nlines.",
+        origin="here",
+        simulation=carom.Simulation(
+            boundary=carom.Periodic((50, float("inf"), 50)),
+            exact=carom.Exact(contact_duration=1e-9, max_impacts=1000),
+            bisect=carom.Bisect(1e-6, 30, 40, "all"),
+        ),
+        forces=[carom.Gravity(), carom.ConstantForce((1, 2, 3)), carom.ViscousDrag(1)],
+        spheres=[carom.Sphere(position=np.array([0, 20, 0]), radius=1)],
+        generators=[
+            carom.Row(2, (0, 30, 0), (2, 0, 0), ball),
+            carom.Lattice((2, 1, 1), (0, 40, 0), (2, 2, 2), ball),
+            fill,
+        ],
+        colliders=[
+            carom.Collider(carom.Ball(1), color=(0, 0, 1), visible=False),
+            carom.Collider(carom.Rectangle(1, 2), (0, -5, 0), trigger=True),
+            carom.Collider(carom.HalfSpace(), (0, -9, 0), angular_velocity=(0, 1, 0)),
+            carom.Collider(carom.Box((1, 1, 1)), (20, 0, 0), (0, 0, 1, 1)),
+        ],
+        emitters=[carom.Emitter(ball, 1.0, (-20, 0, 0), max_spheres=5, name="tap")],
+        camera=carom.Camera((0, 0, 9)),
+        sun=carom.Sun((0, 0, 0, 1), (1, 1, 1), 0.5),
+        colors=carom.Colors((0, 0, 0), densities=[carom.DensityColor(3.0, (1, 1, 0))]),
+    )
+    assert carom.Scene.from_toml(scene.to_toml()) == scene
+    assert len(scene.world()) == 1 + 2 + 2 + 4
+
+
+def test_a_scene_of_python_is_found_by_name_in_any_case() -> None:
+    @carom.scene("Two-Balls", "Two balls.")
+    def two_balls(gap: float = 1.0) -> carom.Scene:
+        balls = [carom.Sphere(radius=0.5), carom.Sphere(position=(1 + gap, 0, 0), radius=0.5)]
+        return carom.Scene(name="anything", spheres=balls)
+
+    scene = carom.load("two-balls")
+    assert (scene.name, scene.description) == ("Two-Balls", "Two balls.")
+    assert carom.load("Two-Balls", gap=3.0).spheres[1].position == (4.0, 0, 0)
+    assert carom.load("two-balls", {"spheres.0.radius": 0.25}).spheres[0].radius == 0.25
+    assert ("Two-Balls", "Two balls.", "registered") in [
+        (it.name, it.description, it.source) for it in carom.scenes()
+    ]
+    assert two_balls(2.0).spheres[1].position == (3.0, 0, 0)
+
+
+def test_a_scene_of_python_comes_before_a_built_in_one() -> None:
+    carom.scene("simtest1")(lambda: carom.Scene(name="mine"))
+    assert carom.load("SimTest1").spheres == ()
+    assert [it.name for it in carom.scenes()].count("simtest1") == 1
+
+
+def test_a_function_that_returns_no_scene_is_told() -> None:
+    carom.scene("nothing")(lambda: None)  # type: ignore[type-var]
+    with pytest.raises(TypeError, match="nothing: its function returned a NoneType"):
+        carom.load("nothing")
+
+
+def test_a_file_takes_no_parameters() -> None:
+    with pytest.raises(TypeError, match="simtest1: takes no parameters"):
+        carom.load("simtest1", count=3)
+
+
+def test_a_scene_of_another_package_is_found_by_its_entry_point(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "other_package.py").write_text(
+        "import carom\n"
+        "def swarm(count=2):\n"
+        "    ball = carom.Sphere(radius=0.1)\n"
+        "    return carom.Scene(name='x', generators=[carom.Row(count, (0,0,0), (1,0,0), ball)])\n"
+    )
+    information = tmp_path / "other_package-1.0.dist-info"
+    information.mkdir()
+    (information / "METADATA").write_text(
+        "Metadata-Version: 2.1\nName: other-package\nVersion: 1.0\n"
+    )
+    (information / "entry_points.txt").write_text("[carom.scenes]\nswarm = other_package:swarm\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    assert "swarm" in [scene.name for scene in carom.scenes()]
+    assert "other_package" not in sys.modules
+    assert len(carom.load("swarm", count=7).world()) == 7
+    with pytest.raises(carom.UnknownError, match='did you mean "swarm"'):
+        carom.load("swarn")
+
+
+def test_folders_of_scenes_are_searched(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text('name = "mine"\ntitle = "My own"\n')
+    assert carom.load(str(file)).title == "My own"
+    assert carom.Scene.from_file(file).title == "My own"
+    monkeypatch.setenv("CAROM_SCENES", str(tmp_path))
+    assert carom.load("my own").name == "mine"
+
+
+def test_values_are_taken_out_by_none() -> None:
+    assert carom.load("simtest4").emitters[0].max_spheres is not None
+    assert carom.load("simtest4", {"emitters.0.max_spheres": None}).emitters[0].max_spheres is None
+
+
+def test_a_scene_cannot_be_changed_but_replaced() -> None:
+    scene = carom.load("simtest1")
+    with pytest.raises(AttributeError):
+        scene.name = "other"  # type: ignore[misc]
+    assert replace(scene, forces=[]).forces == ()

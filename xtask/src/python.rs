@@ -1,0 +1,124 @@
+//! The Python package `carom`: built, installed as users do it, tested.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::shell::{Outcome, finish, output, root, target_folder};
+use crate::{native_hashes, setup};
+
+/// Builds the wheel, and says where it is.
+pub fn build() -> Outcome<PathBuf> {
+    let environment = Environment::new("python/build")?;
+    let wheel = wheel(&environment)?;
+    eprintln!("\n{}", wheel.display());
+    Ok(wheel)
+}
+
+/// Builds the wheel, installs it into a clean environment, and runs every check of it: format,
+/// lints, tests, examples in documentation, types, stubs.
+pub fn test() -> Outcome {
+    let environment = Environment::new("python/test")?;
+    let wheel = wheel(&environment)?;
+    environment.pip(&["install", "--requirement", REQUIREMENTS])?;
+    environment.pip(&["install", "--no-deps", &wheel.to_string_lossy()])?;
+    let hashes = environment.folder.join("native_hashes.json");
+    fs::write(&hashes, native_hashes::json()?).map_err(|error| said(&hashes, error))?;
+
+    let folder = root().join("python");
+    let folder = folder.to_string_lossy();
+    environment.python(&["-m", "ruff", "format", "--quiet", "--check", "--diff", &folder])?;
+    environment.python(&["-m", "ruff", "check", "--quiet", "--no-cache", &folder])?;
+    let tests = root().join("python/tests");
+    environment.python(&[
+        "-m",
+        "pytest",
+        "-q",
+        "-p",
+        "no:cacheprovider",
+        &tests.to_string_lossy(),
+    ])?;
+    // What is installed, not what lies in the repository.
+    let examples = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "--doctest-modules"];
+    environment.python(&[&examples[..], &["--pyargs", "carom"]].concat())?;
+    let configuration = root().join("pyproject.toml");
+    let configuration = configuration.to_string_lossy();
+    let types = ["-m", "mypy", "--config-file", &configuration, "--package", "carom"];
+    environment.python(&types)?;
+    let types = ["-m", "mypy", "--config-file", &configuration, &tests.to_string_lossy()];
+    environment.python(&types)?;
+    let stubs = ["-m", "mypy.stubtest", "--mypy-config-file", &configuration, "carom._carom"];
+    environment.python(&stubs)
+}
+
+/// Versions of all that the package is built and tested with.
+const REQUIREMENTS: &str = "python/requirements-test.txt";
+
+/// Builds the wheel as `pip install .` does. Returns the file.
+fn wheel(environment: &Environment) -> Outcome<PathBuf> {
+    let wheels = environment.folder.join("wheels");
+    let folder = wheels.to_string_lossy();
+    environment.pip(&["wheel", ".", "--no-deps", "--wheel-dir", &folder])?;
+    let entries = fs::read_dir(&wheels).map_err(|error| said(&wheels, error))?;
+    let mut files = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    files
+        .find(|file| file.extension().is_some_and(|extension| extension == "whl"))
+        .ok_or_else(|| format!("{folder} holds no wheel"))
+}
+
+/// An environment of Python's own, with nothing in it at first.
+struct Environment {
+    folder: PathBuf,
+}
+
+impl Environment {
+    /// Makes it anew, in a folder among what is built.
+    fn new(name: &str) -> Outcome<Self> {
+        setup::python()?;
+        let folder = target_folder().join(name);
+        if folder.exists() {
+            fs::remove_dir_all(&folder).map_err(|error| said(&folder, error))?;
+        }
+        let place = folder.join("environment");
+        finish(&python(), Command::new(python()).args(["-m", "venv"]).arg(place))?;
+        Ok(Self { folder })
+    }
+
+    /// Installs or builds with the versions that [`REQUIREMENTS`] names, in the root of the
+    /// repository.
+    fn pip(&self, arguments: &[&str]) -> Outcome {
+        let mut command = self.command();
+        command.args(["-m", "pip", "--quiet", "--disable-pip-version-check"]).args(arguments);
+        command.env("PIP_CONSTRAINT", root().join(REQUIREMENTS));
+        finish("pip", command.env("CARGO_TARGET_DIR", target_folder()).current_dir(root()))
+    }
+
+    /// Runs Python where nothing of the repository is found by accident.
+    fn python(&self, arguments: &[&str]) -> Outcome {
+        let mut command = self.command();
+        command.args(arguments).current_dir(&self.folder);
+        command.env("CAROM_NATIVE_HASHES", self.folder.join("native_hashes.json"));
+        finish("python", &mut command)
+    }
+
+    fn command(&self) -> Command {
+        let scripts = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
+        Command::new(self.folder.join("environment").join(scripts))
+    }
+}
+
+/// The Python of this machine: `$PYTHON`, or the usual one.
+fn python() -> String {
+    let usual = if cfg!(windows) { "python" } else { "python3" };
+    std::env::var("PYTHON").unwrap_or_else(|_| usual.to_owned())
+}
+
+/// Whether it is there, new enough, and can make environments.
+pub fn is_there() -> bool {
+    let program = "import ensurepip, sys, venv; print(sys.version_info >= (3, 10))";
+    output(python(), &["-c", program]).is_some_and(|answer| answer.trim() == "True")
+}
+
+fn said(path: &Path, error: std::io::Error) -> String {
+    format!("{}: {error}", path.display())
+}
