@@ -12,12 +12,13 @@ use eframe::CreationContext;
 use egui::{Context, Pos2, Rect, Theme, Ui};
 
 use crate::action::{self, Action};
-use crate::address::{Address, LinkDialog};
+use crate::address::Address;
 use crate::chooser::Chooser;
 use crate::exports::{Exports, Outlet};
 use crate::help;
 use crate::host::{Host, Inbox, ReadFile};
 use crate::layout::is_narrow;
+use crate::link_dialog::LinkDialog;
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
 use crate::orbit::Preset;

@@ -20,6 +20,7 @@ mod host;
 mod impact_list;
 mod inspector;
 mod layout;
+mod link_dialog;
 mod look;
 mod maze_screen;
 mod naming;
