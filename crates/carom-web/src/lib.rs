@@ -11,7 +11,7 @@ mod services;
 mod status;
 mod widgets;
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
 use carom_render::Quality;
@@ -35,6 +35,8 @@ pub struct Page {
     app: Rc<RefCell<App>>,
     context: Context,
     graphics: &'static str,
+    /// Names of all scenes that can be chosen, once they were asked for.
+    scenes: OnceCell<Vec<String>>,
     /// Keeps the interface going.
     _runner: WebRunner,
 }
@@ -74,7 +76,7 @@ impl Page {
         let started = started.borrow_mut().take();
         let Started { app, context, graphics } =
             started.ok_or_else(|| JsError::new("the interface did not start"))?;
-        Ok(Self { app, context, graphics, _runner: runner })
+        Ok(Self { app, context, graphics, scenes: OnceCell::new(), _runner: runner })
     }
 
     /// Shows the run that the part of an address after `#` tells; says so where it cannot be shown.
@@ -90,7 +92,9 @@ impl Page {
     /// the interface is being made.
     pub fn status(&self) -> JsValue {
         let Ok(app) = self.app.try_borrow() else { return JsValue::UNDEFINED };
-        let status = Status::of(&app, &self.context, self.graphics);
+        // A page has no folders: what can be chosen stays the same.
+        let scenes = self.scenes.get_or_init(|| status::scenes(&app));
+        let status = Status::of(&app, scenes, &self.context, self.graphics);
         parsed(serde_json::to_string(&status))
     }
 

@@ -7,13 +7,13 @@ use serde::Serialize;
 /// What is shown.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Status {
+pub struct Status<'a> {
     /// `"empty"`, `"scene"` or `"maze"`.
     screen: &'static str,
     /// Whether a scene is being chosen.
     choosing: bool,
     /// Names of all scenes that can be chosen.
-    scenes: Vec<String>,
+    scenes: &'a [String],
     /// Messages to the user, oldest first.
     notices: Vec<String>,
     /// Whether a film is being recorded.
@@ -73,10 +73,9 @@ struct Maze {
     ball: [f64; 3],
 }
 
-impl Status {
+impl<'a> Status<'a> {
     /// Of an interface.
-    pub fn of(app: &App, context: &Context, graphics: &'static str) -> Self {
-        let entries = app.library().entries().unwrap_or_default();
+    pub fn of(app: &App, scenes: &'a [String], context: &Context, graphics: &'static str) -> Self {
         let maze = app.maze().map(|screen| {
             let game = screen.game();
             Maze {
@@ -114,7 +113,7 @@ impl Status {
                 (None, None) => "empty",
             },
             choosing: app.is_choosing(),
-            scenes: entries.into_iter().map(|entry| entry.name).collect(),
+            scenes,
             notices: app.notices().texts().map(str::to_owned).collect(),
             recording: app.is_recording(),
             graphics,
@@ -124,4 +123,10 @@ impl Status {
             maze,
         }
     }
+}
+
+/// Names of all scenes that can be chosen.
+pub fn scenes(app: &App) -> Vec<String> {
+    let entries = app.library().entries().unwrap_or_default();
+    entries.into_iter().map(|entry| entry.name).collect()
 }
