@@ -278,7 +278,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
 }
 
 /// Names of the step rules.
-pub const RULES: [&str; 3] = ["exact", "bisect", "discrete"];
+pub const RULES: [&str; 3] = carom_scene::scene::Rule::NAMES;
 
 /// Check this build against physics.
 #[derive(Debug, clap::Args)]

@@ -139,14 +139,23 @@ pub enum Rule {
     Exact,
 }
 
-impl std::fmt::Display for Rule {
+impl Rule {
+    /// The names of all rules in scene files, the default first.
+    pub const NAMES: [&str; 3] = [Self::Exact.name(), Self::Bisect.name(), Self::Discrete.name()];
+
     /// Its name in scene files.
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(match self {
+    pub const fn name(self) -> &'static str {
+        match self {
             Self::Discrete => "discrete",
             Self::Bisect => "bisect",
             Self::Exact => "exact",
-        })
+        }
+    }
+}
+
+impl std::fmt::Display for Rule {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.name())
     }
 }
 

@@ -1,10 +1,11 @@
 //! What can be wrong with a link.
 
 use carom_scene::SceneError;
+use carom_scene::scene::Rule;
 use thiserror::Error;
 
 use super::packed::MAX_UNPACKED;
-use super::parse::{PARTS, RULES};
+use super::parse::PARTS;
 
 /// What is wrong with a link.
 #[derive(Debug, Error)]
@@ -41,7 +42,7 @@ pub enum LinkError {
         part: &'static str,
     },
     /// It names no rule.
-    #[error("the link says rule={found}; the rules are {}", RULES.join(", "))]
+    #[error("the link says rule={found}; the rules are {}", Rule::NAMES.join(", "))]
     Rule {
         /// As it is written, shortened.
         found: String,

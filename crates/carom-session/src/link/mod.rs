@@ -218,7 +218,7 @@ fn as_built_in(scene: &Scene) -> Option<Link> {
         return Some(link);
     }
     own.simulation.rule = scene.simulation.rule;
-    let rule = parse::rule_override(parse::name_of(scene.simulation.rule)).ok()?;
+    let rule = parse::rule_override(scene.simulation.rule.name()).ok()?;
     (own == *scene).then(|| link.with_overrides([rule]))
 }
 

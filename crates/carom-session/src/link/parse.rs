@@ -13,9 +13,6 @@ use super::{Link, LinkSource, written};
 /// Names of the parts of a link.
 pub const PARTS: [&str; 7] = ["scene", "file", "name", "set", "rule", "edits", "t"];
 
-/// Names of the rules.
-pub const RULES: [&str; 3] = ["exact", "bisect", "discrete"];
-
 /// What an override that changes the rule begins with.
 const RULE_PATH: &str = "simulation.rule=";
 
@@ -117,7 +114,7 @@ pub fn checked_time(seconds: f64) -> Result<f64, LinkError> {
 
 /// What `rule=` stands for.
 pub fn rule_override(rule: &str) -> Result<Override, LinkError> {
-    if !RULES.contains(&rule) {
+    if !Rule::NAMES.contains(&rule) {
         return Err(LinkError::Rule { found: quoted(rule) });
     }
     Ok(format!("{RULE_PATH}{rule}").parse()?)
@@ -125,16 +122,7 @@ pub fn rule_override(rule: &str) -> Result<Override, LinkError> {
 
 /// The rule that an override sets, if that is what it does in so many words.
 pub fn rule_of_override(text: &str) -> Option<&str> {
-    text.strip_prefix(RULE_PATH).filter(|rule| RULES.contains(rule))
-}
-
-/// How scene files write a rule.
-pub fn name_of(rule: Rule) -> &'static str {
-    match rule {
-        Rule::Exact => "exact",
-        Rule::Bisect => "bisect",
-        Rule::Discrete => "discrete",
-    }
+    text.strip_prefix(RULE_PATH).filter(|rule| Rule::NAMES.contains(rule))
 }
 
 fn unpacked(part: &'static str, packed: &str) -> Result<String, LinkError> {
