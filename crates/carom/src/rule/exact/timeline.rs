@@ -477,13 +477,13 @@ impl Timeline {
     /// The first sphere, by index, that is not anywhere at `time` \[s\], and which of its quantities is
     /// not finite.
     pub fn lost(&self, time: f64) -> Option<(usize, &'static str)> {
-        // Whatever is not finite makes the sum not a number.
-        let trace = |slot: u32| {
-            let (position, velocity) = self.state_of(slot, time);
-            0.0 * (position + velocity).element_sum()
+        // As a rule nobody can be that far, whatever drag does, and no path need be followed.
+        let pull: f64 = self.kinds.iter().map(|kind| size(kind.acceleration)).sum();
+        let farthest = |body: &Body| {
+            let age = (time - body.time).abs();
+            size(body.position) + (1.0 + age) * (size(body.velocity) + age * pull)
         };
-        let slots = 0..self.bodies.len() as u32;
-        if slots.map(trace).sum::<f64>() == 0.0 {
+        if self.bodies.iter().map(farthest).sum::<f64>().is_finite() {
             return None;
         }
         self.slot_of.iter().enumerate().find_map(|(index, &slot)| {
@@ -501,6 +501,11 @@ impl Timeline {
             (periodic::folded(position, period), velocity)
         });
     }
+}
+
+/// Sum of the sizes of the components.
+fn size(vector: DVec3) -> f64 {
+    vector.abs().element_sum()
 }
 
 /// Whether an entry of the queue still tells what happens next to its sphere.
