@@ -38,6 +38,12 @@ pub(super) struct Block<'a> {
 }
 
 impl Block<'_> {
+    /// How many cells there are.
+    #[inline(always)]
+    pub fn len(&self) -> usize {
+        self.lens.iter().map(|&len| usize::from(len)).product()
+    }
+
     /// Visits the cells, in rows one after another.
     #[inline(always)]
     pub fn for_each_row(&self, mut visit: impl FnMut(Range<usize>)) {
@@ -62,6 +68,10 @@ struct Run {
     len: u16,
     turns: i8,
     is_endless: bool,
+}
+
+impl Run {
+    const NONE: Self = Self { first: 0, len: 0, turns: 0, is_endless: false };
 }
 
 /// A side of a cell: downward or upward along an axis.
@@ -178,9 +188,8 @@ impl Grid {
     /// Visits those of a cell and the cells next to it that lie on one side, if one is given.
     #[inline(always)]
     pub fn for_each_block(&self, cell: [u16; 3], side: Option<Side>, mut visit: impl FnMut(Block)) {
-        // So far from the outermost cells, none of those next to it is seen otherwise.
         let is_inside = (0..3).all(|axis| {
-            let rim = if self.periodic[axis] { 1 } else { 2 };
+            let rim = self.rim(axis);
             cell[axis] >= rim && cell[axis] + rim < self.counts[axis]
         });
         if is_inside {
@@ -228,11 +237,23 @@ impl Grid {
         Some(Side { axis, step })
     }
 
+    /// How far from the outermost cells none of those next to a cell is seen otherwise.
+    #[inline(always)]
+    fn rim(&self, axis: usize) -> u16 {
+        if self.periodic[axis] { 1 } else { 2 }
+    }
+
     /// A cell and those next to it along an axis, of these steps: runs in order, then empty ones.
     fn runs(&self, cell: u16, axis: usize, steps: [i16; 2]) -> [Run; 3] {
+        let rim = self.rim(axis);
+        if cell >= rim && cell + rim < self.counts[axis] {
+            let (first, len) = (cell.wrapping_add_signed(steps[0]), steps[1] - steps[0] + 1);
+            let run = Run { first, len: len as u16, ..Run::NONE };
+            return [run, Run::NONE, Run::NONE];
+        }
         let count = i32::from(self.counts[axis]);
         let is_outermost = |cell: i32| cell == 0 || cell + 1 == count;
-        let mut runs = [Run { first: 0, len: 0, turns: 0, is_endless: false }; 3];
+        let mut runs = [Run::NONE; 3];
         let mut next = 0;
         for step in steps[0]..=steps[1] {
             let number = i32::from(cell) + i32::from(step);

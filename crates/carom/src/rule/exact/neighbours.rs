@@ -29,7 +29,7 @@ use super::lists::Lists;
 use super::near_surfaces::NearSurfaces;
 use super::neighbour::Neighbour;
 use super::periodic::{folded, turns_of, way_round};
-use super::vicinity::{Buffer, CellLists, NeighbourLists, Vicinity};
+use super::vicinity::{Buffer, CellLists, Near, NeighbourLists, Vicinity, are_in_same_box};
 use crate::detect::surface_tree::SurfaceTree;
 use crate::norm::Norm;
 use crate::surface::Surface;
@@ -248,14 +248,24 @@ impl Neighbours {
     /// Finds the spheres that the one at `slot`, of level `level`, may meet before one of them
     /// leaves its neighbourhood.
     #[inline(always)]
-    pub fn near(&self, slot: u32, level: u32, near: &mut Vicinity) {
+    pub fn find(&self, slot: u32, level: u32, near: &mut Vicinity) {
         near.clear();
+        let Some(lists) = &self.lists else { return self.gather(slot, level, None, near) };
+        near.are_listed = lists.whole(slot as usize).is_some_and(are_in_same_box);
+        if !near.are_listed {
+            near.same_box.add_list(lists, slot);
+            near.sort_from(0, slot);
+        }
+    }
+
+    /// Those who were found near the sphere at `slot`.
+    #[inline(always)]
+    pub fn found<'a>(&'a self, slot: u32, near: &'a Vicinity) -> Near<'a> {
         match &self.lists {
-            Some(lists) => {
-                near.same_box.add_list(lists, slot);
-                near.sort_from(0, slot);
+            Some(lists) if near.are_listed => {
+                Near { same_box: lists.first(slot as usize), images: &[] }
             }
-            None => self.gather(slot, level, None, near),
+            _ => near.near(),
         }
     }
 
@@ -461,7 +471,7 @@ impl Neighbours {
         let is_turned = self.neighbourhoods[slot as usize].turns != [0; 3];
         grid.for_each_block(cell, side, |block| {
             let start = near.same_box.len;
-            block.for_each_row(|row| near.same_box.add_cells(spheres, row));
+            near.same_box.add_block(spheres, &block);
             if block.turns == [0; 3] && !is_turned {
                 near.sort_from(start, slot);
             } else {
@@ -500,7 +510,7 @@ impl Neighbours {
         let Neighbourhood { center, radius, turns } = self.neighbourhoods[slot as usize];
         grid.for_each_block(grid.cell_of(center), None, |block| {
             let start = peers.len;
-            block.for_each_row(|row| peers.add_cells(own, row));
+            peers.add_block(own, &block);
             let image = block.turns;
             let way = way_round(image.map(i32::from), self.period);
             let reach = block.is_endless.map(|is| if is { f64::INFINITY } else { 2.0 });

@@ -19,8 +19,13 @@ use crate::parallel;
 use crate::surface::Role;
 use crate::system::System;
 
-/// Spheres are put in order of place again after this many events per sphere: seldom enough to
-/// cost little, often enough that neighbours stay near each other in memory.
+/// In a periodic box, spheres are put in order of place again after this many departures per sphere:
+/// seldom enough to cost little, often enough that neighbours stay near each other in memory.
+const DEPARTURES_PER_ARRANGEMENT: u64 = 10;
+/// Likewise where all stay in the fast caches, in whatever order they are.
+const DEPARTURES_OF_FEW: u64 = 100;
+/// On open axes the spheres are arranged after this many events per sphere: they may have gathered in
+/// outermost cells, which none of them leaves.
 const EVENTS_PER_ARRANGEMENT: u64 = 24;
 
 /// More spheres than this do not stay in the fast caches.
@@ -54,7 +59,9 @@ pub(crate) struct Timeline {
     pub(super) frame: [f64; 2],
     /// Whether spheres are under forces that are held constant over a frame.
     holds_forces: bool,
-    events_since_arranged: u64,
+    /// Since the spheres were put in order of place.
+    events: u64,
+    departures: u64,
 }
 
 /// What a sphere meets next.
@@ -237,7 +244,7 @@ impl Timeline {
             self.clusters.renumber(|slot| new_slots[slot as usize]);
         }
         self.neighbours = Neighbours::new(self.contents(system, time));
-        self.events_since_arranged = 0;
+        (self.events, self.departures) = (0, 0);
     }
 
     fn contents<'a>(&'a self, system: &System<'a>, time: f64) -> Contents<'a> {
@@ -283,8 +290,7 @@ impl Timeline {
                 return Err(system.spheres.id[self.index_of[slot] as usize]);
             }
         }
-        let events = EVENTS_PER_ARRANGEMENT * self.bodies.len() as u64;
-        let is_due = self.events_since_arranged > events;
+        let is_due = self.is_arrangement_due(system.settings.boundary.period());
         if is_due {
             self.arrange(system, frame[0]);
         }
@@ -314,11 +320,23 @@ impl Timeline {
     pub(super) fn next(&mut self, end: f64) -> Option<(u32, Next)> {
         let entry = self.queue.pop(end, |entry| is_live(&self.outlooks, entry))?;
         self.anticipate();
-        self.events_since_arranged += 1;
+        self.events += 1;
         let Outlook { event, departure } = self.outlooks[entry.slot as usize];
-        let next =
-            if departure < event.time { Next::Departure(departure) } else { Next::Event(event) };
-        Some((entry.slot, next))
+        if departure < event.time {
+            self.departures += 1;
+            return Some((entry.slot, Next::Departure(departure)));
+        }
+        Some((entry.slot, Next::Event(event)))
+    }
+
+    /// Whether the order of the spheres is out of date, in a box with these edges \[m\].
+    fn is_arrangement_due(&self, period: DVec3) -> bool {
+        let (done, per_sphere) = match (period.is_finite(), self.are_many()) {
+            (true, true) => (self.departures, DEPARTURES_PER_ARRANGEMENT),
+            (true, false) => (self.departures, DEPARTURES_OF_FEW),
+            (false, _) => (self.events, EVENTS_PER_ARRANGEMENT),
+        };
+        done > per_sphere * self.bodies.len() as u64
     }
 
     /// Whether there are more spheres than the fast caches hold.
@@ -358,6 +376,12 @@ impl Timeline {
             read += neighbours.read_bodies(slot, bodies);
         }
         std::hint::black_box(read);
+    }
+
+    /// Whether there is one kind of spheres, and they see each other move in straight lines.
+    #[inline(always)]
+    pub(super) fn all_fly_alike(&self) -> bool {
+        matches!(&self.kinds[..], [kind] if kind.flies_like(kind))
     }
 
     pub(super) fn kind_of(&self, slot: u32) -> &Kind {
