@@ -21,6 +21,8 @@ pub(super) struct Grid {
     origin: DVec3,
     /// Edges of a cell \[m\].
     width: DVec3,
+    /// Their inverses \[1/m\].
+    per_metre: DVec3,
     counts: [u16; 3],
     periodic: [bool; 3],
 }
@@ -104,19 +106,26 @@ impl Grid {
             let width = extent[axis] / f64::from(counts[axis]);
             if periodic[axis] { width } else { width.max(min_width) }
         }));
-        Self { origin: low, width, counts, periodic }
+        Self { origin: low, width, per_metre: width.recip(), counts, periodic }
     }
 
     /// A grid whose cells are parts of the cells of this one, likewise.
     pub fn divided(&self, min_width: f64, seek: usize) -> Self {
         let counts = cell_counts(self.counts, self.width, min_width, seek);
         let parts = [0, 1, 2].map(|axis| f64::from(counts[axis] / self.counts[axis]));
-        Self { width: self.width / DVec3::from_array(parts), counts, ..self.clone() }
+        let width = self.width / DVec3::from_array(parts);
+        Self { width, per_metre: width.recip(), counts, ..self.clone() }
     }
 
     /// How many cells there are.
     pub fn len(&self) -> usize {
         self.counts.iter().map(|&count| usize::from(count)).product()
+    }
+
+    /// Whether every axis closes on itself.
+    #[inline(always)]
+    pub fn is_closed(&self) -> bool {
+        self.periodic == [true; 3]
     }
 
     /// Edges of a cell \[m\].
@@ -133,7 +142,7 @@ impl Grid {
     /// The cell of a place in the box \[m\].
     pub fn cell_of(&self, place: DVec3) -> [u16; 3] {
         [0, 1, 2].map(|axis| {
-            let cell = (place[axis] - self.origin[axis]) / self.width[axis];
+            let cell = (place[axis] - self.origin[axis]) * self.per_metre[axis];
             // A conversion rounds to zero, and takes what is below it for zero.
             (cell as u16).min(self.counts[axis] - 1)
         })
@@ -153,7 +162,7 @@ impl Grid {
     /// Bounds of something about a place, without those on whose side its cell reaches to infinity.
     #[inline(always)]
     pub fn without_ends(&self, place: DVec3, low: DVec3, high: DVec3) -> (DVec3, DVec3) {
-        if self.periodic == [true; 3] {
+        if self.is_closed() {
             (low, high)
         } else {
             self.without_ends_of(self.cell_of(place), low, high)

@@ -189,8 +189,15 @@ impl EventQueue {
         self.start = first;
         self.next_bucket = 0;
         self.current_end = first;
-        self.len -= far.len();
-        far.into_iter().for_each(|entry| self.push(entry));
+        // What stays far away stays in place.
+        far.retain(|&entry| match self.bucket_of(entry.time) {
+            Some(bucket) => {
+                self.buckets[bucket].push(entry);
+                false
+            }
+            None => true,
+        });
+        self.far = far;
         true
     }
 

@@ -44,7 +44,7 @@ pub(crate) struct Timeline {
     pub(super) kinds: Vec<Kind>,
     /// Kinds that nobody is of.
     spare_kinds: Vec<u32>,
-    /// Number of each sphere's flight at the start of the frame, by index.
+    /// Number of each sphere's flight at the start of the frame, by slot.
     flights_before: Vec<u32>,
     /// Place of each slot in the arrays of the world, and back.
     pub(super) index_of: Vec<u32>,
@@ -165,19 +165,17 @@ impl Timeline {
             .collect();
         self.index_of = (0..count as u32).collect();
         self.slot_of = self.index_of.clone();
-        self.count_flights();
     }
 
     /// Counts the flights of each sphere from here on.
     fn count_flights(&mut self) {
-        let Self { flights_before, bodies, slot_of, .. } = self;
-        flights_before.clear();
-        flights_before.extend(slot_of.iter().map(|&slot| bodies[slot as usize].flights));
+        self.flights_before.clear();
+        self.flights_before.extend(self.bodies.iter().map(|body| body.flights));
     }
 
     /// How many flights of a sphere began in this frame.
     pub fn flights_in_frame(&self, slot: u32) -> u32 {
-        let before = self.flights_before[self.index_of[slot as usize] as usize];
+        let before = self.flights_before[slot as usize];
         // Each adds two, or one if an impact began the flight before it.
         self.bodies[slot as usize].flights.wrapping_sub(before).div_ceil(2)
     }
@@ -245,6 +243,7 @@ impl Timeline {
         }
         self.neighbours = Neighbours::new(self.contents(system, time));
         (self.events, self.departures) = (0, 0);
+        self.count_flights();
     }
 
     fn contents<'a>(&'a self, system: &System<'a>, time: f64) -> Contents<'a> {
@@ -352,7 +351,7 @@ impl Timeline {
         if !self.are_many() {
             return;
         }
-        let Self { outlooks, bodies, neighbours, queue, .. } = self;
+        let Self { outlooks, bodies, neighbours, queue, index_of, flights_before, .. } = self;
         // What is read in one step is found from what was read in the steps before.
         let spheres = |place: usize| {
             let slot = queue.upcoming(place);
@@ -368,6 +367,7 @@ impl Timeline {
         }
         for slot in spheres(6) {
             read += bodies[slot as usize].time + neighbours.read_place(slot);
+            read += f64::from(index_of[slot as usize] ^ flights_before[slot as usize]);
         }
         for slot in spheres(3) {
             read += neighbours.read_cells(slot);

@@ -102,11 +102,12 @@ impl Buffer {
         self.len = lists.gather(slot as usize, &mut self.buffer, self.len);
     }
 
-    /// Of those from `start` on, drops one who is there once at most. Without branches, likewise.
+    /// Of those from `start` on, drops one who is there once at most; whether it was there. Looks at
+    /// all of them, likewise.
     #[inline(always)]
-    fn drop_from(&mut self, start: usize, one: Neighbour) {
+    pub fn drop_from(&mut self, start: usize, one: Neighbour) -> bool {
         let found = &mut self.buffer[start..self.len];
-        let Some(&last) = found.last() else { return };
+        let Some(&last) = found.last() else { return false };
         let mut count = 0;
         for other in found {
             let is_one = *other == one;
@@ -114,6 +115,7 @@ impl Buffer {
             *other = if is_one { last } else { *other };
         }
         self.len -= count;
+        count > 0
     }
 
     /// Of those from `start` on, keeps some. Without branches on that, which no processor can
