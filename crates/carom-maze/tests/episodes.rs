@@ -178,6 +178,26 @@ fn shaping_gives_no_more_than_the_way_there_was_to_go() {
 }
 
 #[test]
+fn a_ball_is_shown_on_the_tilted_ground_without_what_it_has_taken() {
+    let mut scene = open_floor(0.0);
+    scene.colliders.push(collectible([2.0, 0.5, 0.0]));
+    let mut episodes = on(&scene, EpisodeOptions::default());
+    assert_eq!(episodes.scene(0).colliders.len(), 3);
+    while episodes.taken(0) == 0 {
+        episodes.step(&[[1.0, 0.3]]).unwrap();
+    }
+    let shown = episodes.scene(0);
+    assert_eq!(shown.colliders.len(), 2);
+    let world = shown.world().unwrap();
+    let (ball, (_, ground)) = (world.spheres().get(0), world.colliders().next().unwrap());
+    let up = ground.pose.rotation * carom::DVec3::Y;
+    // 20° to +x, and less to +z.
+    assert!(up.x > 0.3 && up.z > 0.05 && up.y > 0.9, "{up}");
+    // The ball touches the ground, to the rounding of metres.
+    assert!((ball.position.dot(up) - 0.5).abs() < 1e-9);
+}
+
+#[test]
 fn balls_start_anywhere_but_in_walls_and_where_something_is_to_be_had() {
     for maze in [Maze::course().unwrap(), Maze::random(3, 6, 5).unwrap()] {
         let arena = Arc::new(Arena::new(maze.clone(), EpisodeOptions::default()).unwrap());

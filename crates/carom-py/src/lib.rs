@@ -21,6 +21,7 @@ mod describing;
 mod editing;
 mod engine;
 mod failure;
+mod maze;
 mod part;
 mod recording;
 mod running;
@@ -29,6 +30,7 @@ mod snapshot;
 mod tables;
 
 pub use engine::Engine;
+pub use maze::MazeEpisodes;
 pub use snapshot::Snapshot;
 
 /// The compiled part of the package `carom`. Its interface is that of the package, not this one.
@@ -36,6 +38,8 @@ pub use snapshot::Snapshot;
 mod _carom {
     #[pymodule_export]
     use crate::Engine;
+    #[pymodule_export]
+    use crate::MazeEpisodes;
     #[pymodule_export]
     use crate::Snapshot;
     #[pymodule_export]

@@ -9,9 +9,11 @@ mod ways;
 
 use std::sync::Arc;
 
-use carom::{DVec3, Error, SphereId, World};
+use carom::{DQuat, DVec3, Error, SphereId, World};
+use carom_scene::scene::Scene;
 
 use crate::error::EpisodeError;
+use crate::maze::Role;
 use crate::tilt::Tilt;
 use ball::{Ball, Steering};
 use rescue::Rescue;
@@ -258,6 +260,27 @@ impl Episodes {
         let (place, velocity) = self.motion(ball);
         let Ball { tilt, taken, .. } = self.balls[ball];
         observation::write((place, velocity), tilt, taken, self.arena.observation_bounds(), out);
+    }
+
+    /// How everything looks for a ball, in the world: the maze tilted, without what the ball has taken.
+    pub fn scene(&self, ball: usize) -> Scene {
+        let (rotation, (place, velocity)) = (self.tilt(ball).rotation(), self.motion(ball));
+        let mut scene = self.arena.maze().scene().clone();
+        scene.simulation.allow_overlap = true;
+        let turned = |vector: DVec3| (rotation * vector).to_array();
+        (scene.spheres[0].position, scene.spheres[0].velocity) = (turned(place), turned(velocity));
+        let is_taken = |role: &Role| match role {
+            Role::Collectible(index) => self.taken(ball) >> index & 1 == 1,
+            _ => false,
+        };
+        let mut roles = self.arena.maze().roles().iter();
+        scene.colliders.retain(|_| !roles.next().is_some_and(is_taken));
+        for collider in &mut scene.colliders {
+            collider.position = turned(DVec3::from_array(collider.position));
+            let level = DQuat::from_array(collider.rotation).normalize();
+            collider.rotation = (rotation * level).to_array();
+        }
+        scene
     }
 
     /// Frames of single balls that were taken by the rule `discrete`, because in them the ball met
