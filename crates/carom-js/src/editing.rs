@@ -75,6 +75,7 @@ impl World {
             let (radius, mass) = (spheres.radii()[index], spheres.masses()[index]);
             let color = palette.sphere(id.number(), radius, mass);
             let id = self.world.add_sphere(spheres.get(index))?;
+            self.description.palette.add_sphere(id.number(), Some(color));
             self.description.members.add(id, color);
             added.spheres.push(id.number());
         }

@@ -26,6 +26,9 @@ enum Kind {
     Unknown,
     /// A step that cannot be taken.
     Step,
+    /// Nothing can be drawn here.
+    #[cfg(feature = "pictures")]
+    Graphics,
 }
 
 impl Kind {
@@ -35,6 +38,8 @@ impl Kind {
             Self::Scene => "SceneError",
             Self::Unknown => "UnknownError",
             Self::Step => "StepError",
+            #[cfg(feature = "pictures")]
+            Self::Graphics => "GraphicsError",
         }
     }
 }
@@ -63,6 +68,12 @@ impl Failure {
     pub fn unknown(kind: &str, number: impl std::fmt::Display) -> Self {
         // In the words of `carom::Error::Unknown`.
         Self::new(Kind::Unknown, format!("there is no {kind} {number} in this world"))
+    }
+
+    /// Nothing can be drawn here, for this reason.
+    #[cfg(feature = "pictures")]
+    pub fn graphics(problem: impl ToString) -> Self {
+        Self::new(Kind::Graphics, problem)
     }
 
     /// What is wrong with a part that was described in code: it has no lines, and no name.
