@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::bodies::{Motion, Spheres};
 use crate::clock::Clock;
 use crate::colliders::Colliders;
@@ -52,6 +54,27 @@ impl State {
     pub fn changed(&mut self) -> &mut Self {
         self.timeline = None;
         self
+    }
+
+    /// Puts a sphere elsewhere. Where flights are renewed in every frame, those of the others stay good.
+    pub fn place(&mut self, index: usize, position: DVec3, velocity: DVec3) {
+        let time = self.clock.seconds();
+        self.timeline = self.timeline.take().filter(Timeline::is_renewed_each_frame);
+        if let Some(timeline) = &mut self.timeline {
+            timeline.place(index, position, velocity, time);
+        }
+        (self.spheres.motion.position[index], self.spheres.motion.velocity[index]) =
+            (position, velocity);
+    }
+
+    /// Sets the clock to a time \[s\].
+    pub fn set_time(&mut self, seconds: f64) {
+        let now = self.clock.seconds();
+        self.timeline = self.timeline.take().filter(Timeline::is_renewed_each_frame);
+        if let Some(timeline) = &mut self.timeline {
+            timeline.set_time(now, seconds);
+        }
+        self.clock = Clock::at(seconds);
     }
 
     /// Emits the spheres that are due at `time` \[s\]; those that are there fly on.

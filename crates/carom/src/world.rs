@@ -243,6 +243,76 @@ impl World {
         Ok(())
     }
 
+    /// Puts spheres elsewhere, with other velocities: each id with a centre \[m\] and a velocity
+    /// \[m/s\]. Where forces are applied to single spheres ([`Self::set_applied_forces`]), the flights
+    /// of the others go on, which makes this cheap.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if one is not in the world, [`Error::Invalid`] for a number that makes no
+    /// sense. Then none is moved.
+    pub fn set_motions(&mut self, motions: &[(SphereId, DVec3, DVec3)]) -> Result<(), Error> {
+        for &(id, position, velocity) in motions {
+            self.index_of(id)?;
+            validate::finite("position", position)
+                .and_then(|()| validate::finite("velocity", velocity))
+                .map_err(|invalid| invalid.about(Subject::Sphere(id)))?;
+        }
+        for &(id, position, velocity) in motions {
+            let index = self.index_of(id)?;
+            self.state.place(index, position, velocity);
+        }
+        Ok(())
+    }
+
+    /// Applies a force of its own \[N\] to every sphere, in the order of [`Self::spheres`]; an empty
+    /// list takes them away. Each is held constant until it is set again; spheres that come into the
+    /// world have none. They add to the forces that act on all, and have no potential energy.
+    ///
+    /// To steer spheres, set them before each frame: this costs little, under the rule `exact` too,
+    /// which renews all flights at the start of a frame while there are such forces.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for another number of forces than spheres, or one that is not finite.
+    pub fn set_applied_forces(&mut self, forces: &[DVec3]) -> Result<(), Error> {
+        let (count, wanted) = (forces.len(), self.spheres().len());
+        let requirement = "one for each sphere, or none at all";
+        validate::require(count == wanted || count == 0, "applied forces", requirement, count)
+            .map_err(|invalid| invalid.about(Subject::Step))?;
+        for (force, &id) in forces.iter().zip(self.spheres().ids()) {
+            validate::finite("applied force", *force)
+                .map_err(|invalid| invalid.about(Subject::Sphere(id)))?;
+        }
+        let had_some = !self.spheres().applied_forces().is_empty();
+        if !had_some || count == 0 {
+            self.state.changed();
+        }
+        let applied = &mut self.state.spheres.properties.applied_force;
+        applied.clear();
+        applied.extend_from_slice(forces);
+        Ok(())
+    }
+
+    /// Sets the clock. Only emitters, and forces that depend on time, tell one time from another; but
+    /// times round differently. A run that sets the clock back depends to the bit on nothing before.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if the time is not finite, or there are emitters, which count it.
+    pub fn set_time(&mut self, seconds: f64) -> Result<(), Error> {
+        let has_emitters = self.state.emitters.iter().len() > 0;
+        validate::require(seconds.is_finite(), "time", "finite", seconds)
+            .and_then(|()| {
+                validate::require(
+                    !has_emitters,
+                    "time",
+                    "left alone where emitters count it",
+                    seconds,
+                )
+            })
+            .map_err(|invalid| invalid.about(Subject::Step))?;
+        self.state.set_time(seconds);
+        Ok(())
+    }
+
     /// Takes a sphere out of the world and returns it.
     ///
     /// # Errors

@@ -1,5 +1,7 @@
 //! Forces that are held constant over a frame.
 
+use glam::DVec3;
+
 use super::timeline::Timeline;
 use crate::forces::{self, SphereState};
 use crate::system::System;
@@ -20,8 +22,11 @@ pub(super) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64
             mass: kind.mass,
         };
         let linear = forces::total_linear(system.forces, kind.radius, kind.mass).0;
+        let index = timeline.index_of[slot as usize] as usize;
+        let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
         let acceleration_in = |state: &SphereState, time: f64| {
-            linear.acceleration + forces::total_of_others(system.forces, state, time) / kind.mass
+            let others = forces::total_of_others(system.forces, state, time) / kind.mass;
+            linear.acceleration + applied + others
         };
         timeline.begin_flight(slot, position, velocity, start);
         // In a periodic box the flight may begin at an image of that place.
