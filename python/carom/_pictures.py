@@ -149,7 +149,10 @@ def _painter(world: World, view: View) -> engine.Painter:
 
 def _check_graphics() -> None:
     if not hasattr(engine, "Painter"):
-        raise GraphicsError("this build of carom has no pictures (feature `pictures`)")
+        raise GraphicsError(
+            "this build of carom has no pictures; pip install . in the root of the repository "
+            "makes one that has"
+        )
 
 
 def _camera_text(camera: Viewpoint) -> str:

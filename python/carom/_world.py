@@ -300,7 +300,7 @@ class World(Engine):
         quality: pictures.Quality = "fine",
         stamp: bool = True,
     ) -> NDArray[np.uint8] | None:
-        """Draws the world as it is now: see `Scene.picture`. For many, `carom.Renderer` is faster."""
+        """Draws the world as it is now: see `Scene.picture`; `carom.Renderer` draws many faster."""
         view = pictures.View.of(size, camera, quality, stamp=stamp)
         file = None if path is None else pictures.checked_path(path, ".png")
         return pictures.picture(self, file, view)

@@ -1,14 +1,13 @@
 //! Changing a world from outside.
 
 use carom::Collider;
-use carom_scene::Palette;
+use carom_scene::{Palette, part};
 use carom_scene::scene::{self, Force};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::failure::Failure;
 use crate::find::{self, only};
-use crate::part;
 use crate::world::World;
 
 /// Ids of what was added.

@@ -1,6 +1,7 @@
 //! What a Python exception is made of.
 
-use carom_scene::{Fault, SceneError};
+use carom_scene::SceneError;
+use carom_scene::part::PartError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
@@ -76,21 +77,16 @@ impl Failure {
         Self::new(Kind::Graphics, problem)
     }
 
-    /// What is wrong with a part that was described in code: it has no lines, and no name.
+    /// What is wrong with a scene that was described in code: it has no lines, and no name.
     pub fn of_part(error: SceneError) -> Self {
-        match error {
-            SceneError::Invalid(fault) if !fault.field.is_empty() => {
-                let nameless = Fault {
-                    source_name: fault.field.clone(),
-                    field: String::new(),
-                    line: None,
-                    ..fault
-                };
-                let failure = Self::new(Kind::Scene, nameless);
-                Self { field: Some(fault.field), ..failure }
-            }
-            other => other.into(),
-        }
+        PartError::from(error).into()
+    }
+}
+
+impl From<PartError> for Failure {
+    fn from(PartError { message, field }: PartError) -> Self {
+        let field = Some(field).filter(|field| !field.is_empty());
+        Self { field, ..Self::new(Kind::Scene, message) }
     }
 }
 
