@@ -10,7 +10,7 @@ import sys
 import threading
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
@@ -104,11 +104,12 @@ def test_a_stamp_is_at_the_lower_left() -> None:
 
 def test_a_renderer_draws_one_world_after_the_other() -> None:
     world = lone((0, 0, 0)).world()
-    renderer = carom.Renderer(world, size=(64, 48), quality="fine")
+    renderer = carom.Renderer(world, size=(192, 144), quality="fine")
     first = renderer.render(world)
-    assert (first.shape, first.dtype) == ((48, 64, 3), np.uint8)
+    assert first.shape == (144, 192, 3)
+    assert first.dtype == np.uint8
     assert first.flags.c_contiguous and first.flags.writeable
-    np.testing.assert_array_equal(first, world.picture(size=(64, 48), stamp=False))
+    np.testing.assert_array_equal(first, world.picture(size=(192, 144), stamp=False))
     world.positions = (1, 0, 0)
     moved = renderer.render(world)
     assert middle(is_red(moved))[0] > middle(is_red(first))[0] + 2
@@ -213,11 +214,14 @@ def test_a_film_of_a_scene_that_overflows_ends_before(tmp_path: Path) -> None:
     assert film(tmp_path / "a.mp4")[0] >= 1
 
 
-def refusals(*cases: tuple[dict[str, Any], type[Exception], str]) -> Callable[..., Any]:
+Case: TypeAlias = tuple[dict[str, Any], type[Exception], str]
+
+
+def refusals(*cases: Case) -> Callable[..., Any]:
     return pytest.mark.parametrize(("arguments", "error", "words"), cases)
 
 
-BOTH = [
+BOTH: list[Case] = [
     ({"size": (0, 9)}, carom.CaromError, "size: "),
     ({"size": (-1, 9)}, carom.CaromError, "size: must be in [1, 2^32) each, not (-1, 9)"),
     ({"size": (2**40, 9)}, carom.CaromError, "size: "),
