@@ -8,11 +8,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
+from carom._pictures import View
+
 __all__ = [
+    "HAS_WINDOW",
     "Engine",
     "MazeEpisodes",
+    "Painter",
     "Snapshot",
     "canonical_toml",
+    "film_scene",
     "find_scene",
     "list_scenes",
     "read_scene",
@@ -154,6 +159,23 @@ _MazeStep: TypeAlias = tuple[
     _MazeStates,
 ]
 
+class Painter:
+    """What `carom.Renderer` stands on: a graphics device that is kept open, and a camera."""
+
+    def __new__(cls, world: Engine, view: View) -> Self: ...
+    def paint(self, world: Engine) -> NDArray[np.uint8]: ...
+    def png(self, world: Engine) -> bytes: ...
+    def save(self, world: Engine, path: str | PathLike[str]) -> None: ...
+
+HAS_WINDOW: bool
+
+def film_scene(
+    text: str,
+    path: str | PathLike[str],
+    seconds: float | None,
+    frame_rate: int,
+    view: View,
+) -> int: ...
 def read_scene(text: str, source: str, overrides: list[str]) -> str: ...
 def canonical_toml(text: str) -> str: ...
 def find_scene(
