@@ -36,11 +36,12 @@ from carom._parts import (
     Sun,
     ViscousDrag,
 )
+from carom._pictures import Renderer, Viewpoint
 from carom._scene import Scene
 from carom._tables import IMPACT, LEDGER, TRIGGER
 from carom._trajectory import Trajectory
 from carom._world import World
-from carom.errors import CaromError, SceneError, StepError, UnknownError
+from carom.errors import CaromError, GraphicsError, SceneError, StepError, UnknownError
 
 __all__ = [
     "IMPACT",
@@ -59,6 +60,7 @@ __all__ = [
     "Exact",
     "Force",
     "Generator",
+    "GraphicsError",
     "Gravity",
     "HalfSpace",
     "Lattice",
@@ -66,6 +68,7 @@ __all__ = [
     "Periodic",
     "RandomFill",
     "Rectangle",
+    "Renderer",
     "Row",
     "Scene",
     "SceneError",
@@ -77,6 +80,7 @@ __all__ = [
     "Sun",
     "Trajectory",
     "UnknownError",
+    "Viewpoint",
     "ViscousDrag",
     "World",
     "load",
