@@ -37,10 +37,11 @@ from carom._parts import (
     ViscousDrag,
 )
 from carom._scene import Scene
+from carom._sweep import Failure, Runs, sweep
 from carom._tables import IMPACT, LEDGER, TRIGGER
 from carom._trajectory import Trajectory
 from carom._world import World
-from carom.errors import CaromError, SceneError, StepError, UnknownError
+from carom.errors import CaromError, RunError, SceneError, StepError, UnknownError
 
 __all__ = [
     "IMPACT",
@@ -57,6 +58,7 @@ __all__ = [
     "DensityColor",
     "Emitter",
     "Exact",
+    "Failure",
     "Force",
     "Generator",
     "Gravity",
@@ -67,6 +69,8 @@ __all__ = [
     "RandomFill",
     "Rectangle",
     "Row",
+    "RunError",
+    "Runs",
     "Scene",
     "SceneError",
     "Shape",
@@ -82,4 +86,5 @@ __all__ = [
     "load",
     "scene",
     "scenes",
+    "sweep",
 ]
