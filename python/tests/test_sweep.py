@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -373,7 +374,7 @@ def test_a_killed_sweep_goes_on_where_it_was(where: str, tmp_path: Path) -> None
             # Not made yet.
             return 0
 
-    deadline = time.monotonic() + 30
+    deadline = time.monotonic() + 60
     while kept() < 15 and time.monotonic() < deadline:
         time.sleep(0.01)
     killed.kill()
@@ -417,6 +418,20 @@ def test_a_store_is_asked_for_the_same_measurement_of_the_same_scene(tmp_path: P
     assert performed(cloud, grid={"count": [2, 3]}, repeats=2, version="2") == 4
     assert performed(lambda count: cloud(count + 1), grid={"count": [2, 3]}, repeats=2) == 4
     assert performed(cloud, grid={"count": [2, 3]}, repeats=2) == 0
+
+
+def test_a_store_knows_what_partial_functions_are_given(tmp_path: Path) -> None:
+    def values(b: float) -> list[float]:
+        measure = partial(sum_of, b=b)
+        store = tmp_path / "runs.sqlite"
+        runs = carom.sweep("simtest1", {"a": [1]}, measure=measure, client="serial", store=store)
+        return runs.to_xarray().value.values.tolist()  # type: ignore[no-any-return]
+
+    assert [values(2.0), values(3.0), values(2.0)] == [[3.0], [4.0], [3.0]]
+
+
+def sum_of(world: carom.World, a: float, b: float) -> float:
+    return a + b
 
 
 def test_a_store_keeps_every_bit(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import io
 import json
@@ -34,7 +35,7 @@ CREATE TABLE IF NOT EXISTS runs (
     seed INTEGER,
     names TEXT NOT NULL,
     arrays BLOB NOT NULL
-) WITHOUT ROWID
+)
 """
 """What was measured is an ``.npz``, with an array for each of the names (JSON)."""
 
@@ -77,7 +78,7 @@ class Store:
     def _prepare(self) -> None:
         [application] = self._database.execute("PRAGMA application_id").fetchone()
         [number] = self._database.execute("PRAGMA user_version").fetchone()
-        [tables] = self._database.execute("SELECT count(*) FROM sqlite_schema").fetchone()
+        [tables] = self._database.execute("SELECT count(*) FROM sqlite_master").fetchone()
         if tables and (application, number) != (_APPLICATION, _FORMAT):
             told = f"format {number}" if application == _APPLICATION else "another application"
             raise CaromError(f"store: {self._path}: is a file of {told}", "store")
@@ -135,7 +136,10 @@ def _unpack(names: str, arrays: bytes) -> Measured:
 
 
 def _name_of(measure: Callable[..., Any]) -> str:
-    """The qualified name of a function."""
+    """The qualified name of a function, and of what `functools.partial` gives it."""
+    if isinstance(measure, functools.partial):
+        given = {f"#{place}": value for place, value in enumerate(measure.args)}
+        return f"{_name_of(measure.func)}({canonical_text({**given, **measure.keywords})})"
     name = getattr(measure, "__qualname__", None)
     if name is None or name.endswith("<lambda>"):
         raise CaromError(
