@@ -36,11 +36,20 @@ from carom._parts import (
     Sun,
     ViscousDrag,
 )
+from carom._pictures import Renderer, Viewpoint
 from carom._scene import Scene
+from carom._sweep import Failure, Runs, sweep
 from carom._tables import IMPACT, LEDGER, TRIGGER
 from carom._trajectory import Trajectory
 from carom._world import World
-from carom.errors import CaromError, SceneError, StepError, UnknownError
+from carom.errors import (
+    CaromError,
+    GraphicsError,
+    RunError,
+    SceneError,
+    StepError,
+    UnknownError,
+)
 
 __all__ = [
     "IMPACT",
@@ -57,8 +66,10 @@ __all__ = [
     "DensityColor",
     "Emitter",
     "Exact",
+    "Failure",
     "Force",
     "Generator",
+    "GraphicsError",
     "Gravity",
     "HalfSpace",
     "Lattice",
@@ -66,7 +77,10 @@ __all__ = [
     "Periodic",
     "RandomFill",
     "Rectangle",
+    "Renderer",
     "Row",
+    "RunError",
+    "Runs",
     "Scene",
     "SceneError",
     "Shape",
@@ -77,9 +91,11 @@ __all__ = [
     "Sun",
     "Trajectory",
     "UnknownError",
+    "Viewpoint",
     "ViscousDrag",
     "World",
     "load",
     "scene",
     "scenes",
+    "sweep",
 ]

@@ -6,7 +6,7 @@
 use std::sync::{Arc, Mutex, MutexGuard};
 
 use carom::{DVec3, World};
-use carom_scene::Scene;
+use carom_scene::{Palette, Scene};
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -33,6 +33,8 @@ pub struct Inner {
     /// What there is besides spheres. Forces, colliders and emitters are those of the world, in its
     /// order; colliders stand where they were when they were described.
     pub described: Arc<Scene>,
+    /// Colours; followed to the time of now only where it says so.
+    pub palette: Arc<Palette>,
     pub arrays: Arrays,
     /// Start of the last frame \[s\].
     pub frame_start: f64,
@@ -44,16 +46,28 @@ impl Inner {
         Arc::make_mut(&mut self.described)
     }
 
+    /// The colours, to be changed together with the world.
+    pub fn palette_mut(&mut self) -> &mut Palette {
+        Arc::make_mut(&mut self.palette)
+    }
+
+    /// Has the palette know all spheres of now.
+    pub fn follow_colors(&mut self) {
+        let time = self.world.time();
+        self.palette_mut().follow(time);
+    }
+
     /// The state, to return to.
     pub fn snapshot(&self) -> Snapshot {
-        let (world, described) = (self.world.snapshot(), Arc::clone(&self.described));
-        Snapshot { world, described, time: self.world.time() }
+        let (described, palette) = (Arc::clone(&self.described), Arc::clone(&self.palette));
+        Snapshot { world: self.world.snapshot(), described, palette, time: self.world.time() }
     }
 
     /// Returns to a state. What happened in the last frame is forgotten.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.world.restore(&snapshot.world);
         self.described = Arc::clone(&snapshot.described);
+        self.palette = Arc::clone(&snapshot.palette);
         self.frame_start = snapshot.time;
     }
 
@@ -99,11 +113,11 @@ impl Engine {
     #[new]
     fn new(text: &str) -> Result<Self, Failure> {
         let mut scene = Scene::from_toml(text, "scene").map_err(Failure::of_part)?;
-        let world = scene.world()?;
+        let (world, palette) = (scene.world()?, Arc::new(Palette::new(&scene)?));
         scene.spheres.clear();
         scene.generators.clear();
         let (described, arrays) = (Arc::new(scene), Arrays::default());
-        Ok(Self(Mutex::new(Inner { world, described, arrays, frame_start: 0.0 })))
+        Ok(Self(Mutex::new(Inner { world, described, palette, arrays, frame_start: 0.0 })))
     }
 
     /// Advances the world by `frames` frames of `dt` [s], or of the scene's own frame time.

@@ -21,6 +21,15 @@ mod describing;
 mod editing;
 mod engine;
 mod failure;
+mod maze;
+#[cfg(feature = "pictures")]
+mod film;
+#[cfg(feature = "pictures")]
+mod graphics_failure;
+#[cfg(feature = "pictures")]
+mod look;
+#[cfg(feature = "pictures")]
+mod painter;
 mod part;
 mod recording;
 mod running;
@@ -29,6 +38,9 @@ mod snapshot;
 mod tables;
 
 pub use engine::Engine;
+pub use maze::MazeEpisodes;
+#[cfg(feature = "pictures")]
+pub use painter::Painter;
 pub use snapshot::Snapshot;
 
 /// The compiled part of the package `carom`. Its interface is that of the package, not this one.
@@ -36,10 +48,22 @@ pub use snapshot::Snapshot;
 mod _carom {
     #[pymodule_export]
     use crate::Engine;
+    #[cfg(feature = "pictures")]
+    #[pymodule_export]
+    use crate::Painter;
+    #[pymodule_export]
+    use crate::MazeEpisodes;
     #[pymodule_export]
     use crate::Snapshot;
     #[pymodule_export]
     use crate::command_line::run_command;
+    #[cfg(feature = "pictures")]
+    #[pymodule_export]
+    use crate::film::film_scene;
     #[pymodule_export]
     use crate::scenes::{canonical_toml, find_scene, list_scenes, read_scene};
+
+    /// Whether `carom view` is there, and opens a window.
+    #[pymodule_export]
+    const HAS_WINDOW: bool = cfg!(feature = "view");
 }
