@@ -90,8 +90,8 @@ struct Level {
 struct Neighbourhood {
     /// In the box \[m\].
     center: DVec3,
-    /// Of the sphere \[m\].
-    radius: f64,
+    /// That of the sphere, or more by its rounding \[m\].
+    radius: f32,
     /// How often the sphere went round each periodic axis since its flight began.
     turns: [i32; 3],
 }
@@ -233,7 +233,7 @@ impl Neighbours {
         });
         let nowhere = |body: &Body| Neighbourhood {
             center: DVec3::ZERO,
-            radius: kinds[body.kind as usize].radius,
+            radius: rounded_up(kinds[body.kind as usize].radius),
             turns: [0; 3],
         };
         let mut neighbours = Self {
@@ -285,7 +285,7 @@ impl Neighbours {
     #[inline]
     pub fn read_place(&self, slot: u32) -> f64 {
         let listed = self.lists.as_ref().map_or(0, |lists| lists.first(slot as usize).len());
-        self.neighbourhoods[slot as usize].radius + listed as f64
+        f64::from(self.neighbourhoods[slot as usize].radius) + listed as f64
     }
 
     /// Reads the cells around a sphere, if there are no lists.
@@ -547,6 +547,7 @@ impl Neighbours {
     fn find_peers(&self, slot: u32, peers: &mut Buffer) {
         let [Level { grid, half_edges, own, .. }] = &self.levels[..] else { return };
         let Neighbourhood { center, radius, turns } = self.neighbourhoods[slot as usize];
+        let radius = f64::from(radius);
         grid.for_each_block(grid.cell_of(center), None, |block| {
             let start = peers.len;
             peers.add_block(own, &block);
@@ -559,7 +560,7 @@ impl Neighbours {
                 // Seen from the other one it is the same to the last bit, but for the sign.
                 let offset = (neighbourhood.center - center) + way;
                 let gap = (offset.abs() - reach).max(DVec3::ZERO);
-                let radius_sum = radius + neighbourhood.radius;
+                let radius_sum = radius + f64::from(neighbourhood.radius);
                 let is_near = gap.length_squared() <= radius_sum * radius_sum * SLACK;
                 is_near & (other.slot() != slot)
             });
@@ -620,4 +621,10 @@ impl Neighbours {
         }
         self.enter_cells(slot, level);
     }
+}
+
+/// The next number in single precision that is not less.
+fn rounded_up(number: f64) -> f32 {
+    let nearest = number as f32;
+    if f64::from(nearest) < number { nearest.next_up() } else { nearest }
 }

@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::body::{Body, Kind};
+use super::outlook::{Event, Outlook, Target};
 use super::stage::Stage;
 use super::surroundings::Surroundings;
-use super::timeline::{Event, Outlook, Target, Timeline};
+use super::timeline::Timeline;
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
@@ -73,7 +74,7 @@ fn outlook_after(
     } else {
         neighbours.departure(slot, body, kind, now)
     };
-    Outlook { event: first, departure }
+    Outlook::new(first, departure)
 }
 
 /// Lets a sphere pass over a meeting that is due before `until` \[s\], to begin another flight then.
@@ -81,7 +82,7 @@ fn outlook_after(
 /// Two bodies that hardly touch may meet, by the rounding of one formula, and have nothing to
 /// answer, by that of another. Whatever they are in doubt about is over within a contact's duration.
 pub(super) fn pause(timeline: &mut Timeline, slot: u32, bodies: Bodies, until: f64) {
-    let event = timeline.outlooks[slot as usize].event;
+    let event = timeline.outlooks[slot as usize].event();
     let sphere = timeline.index_of[slot as usize];
     let again = match event.target {
         Target::Sphere(other) => Bodies::pair([sphere, timeline.index_of[other as usize]]),
@@ -107,7 +108,7 @@ pub(super) fn relocate(timeline: &mut Timeline, stage: &mut Stage, slot: u32, no
     let level = timeline.kind_of(slot).level;
     let around = &mut stage.around[0];
     timeline.neighbours.relocate(slot, level, state.into(), &mut around.near);
-    let mut first = timeline.outlooks[slot as usize].event;
+    let mut first = timeline.outlooks[slot as usize].event();
     let start_with = start_with_later(timeline, slot);
     around.look_at_found(timeline, slot, &start_with, (slot, 0.0));
     around.first_meeting(timeline, slot, start_with, &mut first);

@@ -154,13 +154,11 @@ impl EventQueue {
             let bucket = self.next_bucket;
             self.next_bucket += 1;
             self.current_end = self.start + self.next_bucket as f64 * self.width;
-            let entries = &mut self.buckets[bucket];
-            if entries.is_empty() {
-                continue;
-            }
-            let before = entries.len();
-            self.current.extend(entries.drain(..).filter(|entry| is_live(entry)));
-            self.len -= before - self.current.len();
+            // It gives its memory back: full buckets and empty ones are never all of one size.
+            let entries = std::mem::take(&mut self.buckets[bucket]);
+            self.len -= entries.len();
+            self.current.extend(entries.into_iter().filter(|entry| is_live(entry)));
+            self.len += self.current.len();
             self.current.sort_unstable_by(|a, b| b.cmp(a));
             if !self.current.is_empty() {
                 return true;

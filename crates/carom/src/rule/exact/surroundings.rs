@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::body::{Body, Kind};
 use super::neighbour::Neighbour;
-use super::timeline::{Event, Target, Timeline};
+use super::outlook::{Event, Target};
+use super::timeline::Timeline;
 use super::vicinity::{Near, Vicinity};
 use crate::contact_time;
 use crate::detect::contact::Bodies;

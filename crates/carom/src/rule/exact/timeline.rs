@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::body::{Body, Kind};
 use super::cluster::{Cluster, Clusters};
 use super::neighbours::{self, Contents, Neighbours};
+use super::outlook::{Event, Next, Outlook, Target};
 use super::periodic;
 use super::queue::{Entry, EventQueue};
 use super::support::Support;
@@ -62,55 +63,6 @@ pub(crate) struct Timeline {
     /// Since the spheres were put in order of place.
     events: u64,
     departures: u64,
-}
-
-/// What a sphere meets next.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Event {
-    /// On the world's clock \[s\].
-    pub time: f64,
-    pub target: Target,
-    /// Number of the other sphere's flight for which this was predicted.
-    pub flights: u32,
-}
-
-/// What lies ahead of a sphere.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Outlook {
-    pub event: Event,
-    /// When it leaves its neighbourhood, on the world's clock \[s\].
-    pub departure: f64,
-}
-
-impl Outlook {
-    /// When the first of it happens, on the world's clock \[s\].
-    fn time(&self) -> f64 {
-        self.event.time.min(self.departure)
-    }
-}
-
-/// What happens next to a sphere.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Next {
-    Event(Event),
-    /// It leaves its neighbourhood at this time \[s\].
-    Departure(f64),
-}
-
-/// What a sphere comes upon.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Target {
-    /// Another sphere, by slot.
-    Sphere(u32),
-    Surface(u32),
-    /// The forces of its lasting contacts have to be found anew.
-    Cluster,
-    /// Nothing: its flight begins anew from where it is.
-    Restart,
-}
-
-impl Event {
-    pub const NEVER: Self = Self { time: f64::INFINITY, target: Target::Restart, flights: 0 };
 }
 
 impl Timeline {
@@ -307,7 +259,8 @@ impl Timeline {
 
     /// Notes what a sphere meets next.
     pub(super) fn reschedule(&mut self, slot: u32, event: Event) {
-        self.schedule(slot, Outlook { event, ..self.outlooks[slot as usize] });
+        let departure = self.outlooks[slot as usize].departure;
+        self.schedule(slot, Outlook::new(event, departure));
     }
 
     /// Notes what lies ahead of a sphere.
@@ -323,12 +276,9 @@ impl Timeline {
         let entry = self.queue.pop(end, |entry| is_live(&self.outlooks, entry))?;
         self.anticipate();
         self.events += 1;
-        let Outlook { event, departure } = self.outlooks[entry.slot as usize];
-        if departure < event.time {
-            self.departures += 1;
-            return Some((entry.slot, Next::Departure(departure)));
-        }
-        Some((entry.slot, Next::Event(event)))
+        let next = self.outlooks[entry.slot as usize].next();
+        self.departures += u64::from(matches!(next, Next::Departure(_)));
+        Some((entry.slot, next))
     }
 
     /// Whether the order of the spheres is out of date, in a box with these edges \[m\].
@@ -358,7 +308,7 @@ impl Timeline {
         // What is read in one step is found from what was read in the steps before.
         let spheres = |place: usize| {
             let slot = queue.upcoming(place);
-            let other = slot.and_then(|slot| match outlooks[slot as usize].event.target {
+            let other = slot.and_then(|slot| match outlooks[slot as usize].event().target {
                 Target::Sphere(other) => Some(other),
                 _ => None,
             });
