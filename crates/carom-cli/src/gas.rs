@@ -80,7 +80,12 @@ impl Filling {
     /// A frame in which a sphere takes part in 0.2 impacts on average, so that there are 0.1 per
     /// sphere: few enough for a short report, enough that frames cost little.
     pub fn frame_time(&self) -> f64 {
-        0.2 / self.collision_rate()
+        self.time_of(0.2)
+    }
+
+    /// A time in which a sphere takes part in so many impacts on average.
+    pub fn time_of(&self, collisions: f64) -> f64 {
+        collisions / self.collision_rate()
     }
 }
 

@@ -45,6 +45,12 @@ pub const NOTE: &str =
 /// Impacts in a run: enough for a second, and for every sphere to take part.
 const FEWEST_IMPACTS: u64 = 200_000;
 
+/// Collisions of a sphere in a frame: to write where all spheres are costs little then.
+const COLLISIONS_PER_FRAME: f64 = 0.5;
+
+/// Impacts in a frame, at most: more would make its report a large part of the memory measured.
+const MOST_IMPACTS_OF_A_FRAME: f64 = 100_000.0;
+
 /// How fast a gas is.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct GasRow {
@@ -109,7 +115,9 @@ pub fn measure(filling: Filling, args: &Bench) -> Result<GasRow, Failure> {
         )));
     }
     let memory_before = machine::peak_memory();
-    let h = filling.frame_time();
+    // Each impact is a collision of two spheres.
+    let longest = 2.0 * MOST_IMPACTS_OF_A_FRAME / filling.count as f64;
+    let h = filling.time_of(COLLISIONS_PER_FRAME.min(longest));
     let mut world = gas::gas(filling, Speeds::Equilibrium, Rule::default(), 1)?;
     gas::run_collisions(&mut world, h, COLLISIONS_TO_EQUILIBRIUM)?;
     let impacts = args.impacts.unwrap_or(FEWEST_IMPACTS.max(2 * filling.count as u64));
