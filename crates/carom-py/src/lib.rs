@@ -16,18 +16,19 @@
 
 mod arguments;
 mod arrays;
+mod batch;
 mod command_line;
 mod describing;
 mod editing;
 mod engine;
 mod failure;
-mod maze;
 #[cfg(feature = "pictures")]
 mod film;
 #[cfg(feature = "pictures")]
 mod graphics_failure;
 #[cfg(feature = "pictures")]
 mod look;
+mod maze;
 #[cfg(feature = "pictures")]
 mod painter;
 mod part;
@@ -36,7 +37,9 @@ mod running;
 mod scenes;
 mod snapshot;
 mod tables;
+mod threads;
 
+pub use batch::BatchEngine;
 pub use engine::Engine;
 pub use maze::MazeEpisodes;
 #[cfg(feature = "pictures")]
@@ -47,12 +50,14 @@ pub use snapshot::Snapshot;
 #[pyo3::pymodule(gil_used = true)]
 mod _carom {
     #[pymodule_export]
+    use crate::BatchEngine;
+    #[pymodule_export]
     use crate::Engine;
+    #[pymodule_export]
+    use crate::MazeEpisodes;
     #[cfg(feature = "pictures")]
     #[pymodule_export]
     use crate::Painter;
-    #[pymodule_export]
-    use crate::MazeEpisodes;
     #[pymodule_export]
     use crate::Snapshot;
     #[pymodule_export]
