@@ -44,12 +44,14 @@ impl Quantity {
         }
     }
 
+    /// Whether a sphere has one number of it, not three.
+    pub fn is_number(self) -> bool {
+        matches!(self, Self::Radii | Self::Masses | Self::Restitutions)
+    }
+
     /// The shape of its array for `count` spheres.
     pub fn shape(self, count: usize) -> Vec<usize> {
-        match self {
-            Self::Positions | Self::Velocities | Self::AppliedForces => vec![count, 3],
-            Self::Radii | Self::Masses | Self::Restitutions => vec![count],
-        }
+        if self.is_number() { vec![count] } else { vec![count, 3] }
     }
 
     /// Writes its values of all spheres one after another.

@@ -152,13 +152,21 @@ impl Members {
     /// # Errors
     /// [`Failure`] for a number that makes no sense.
     pub fn set(&mut self, quantity: Quantity, values: &[f64]) -> Result<(), Failure> {
-        let row = quantity.shape(self.spheres).iter().product::<usize>();
-        for number in 0..self.len() {
-            let own = &values[number * row..(number + 1) * row];
+        let row = quantity.shape(self.spheres).iter().product::<usize>().max(1);
+        if let Some(place) = values.iter().position(|value| !value.is_finite()) {
+            let (number, own) = (place / row, place / row * row);
             let world = &mut self.members[number].now.world;
-            let before = world.snapshot();
-            if let Err(failure) = engine::set_all(world, quantity, own) {
-                self.members[number].now.world.restore(&before);
+            return engine::set_all(world, quantity, &values[own..own + row]);
+        }
+        let mut before = Vec::new();
+        for (member, own) in self.members.iter_mut().zip(values.chunks_exact(row)) {
+            // Vectors are good if they are finite; only numbers may have to be taken back.
+            if quantity.is_number() {
+                before.push(member.world().snapshot());
+            }
+            if let Err(failure) = engine::set_all(&mut member.now.world, quantity, own) {
+                let both = self.members.iter_mut().zip(&before);
+                both.for_each(|(member, before)| member.now.world.restore(before));
                 return Err(failure);
             }
         }
