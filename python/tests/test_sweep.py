@@ -29,6 +29,7 @@ from distributed import Client, LocalCluster  # noqa: E402
 def client() -> Iterator[Client]:
     """Two workers, which may be killed: they are replaced."""
     with LocalCluster(2, 1, dashboard_address=":0") as cluster, Client(cluster) as client:
+        cluster.adapt(minimum=2, maximum=2)
         yield client
 
 
@@ -310,6 +311,8 @@ def test_a_run_that_kills_every_worker_is_blamed_alone(
 ) -> None:
     def measure(world: carom.World, a: int) -> int:
         if a == 20:
+            # Not while it starts: that takes longer to be noticed.
+            time.sleep(0.3)
             os.kill(os.getpid(), signal.SIGKILL)
         time.sleep(0.01)
         return a
