@@ -36,12 +36,20 @@ from carom._parts import (
     Sun,
     ViscousDrag,
 )
+from carom._pictures import Renderer, Viewpoint
 from carom._scene import Scene
 from carom._sweep import Failure, Runs, sweep
 from carom._tables import IMPACT, LEDGER, TRIGGER
 from carom._trajectory import Trajectory
 from carom._world import World
-from carom.errors import CaromError, RunError, SceneError, StepError, UnknownError
+from carom.errors import (
+    CaromError,
+    GraphicsError,
+    RunError,
+    SceneError,
+    StepError,
+    UnknownError,
+)
 
 __all__ = [
     "IMPACT",
@@ -61,6 +69,7 @@ __all__ = [
     "Failure",
     "Force",
     "Generator",
+    "GraphicsError",
     "Gravity",
     "HalfSpace",
     "Lattice",
@@ -68,6 +77,7 @@ __all__ = [
     "Periodic",
     "RandomFill",
     "Rectangle",
+    "Renderer",
     "Row",
     "RunError",
     "Runs",
@@ -81,6 +91,7 @@ __all__ = [
     "Sun",
     "Trajectory",
     "UnknownError",
+    "Viewpoint",
     "ViscousDrag",
     "World",
     "load",

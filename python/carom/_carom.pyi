@@ -2,16 +2,22 @@
 
 from collections.abc import Sequence
 from os import PathLike
-from typing import Self, final
+from typing import Self, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
+from carom._pictures import View
+
 __all__ = [
+    "HAS_WINDOW",
     "Engine",
+    "MazeEpisodes",
+    "Painter",
     "Snapshot",
     "canonical_toml",
+    "film_scene",
     "find_scene",
     "list_scenes",
     "read_scene",
@@ -114,6 +120,62 @@ class Snapshot:
     @property
     def time(self) -> float: ...
 
+@final
+class MazeEpisodes:
+    """Episodes of many balls in one maze: what the environments of `carom.gym` stand on."""
+
+    def __new__(
+        cls,
+        num_envs: int,
+        threads: int | None,
+        autoreset_mode: str,
+        start: str,
+        given: dict[str, object],
+    ) -> Self: ...
+    def step(self, actions: ArrayLike) -> _MazeStep: ...
+    def reset(
+        self, marked: list[bool], seeds: list[int | None], start: str | None
+    ) -> _MazeStep: ...
+    def scene_toml(self, ball: int) -> str: ...
+    @property
+    def bounds(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]: ...
+    @property
+    def rough_frames(self) -> int: ...
+    @property
+    def _seconds_in_engine(self) -> float: ...
+
+# Collectibles taken, and whether the end wall was touched.
+_MazeStates: TypeAlias = tuple[NDArray[np.int64], NDArray[np.bool_]]
+# Observations, rewards, terminated, truncated, states; which episodes ended and were started anew,
+# their last observations and states.
+_MazeStep: TypeAlias = tuple[
+    NDArray[np.float32],
+    NDArray[np.float64],
+    NDArray[np.bool_],
+    NDArray[np.bool_],
+    _MazeStates,
+    NDArray[np.int64],
+    NDArray[np.float32],
+    _MazeStates,
+]
+
+class Painter:
+    """What `carom.Renderer` stands on: a graphics device that is kept open, and a camera."""
+
+    def __new__(cls, world: Engine, view: View) -> Self: ...
+    def paint(self, world: Engine) -> NDArray[np.uint8]: ...
+    def png(self, world: Engine) -> bytes: ...
+    def save(self, world: Engine, path: str | PathLike[str]) -> None: ...
+
+HAS_WINDOW: bool
+
+def film_scene(
+    text: str,
+    path: str | PathLike[str],
+    seconds: float | None,
+    frame_rate: int,
+    view: View,
+) -> int: ...
 def read_scene(text: str, source: str, overrides: list[str]) -> str: ...
 def canonical_toml(text: str) -> str: ...
 def find_scene(

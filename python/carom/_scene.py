@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 import json
+import math
 import os
+import subprocess
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import NDArray
 
 from carom import _parts as parts
+from carom import _pictures as pictures
 from carom._carom import canonical_toml, read_scene
 from carom._text import fields_of, toml_of, toml_value
 from carom._trajectory import Trajectory
+from carom._window import open_window
 from carom._world import World
+from carom.errors import CaromError
 
 NO_CHANGES: Mapping[str, Any] = MappingProxyType({})
 
@@ -132,6 +140,124 @@ class Scene(parts.Part):
     ) -> Trajectory:
         """Runs the scene from its start, and records what happens: see `World.run`."""
         return self.world().run(seconds, frames=frames, dt=dt, every=every)
+
+    # Pictures
+
+    @overload
+    def picture(
+        self,
+        path: None = None,
+        *,
+        seconds: float = 0.0,
+        size: pictures.Size = pictures.SIZE,
+        camera: pictures.Viewpoint = "scene",
+        quality: pictures.Quality = "fine",
+        stamp: bool = True,
+    ) -> NDArray[np.uint8]: ...
+    @overload
+    def picture(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        seconds: float = 0.0,
+        size: pictures.Size = pictures.SIZE,
+        camera: pictures.Viewpoint = "scene",
+        quality: pictures.Quality = "fine",
+        stamp: bool = True,
+    ) -> None: ...
+    def picture(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        seconds: float = 0.0,
+        size: pictures.Size = pictures.SIZE,
+        camera: pictures.Viewpoint = "scene",
+        quality: pictures.Quality = "fine",
+        stamp: bool = True,
+    ) -> NDArray[np.uint8] | None:
+        """Draws the scene: the picture that ``carom picture`` draws, byte for byte.
+
+        Args:
+            path: A PNG file; folders that are missing are made. Without one, the picture comes
+                back as an array: red, green and blue (sRGB), shape (height, width, 3).
+            seconds: When: the frame nearest to this time [s].
+            size: Width and height [pixels].
+            camera: Where to look from: see `carom.Viewpoint`.
+            quality: How much work goes into it.
+            stamp: Whether scene and time stand at the lower left.
+
+        Raises:
+            CaromError: For an argument that makes no sense.
+            GraphicsError: If nothing can be drawn here.
+            OSError: If the file cannot be written.
+
+        >>> import carom
+        >>> carom.load("simtest1").picture(size=(320, 180), quality="draft").shape
+        (180, 320, 3)
+        """
+        view = pictures.View.of(size, camera, quality, stamp=stamp)
+        file = None if path is None else pictures.checked_path(path, ".png")
+        world = self.world()
+        for _ in range(_nearest_frame(seconds, world.frame_time)):
+            world.step()
+        return pictures.picture(world, file, view)
+
+    def record(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        seconds: float | None = None,
+        frame_rate: int = 30,
+        size: pictures.Size = pictures.SIZE,
+        camera: pictures.Viewpoint = "scene",
+        quality: pictures.Quality = "fine",
+        stamp: bool = True,
+    ) -> int:
+        """Films the scene from its start, as ``carom record`` does; the number of frames.
+
+        Other threads run meanwhile. Ctrl-C stops after the frame at work; what was filmed until
+        then is a film.
+
+        Args:
+            path: An mp4 file (H.264); folders that are missing are made.
+            seconds: How long [s], up to a whole frame; the scene's own duration unless given.
+            frame_rate: Frames per second of the film: a divisor of 90,000 up to 240.
+            size: Width and height [pixels], both even.
+            camera: Where to look from: see `carom.Viewpoint`.
+            quality: How much work goes into each picture.
+            stamp: Whether scene and time stand at the lower left.
+
+        Raises:
+            CaromError: For an argument that makes no sense, or a step that cannot be taken.
+            GraphicsError: If nothing can be drawn here.
+            OSError: If the file cannot be written.
+        """
+        view = pictures.View.of(size, camera, quality, stamp=stamp)
+        return pictures.film(toml_of(self), path, seconds, frame_rate, view)
+
+    def view(self) -> subprocess.Popen[bytes]:
+        """Opens the scene in a window, in a process of its own, and does not wait.
+
+        Its ``wait()`` waits until the window is closed.
+
+        Raises:
+            SceneError: If the scene makes no sense.
+            GraphicsError: If this build has no window, or it cannot be opened here.
+        """
+        return open_window(self.to_toml())
+
+    def _repr_png_(self) -> bytes | None:
+        """The scene in a notebook."""
+        return pictures.notebook_picture(self)
+
+
+def _nearest_frame(seconds: float, frame_time: float) -> int:
+    """The number of the frame nearest to a time."""
+    if not isinstance(seconds, (int, float, np.number)):
+        raise TypeError(f"seconds: must be a number, not {type(seconds).__name__}")
+    if not 0 <= seconds < math.inf:
+        raise CaromError(f"seconds: must be zero or positive, and finite, not {seconds}", "seconds")
+    return math.floor(float(seconds) / frame_time + 0.5)
 
 
 def overrides(changes: Mapping[str, Any]) -> list[str]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import copy
+import os
+from typing import TYPE_CHECKING, Any, NoReturn, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom import _parts as parts
+from carom import _pictures as pictures
 from carom import _tables as tables
 from carom._carom import Engine
 from carom._text import read_part, read_parts, toml_of, toml_value
@@ -63,6 +66,22 @@ class World(Engine):
 
     def __init__(self, scene: Scene | None = None) -> None:
         """Everything is made by then."""
+
+    def __copy__(self) -> World:
+        """A world of its own that goes on as this one does, bit for bit."""
+        return self.__deepcopy__({})
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> World:
+        twin = type(self).__new__(type(self))
+        twin.restore(self.snapshot())
+        twin.__dict__.update(copy.deepcopy(self.__dict__, memo))
+        return twin
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError(
+            "a carom.World cannot be pickled: flights under the rule exact have no written form; "
+            "pickle world.to_scene(), which begins as the world is now, or copy.copy the world"
+        )
 
     def __repr__(self) -> str:
         return f"<carom.World at {self.time} s, {len(self)} spheres>"
@@ -249,3 +268,43 @@ class World(Engine):
         from carom._scene import Scene
 
         return Scene.from_toml(self._scene_toml())
+
+    # Pictures
+
+    @overload
+    def picture(
+        self,
+        path: None = None,
+        *,
+        size: pictures.Size = pictures.SIZE,
+        camera: pictures.Viewpoint = "scene",
+        quality: pictures.Quality = "fine",
+        stamp: bool = True,
+    ) -> NDArray[np.uint8]: ...
+    @overload
+    def picture(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        size: pictures.Size = pictures.SIZE,
+        camera: pictures.Viewpoint = "scene",
+        quality: pictures.Quality = "fine",
+        stamp: bool = True,
+    ) -> None: ...
+    def picture(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        size: pictures.Size = pictures.SIZE,
+        camera: pictures.Viewpoint = "scene",
+        quality: pictures.Quality = "fine",
+        stamp: bool = True,
+    ) -> NDArray[np.uint8] | None:
+        """Draws the world as it is now: see `Scene.picture`; `carom.Renderer` draws many faster."""
+        view = pictures.View.of(size, camera, quality, stamp=stamp)
+        file = None if path is None else pictures.checked_path(path, ".png")
+        return pictures.picture(self, file, view)
+
+    def _repr_png_(self) -> bytes | None:
+        """The world of now in a notebook."""
+        return pictures.notebook_picture(self)

@@ -25,6 +25,10 @@ class UnknownError(CaromError, LookupError):
     """A name or an id that names nothing."""
 
 
+class GraphicsError(CaromError, RuntimeError):
+    """Nothing can be drawn here: there is no graphics driver, or this build has no pictures."""
+
+
 class StepError(CaromError, ArithmeticError):
     """A step that cannot be taken: a number would overflow, or there are too many impacts."""
 

@@ -11,10 +11,14 @@ ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.parametrize("file", ["README.md", "docs/python.md", "python/README.md"])
-def test_the_examples_run_one_after_the_other(file: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_examples_run_one_after_the_other(
+    file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     pytest.importorskip("pandas")
     pytest.importorskip("xarray")
     monkeypatch.setattr(carom._library, "_registered", {})
+    # For the files that they write.
+    monkeypatch.chdir(tmp_path)
     blocks = re.findall(
         r"```python\n(.*?)```", (ROOT / file).read_text(encoding="utf-8"), re.DOTALL
     )

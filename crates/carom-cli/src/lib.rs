@@ -1,4 +1,5 @@
-//! The command line of Carom: what the program `carom` does, and `python -m carom`.
+//! The command line of Carom: what the program `carom` does, and `python -m carom`. What draws is
+//! a library, too (`pictures`).
 
 #![warn(clippy::unwrap_used)]
 
@@ -12,7 +13,7 @@ mod link;
 mod machine;
 mod numbers;
 #[cfg(feature = "pictures")]
-mod pictures;
+pub mod pictures;
 mod progress;
 mod run;
 mod scenes;

@@ -1,14 +1,13 @@
 //! Changing a world from outside.
 
 use carom::Collider;
-use carom_scene::Palette;
 use carom_scene::scene::{self, Force};
+use carom_scene::{Palette, part};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::failure::Failure;
 use crate::find::{self, only};
-use crate::part;
 use crate::world::World;
 
 /// Ids of what was added.
@@ -75,6 +74,7 @@ impl World {
             let (radius, mass) = (spheres.radii()[index], spheres.masses()[index]);
             let color = palette.sphere(id.number(), radius, mass);
             let id = self.world.add_sphere(spheres.get(index))?;
+            self.description.palette.add_sphere(id.number(), Some(color));
             self.description.members.add(id, color);
             added.spheres.push(id.number());
         }

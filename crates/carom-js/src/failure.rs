@@ -1,5 +1,6 @@
 //! What a JavaScript error is made of.
 
+use carom_scene::part::PartError;
 use carom_scene::{Fault, SceneError};
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -22,16 +23,6 @@ impl Failure {
     /// A failure that is about no place of a scene.
     pub(crate) fn new(message: impl ToString) -> Self {
         Self { message: message.to_string(), place: None }
-    }
-
-    /// What is wrong with a part that was described in code: it has no lines, and no name.
-    pub(crate) fn of_part(error: SceneError) -> Self {
-        let SceneError::Invalid(fault) = error else { return error.into() };
-        let place = Place { field: fault.field.clone(), line: None };
-        // The field stands where a file has its name and line.
-        let name = if fault.field.is_empty() { fault.source_name } else { fault.field };
-        let told = Fault { source_name: name, field: String::new(), line: None, ..fault };
-        Self { message: told.to_string(), place: Some(place) }
     }
 }
 
@@ -65,6 +56,12 @@ impl Failure {
 impl From<carom::Error> for Failure {
     fn from(error: carom::Error) -> Self {
         Self::new(error)
+    }
+}
+
+impl From<PartError> for Failure {
+    fn from(PartError { message, field }: PartError) -> Self {
+        Self { message, place: Some(Place { field, line: None }) }
     }
 }
 

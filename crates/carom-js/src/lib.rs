@@ -4,7 +4,7 @@
 //! two go numbers, text and places in memory:
 //!
 //! - what users describe comes as TOML, in the words of scene files, and is read and checked by
-//!   `carom-scene` (`part`);
+//!   `carom-scene`;
 //! - descriptions go back as JSON;
 //! - arrays of spheres are not copied: this side says where they lie, the other looks at the
 //!   [`memory`] there, until something is added, removed or stepped.
@@ -19,7 +19,6 @@ mod failure;
 mod find;
 mod impact_table;
 mod members;
-mod part;
 mod snapshot;
 mod world;
 

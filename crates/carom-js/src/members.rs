@@ -13,8 +13,6 @@ pub struct Members {
     ids: Vec<f64>,
     /// Red, green and blue of each, in \[0, 1\] (sRGB).
     colors: Vec<f32>,
-    /// Ids of those that were added in code, ascending: the palette of a scene does not count them.
-    added: Vec<u64>,
 }
 
 impl Members {
@@ -30,7 +28,6 @@ impl Members {
 
     /// Adds a sphere that was added in code; its id must be the largest so far.
     pub fn add(&mut self, id: SphereId, color: Color) {
-        self.added.push(id.number());
         self.push(id.number() as f64, color.map(|part| part as f32));
     }
 
@@ -56,7 +53,6 @@ impl Members {
     /// Follows what emitters added and retired: `spheres` are those of now.
     pub fn follow(&mut self, spheres: &Spheres, palette: &Palette) {
         let before = std::mem::take(self);
-        self.added = before.added;
         // Both lists are ascending.
         let mut place = 0;
         for (index, id) in spheres.ids().iter().enumerate() {
@@ -67,23 +63,13 @@ impl Members {
             let known = before.ids.get(place) == Some(&number);
             let color = match before.colors.get(3 * place..3 * place + 3) {
                 Some(&[red, green, blue]) if known => [red, green, blue],
-                _ => self.color_of_scene(id.number(), index, spheres, palette),
+                _ => {
+                    let (radius, mass) = (spheres.radii()[index], spheres.masses()[index]);
+                    palette.sphere(id.number(), radius, mass).map(|part| part as f32)
+                }
             };
             self.push(number, color);
         }
-    }
-
-    /// The colour of a sphere that the scene brought.
-    fn color_of_scene(
-        &self,
-        number: u64,
-        index: usize,
-        spheres: &Spheres,
-        palette: &Palette,
-    ) -> [f32; 3] {
-        let added_before = self.added.partition_point(|&id| id < number) as u64;
-        let (radius, mass) = (spheres.radii()[index], spheres.masses()[index]);
-        palette.sphere(number - added_before, radius, mass).map(|part| part as f32)
     }
 
     fn push(&mut self, number: f64, color: [f32; 3]) {

@@ -1,7 +1,7 @@
 //! Telling what is in a world, as JSON. Infinite numbers are `null`.
 
-use carom::Mass;
-use carom_scene::scene::{Collider, Sphere};
+use carom::{Mass, SphereId};
+use carom_scene::scene::{Collider, Color, Sphere};
 use pyo3::prelude::*;
 
 use crate::arguments;
@@ -44,19 +44,21 @@ impl Engine {
     #[pyo3(name = "_sphere_json")]
     fn sphere_json(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<String> {
         let id = arguments::id("sphere", id)?;
-        let inner = &*self.lock(py)?;
-        let sphere = inner.world.sphere(carom::SphereId::from_number(id)).map_err(Failure::from)?;
-        json(&described(&sphere))
+        let inner = &mut *self.lock(py)?;
+        let sphere = inner.world.sphere(SphereId::from_number(id)).map_err(Failure::from)?;
+        inner.follow_colors();
+        json(&described(&sphere, inner.palette.own(id)))
     }
 
     /// The text of a scene that begins as the world is now: time begins at 0 there, and emitters
     /// begin anew.
     #[pyo3(name = "_scene_toml")]
     fn scene_toml(&self, py: Python<'_>) -> PyResult<String> {
-        let inner = &*self.lock(py)?;
-        let (spheres, mut scene) = (inner.world.spheres(), (*inner.described).clone());
+        let inner = &mut *self.lock(py)?;
+        inner.follow_colors();
+        let mut scene = (*inner.described).clone();
         scene.colliders = colliders_now(inner);
-        scene.spheres = (0..spheres.len()).map(|i| described(&spheres.get(i))).collect();
+        scene.spheres = spheres_now(inner);
         // Rules that find contacts late let spheres overlap; a scene has to admit it.
         if !scene.simulation.allow_overlap && scene.world().is_err() {
             scene.simulation.allow_overlap = true;
@@ -80,8 +82,16 @@ fn colliders_now(inner: &Inner) -> Vec<Collider> {
     inner.described.colliders.iter().zip(poses).map(moved).collect()
 }
 
+/// The spheres of a world, each with its own colour if it has one.
+fn spheres_now(inner: &Inner) -> Vec<Sphere> {
+    let spheres = inner.world.spheres();
+    let color = |id: &SphereId| inner.palette.own(id.number());
+    let rows = spheres.ids().iter().enumerate();
+    rows.map(|(i, id)| described(&spheres.get(i), color(id))).collect()
+}
+
 /// A sphere as scene files write it.
-fn described(sphere: &carom::Sphere) -> Sphere {
+fn described(sphere: &carom::Sphere, color: Option<Color>) -> Sphere {
     let mass = match sphere.mass {
         Mass::Kilograms(mass) => mass,
         Mass::Density(_) => sphere.kilograms(),
@@ -90,6 +100,7 @@ fn described(sphere: &carom::Sphere) -> Sphere {
         velocity: sphere.velocity.to_array(),
         mass: Some(mass),
         restitution: sphere.restitution,
+        color,
         ..Sphere::at(sphere.position.to_array(), sphere.radius)
     }
 }

@@ -3,6 +3,8 @@
 // What is said of methods here is read in Python: units in plain brackets, errors in Google's style.
 #![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_rust_codeblocks)]
 
+use std::sync::Arc;
+
 use carom::{Collider, ColliderId, DVec3, Emitter, EmitterId, ForceId, Sphere, SphereId, World};
 use carom_scene::Scene;
 use numpy::PyArray1;
@@ -23,7 +25,13 @@ impl Engine {
     fn add_spheres_of(&self, py: Python<'_>, text: &str) -> PyResult<Vec<u64>> {
         let part = part::read(text)?;
         let spheres = spheres_of(&part)?;
-        let ids = self.change(py, |inner| add_all(&mut inner.world, &spheres))?;
+        let ids = self.change(py, |inner| {
+            let ids = add_all(&mut inner.world, &spheres)?;
+            for (id, sphere) in ids.iter().zip(&part.spheres) {
+                inner.palette_mut().add_sphere(id.number(), sphere.color);
+            }
+            Ok(ids)
+        })?;
         Ok(ids.iter().map(|id| id.number()).collect())
     }
 
@@ -42,7 +50,11 @@ impl Engine {
         let columns: Vec<Vec<f64>> =
             Quantity::ALL.into_iter().zip(quantities).map(read).collect::<PyResult<_>>()?;
         let spheres: Vec<Sphere> = (0..count).map(|index| sphere_at(&columns, index)).collect();
-        let ids = self.change(py, |inner| add_all(&mut inner.world, &spheres))?;
+        let ids = self.change(py, |inner| {
+            let ids = add_all(&mut inner.world, &spheres)?;
+            ids.iter().for_each(|id| inner.palette_mut().add_sphere(id.number(), None));
+            Ok(ids)
+        })?;
         Ok(arrays::numbers(py, &ids))
     }
 
@@ -66,6 +78,7 @@ impl Engine {
         self.change(py, |inner| {
             let id = inner.world.add_collider(collider)?;
             inner.described_mut().colliders.extend(part.colliders);
+            inner.color_colliders();
             Ok(id.number())
         })
     }
@@ -78,6 +91,7 @@ impl Engine {
         self.change(py, |inner| {
             let id = inner.world.add_emitter(emitter)?;
             inner.described_mut().emitters.extend(part.emitters);
+            inner.color_emitted();
             Ok(id.number())
         })
     }
@@ -90,9 +104,14 @@ impl Engine {
     #[pyo3(name = "_set_sphere")]
     fn set_sphere_of(&self, py: Python<'_>, id: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
         let id = arguments::id("sphere", id)?;
-        let spheres = spheres_of(&part::read(text)?)?;
-        let sphere = *only(&spheres)?;
-        self.change(py, |inner| Ok(inner.world.set_sphere(SphereId::from_number(id), sphere)?))
+        let part = part::read(text)?;
+        let spheres = spheres_of(&part)?;
+        let (sphere, color) = (*only(&spheres)?, only(&part.spheres)?.color);
+        self.change(py, |inner| {
+            inner.world.set_sphere(SphereId::from_number(id), sphere)?;
+            inner.palette_mut().paint(id, color);
+            Ok(())
+        })
     }
 
     /// Takes a sphere out of the world. Those after it move up in the arrays.
@@ -145,6 +164,7 @@ impl Engine {
             let (id, place) = find_collider(&inner.world, id)?;
             inner.world.set_collider(id, collider)?;
             inner.described_mut().colliders[place].clone_from(only(&part.colliders)?);
+            inner.color_colliders();
             Ok(())
         })
     }
@@ -159,6 +179,7 @@ impl Engine {
             let (id, place) = find_collider(&inner.world, id)?;
             inner.world.remove_collider(id)?;
             inner.described_mut().colliders.remove(place);
+            inner.color_colliders();
             Ok(())
         })
     }
@@ -173,6 +194,7 @@ impl Engine {
             let (id, place) = find_emitter(&inner.world, id)?;
             inner.world.set_emitter(id, emitter)?;
             inner.described_mut().emitters[place].clone_from(only(&part.emitters)?);
+            inner.color_emitted();
             Ok(())
         })
     }
@@ -187,6 +209,7 @@ impl Engine {
             let (id, place) = find_emitter(&inner.world, id)?;
             inner.world.remove_emitter(id)?;
             inner.described_mut().emitters.remove(place);
+            inner.color_emitted();
             Ok(())
         })
     }
@@ -200,6 +223,20 @@ impl Engine {
             inner.described_mut().simulation = part.simulation;
             Ok(())
         })
+    }
+}
+
+impl Inner {
+    /// Draws the colliders in the colours of their descriptions from now on.
+    fn color_colliders(&mut self) {
+        Arc::make_mut(&mut self.palette).set_colliders(&self.described.colliders);
+    }
+
+    /// Likewise what emitters emit.
+    fn color_emitted(&mut self) {
+        let (time, spheres) = (self.world.time(), self.world.spheres().ids());
+        let emitters = &self.described.emitters;
+        Arc::make_mut(&mut self.palette).set_emitters(emitters, time, spheres);
     }
 }
 

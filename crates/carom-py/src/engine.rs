@@ -5,8 +5,8 @@
 
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use carom::{DVec3, World};
-use carom_scene::Scene;
+use carom::{DVec3, Sphere, SphereId, World};
+use carom_scene::{Palette, Scene};
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -33,6 +33,8 @@ pub struct Inner {
     /// What there is besides spheres. Forces, colliders and emitters are those of the world, in its
     /// order; colliders stand where they were when they were described.
     pub described: Arc<Scene>,
+    /// Colours; followed to the time of now only where it says so.
+    pub palette: Arc<Palette>,
     pub arrays: Arrays,
     /// Start of the last frame \[s\].
     pub frame_start: f64,
@@ -44,16 +46,28 @@ impl Inner {
         Arc::make_mut(&mut self.described)
     }
 
+    /// The colours, to be changed together with the world.
+    pub fn palette_mut(&mut self) -> &mut Palette {
+        Arc::make_mut(&mut self.palette)
+    }
+
+    /// Has the palette know all spheres of now.
+    pub fn follow_colors(&mut self) {
+        let time = self.world.time();
+        self.palette_mut().follow(time);
+    }
+
     /// The state, to return to.
     pub fn snapshot(&self) -> Snapshot {
-        let (world, described) = (self.world.snapshot(), Arc::clone(&self.described));
-        Snapshot { world, described, time: self.world.time() }
+        let (described, palette) = (Arc::clone(&self.described), Arc::clone(&self.palette));
+        Snapshot { world: self.world.snapshot(), described, palette, time: self.world.time() }
     }
 
     /// Returns to a state. What happened in the last frame is forgotten.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.world.restore(&snapshot.world);
         self.described = Arc::clone(&snapshot.described);
+        self.palette = Arc::clone(&snapshot.palette);
         self.frame_start = snapshot.time;
     }
 
@@ -99,11 +113,11 @@ impl Engine {
     #[new]
     fn new(text: &str) -> Result<Self, Failure> {
         let mut scene = Scene::from_toml(text, "scene").map_err(Failure::of_part)?;
-        let world = scene.world()?;
+        let (world, palette) = (scene.world()?, Arc::new(Palette::new(&scene)?));
         scene.spheres.clear();
         scene.generators.clear();
         let (described, arrays) = (Arc::new(scene), Arrays::default());
-        Ok(Self(Mutex::new(Inner { world, described, arrays, frame_start: 0.0 })))
+        Ok(Self(Mutex::new(Inner { world, described, palette, arrays, frame_start: 0.0 })))
     }
 
     /// Advances the world by `frames` frames of `dt` [s], or of the scene's own frame time.
@@ -243,6 +257,18 @@ impl Engine {
         self.set_quantity(Quantity::Restitutions, values)
     }
 
+    /// Forces applied to single spheres [N], shape (n, 3), besides those that act on all; held until
+    /// they are set again. Spheres that come into the world have none.
+    #[getter]
+    fn applied_forces(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::AppliedForces)
+    }
+
+    #[setter]
+    fn set_applied_forces(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::AppliedForces, values)
+    }
+
     /// Ids, ascending, shape (n,), uint64. An id is never given twice in one world.
     #[getter]
     fn ids(&self, py: Python<'_>) -> PyResult<Py<PyArray1<u64>>> {
@@ -273,24 +299,50 @@ impl Engine {
 }
 
 /// Sets a quantity of all spheres; if a value is refused, none is set.
-fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<(), Failure> {
-    let before = world.snapshot();
+pub fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<(), Failure> {
+    let about = |error: carom::Error| Failure::from(error).about(quantity.name());
+    let vectors = || values.chunks_exact(3).map(DVec3::from_slice);
     let ids = world.spheres().ids().to_vec();
-    for (index, id) in ids.into_iter().enumerate() {
-        let mut sphere = world.spheres().get(index);
-        match quantity {
-            Quantity::Positions => sphere.position = DVec3::from_slice(&values[3 * index..]),
-            Quantity::Velocities => sphere.velocity = DVec3::from_slice(&values[3 * index..]),
-            Quantity::Radii => sphere.radius = values[index],
-            Quantity::Masses => sphere = sphere.with_mass(values[index]),
-            Quantity::Restitutions => sphere.restitution = values[index],
+    let old = world.spheres();
+    match quantity {
+        Quantity::Positions | Quantity::Velocities => {
+            let kept = match quantity {
+                Quantity::Positions => old.velocities(),
+                _ => old.positions(),
+            };
+            let motion = |((id, new), &kept): ((SphereId, DVec3), &DVec3)| match quantity {
+                Quantity::Positions => (id, new, kept),
+                _ => (id, kept, new),
+            };
+            let motions: Vec<_> = ids.into_iter().zip(vectors()).zip(kept).map(motion).collect();
+            world.set_motions(&motions).map_err(about)
         }
-        if let Err(error) = world.set_sphere(id, sphere) {
-            world.restore(&before);
-            return Err(Failure::from(error).about(quantity.name()));
+        Quantity::AppliedForces => {
+            let forces: Vec<DVec3> = vectors().collect();
+            world.set_applied_forces(&forces).map_err(about)
+        }
+        Quantity::Radii | Quantity::Masses | Quantity::Restitutions => {
+            let before = world.snapshot();
+            for (index, (id, &value)) in ids.into_iter().zip(values).enumerate() {
+                let sphere = changed(world.spheres().get(index), quantity, value);
+                if let Err(error) = world.set_sphere(id, sphere) {
+                    world.restore(&before);
+                    return Err(about(error));
+                }
+            }
+            Ok(())
         }
     }
-    Ok(())
+}
+
+/// A sphere with another property.
+fn changed(sphere: Sphere, quantity: Quantity, value: f64) -> Sphere {
+    match quantity {
+        Quantity::Radii => Sphere { radius: value, ..sphere },
+        Quantity::Masses => sphere.with_mass(value),
+        Quantity::Restitutions => Sphere { restitution: value, ..sphere },
+        Quantity::Positions | Quantity::Velocities | Quantity::AppliedForces => sphere,
+    }
 }
 
 /// Sums over all spheres.

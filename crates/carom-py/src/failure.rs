@@ -1,6 +1,8 @@
 //! What a Python exception is made of.
 
-use carom_scene::{Fault, SceneError};
+use carom_maze::{EpisodeError, MazeError};
+use carom_scene::SceneError;
+use carom_scene::part::PartError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
@@ -26,6 +28,9 @@ enum Kind {
     Unknown,
     /// A step that cannot be taken.
     Step,
+    /// Nothing can be drawn here.
+    #[cfg(feature = "pictures")]
+    Graphics,
 }
 
 impl Kind {
@@ -35,6 +40,8 @@ impl Kind {
             Self::Scene => "SceneError",
             Self::Unknown => "UnknownError",
             Self::Step => "StepError",
+            #[cfg(feature = "pictures")]
+            Self::Graphics => "GraphicsError",
         }
     }
 }
@@ -65,21 +72,22 @@ impl Failure {
         Self::new(Kind::Unknown, format!("there is no {kind} {number} in this world"))
     }
 
-    /// What is wrong with a part that was described in code: it has no lines, and no name.
+    /// Nothing can be drawn here, for this reason.
+    #[cfg(feature = "pictures")]
+    pub fn graphics(problem: impl ToString) -> Self {
+        Self::new(Kind::Graphics, problem)
+    }
+
+    /// What is wrong with a scene that was described in code: it has no lines, and no name.
     pub fn of_part(error: SceneError) -> Self {
-        match error {
-            SceneError::Invalid(fault) if !fault.field.is_empty() => {
-                let nameless = Fault {
-                    source_name: fault.field.clone(),
-                    field: String::new(),
-                    line: None,
-                    ..fault
-                };
-                let failure = Self::new(Kind::Scene, nameless);
-                Self { field: Some(fault.field), ..failure }
-            }
-            other => other.into(),
-        }
+        PartError::from(error).into()
+    }
+}
+
+impl From<PartError> for Failure {
+    fn from(PartError { message, field }: PartError) -> Self {
+        let field = Some(field).filter(|field| !field.is_empty());
+        Self { field, ..Self::new(Kind::Scene, message) }
     }
 }
 
@@ -104,6 +112,29 @@ impl From<SceneError> for Failure {
             _ => (Kind::Scene, None, None),
         };
         Self { kind, message, field, line }
+    }
+}
+
+impl From<EpisodeError> for Failure {
+    fn from(error: EpisodeError) -> Self {
+        match error {
+            EpisodeError::Option { field, requirement, value } => {
+                Self::value(field, format_args!("must be {requirement}, not {value}"))
+            }
+            EpisodeError::Physics(error) => error.into(),
+            EpisodeError::Maze(error) => error.into(),
+            other => Self::new(Kind::Value, other),
+        }
+    }
+}
+
+impl From<MazeError> for Failure {
+    fn from(error: MazeError) -> Self {
+        match error {
+            MazeError::Scene(error) => error.into(),
+            MazeError::Size { .. } => Self::new(Kind::Value, error).about("maze_size"),
+            _ => Self::new(Kind::Scene, error).about("maze"),
+        }
     }
 }
 

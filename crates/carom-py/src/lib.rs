@@ -16,30 +16,59 @@
 
 mod arguments;
 mod arrays;
+mod batch;
 mod command_line;
 mod describing;
 mod editing;
 mod engine;
 mod failure;
+#[cfg(feature = "pictures")]
+mod film;
+#[cfg(feature = "pictures")]
+mod graphics_failure;
+#[cfg(feature = "pictures")]
+mod look;
+mod maze;
+#[cfg(feature = "pictures")]
+mod painter;
 mod part;
 mod recording;
 mod running;
 mod scenes;
 mod snapshot;
 mod tables;
+mod threads;
 
+pub use batch::BatchEngine;
 pub use engine::Engine;
+pub use maze::MazeEpisodes;
+#[cfg(feature = "pictures")]
+pub use painter::Painter;
 pub use snapshot::Snapshot;
 
 /// The compiled part of the package `carom`. Its interface is that of the package, not this one.
 #[pyo3::pymodule(gil_used = true)]
 mod _carom {
     #[pymodule_export]
+    use crate::BatchEngine;
+    #[pymodule_export]
     use crate::Engine;
+    #[pymodule_export]
+    use crate::MazeEpisodes;
+    #[cfg(feature = "pictures")]
+    #[pymodule_export]
+    use crate::Painter;
     #[pymodule_export]
     use crate::Snapshot;
     #[pymodule_export]
     use crate::command_line::run_command;
+    #[cfg(feature = "pictures")]
+    #[pymodule_export]
+    use crate::film::film_scene;
     #[pymodule_export]
     use crate::scenes::{canonical_toml, find_scene, list_scenes, read_scene};
+
+    /// Whether `carom view` is there, and opens a window.
+    #[pymodule_export]
+    const HAS_WINDOW: bool = cfg!(feature = "view");
 }

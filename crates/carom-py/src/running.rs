@@ -136,7 +136,7 @@ fn arrays_of(py: Python<'_>, recording: Recording) -> PyResult<Arrays<'_>> {
 }
 
 /// How many frames of `dt` \[s\] take this long \[s\], up to whole ones.
-fn whole_frames(seconds: f64, dt: f64) -> Result<u64, Failure> {
+pub fn whole_frames(seconds: f64, dt: f64) -> Result<u64, Failure> {
     let is_duration = seconds.is_finite() && seconds >= 0.0;
     if !is_duration {
         let problem = format_args!("must be zero or positive, and finite, not {seconds}");

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use carom_scene::Scene;
+use carom_scene::{Palette, Scene};
 use pyo3::prelude::*;
 
 /// The state of a world at one moment: what `World.snapshot` gives and `World.restore` takes.
@@ -14,6 +14,7 @@ use pyo3::prelude::*;
 pub struct Snapshot {
     pub(crate) world: carom::Snapshot,
     pub(crate) described: Arc<Scene>,
+    pub(crate) palette: Arc<Palette>,
     /// \[s\]
     pub(crate) time: f64,
 }

@@ -2,7 +2,7 @@
 //!
 //! A [`Scene`] is what a TOML file says ([`scene`]), checked; [`Scene::world`] makes a
 //! [`carom::World`] of it. A [`Library`] finds scenes by name: built-in ones, those in folders,
-//! and those registered from code. `recording` (feature `recording`) writes trajectories and
+//! and those registered from code. [`part`] reads what is added to worlds. `recording` (feature `recording`) writes trajectories and
 //! impacts, and plays trajectories again. A [`Palette`] says in which colours a scene is drawn.
 //!
 //! ```
@@ -27,6 +27,7 @@ mod origin;
 mod overlap;
 mod overrides;
 mod palette;
+pub mod part;
 #[cfg(feature = "recording")]
 pub mod recording;
 pub mod scene;

@@ -1,17 +1,19 @@
 //! Colours of spheres and colliders, for whoever draws them.
 
-use carom::volume;
+use std::collections::BTreeMap;
+
+use carom::{SphereId, volume};
 
 use crate::error::SceneError;
 use crate::generate;
 use crate::origin::{Origin, Origins};
-use crate::scene::{Color, Colors, Scene, Sphere};
+use crate::scene::{Collider, Color, Colors, Emitter, Scene, Sphere};
 
 /// A density counts as listed if it differs by this part at most: mass / volume is off by a few
 /// roundings (1e-15), densities that somebody lists differ by far more.
 const SAME_DENSITY: f64 = 1e-9;
 
-/// The colours in which a scene is drawn.
+/// The colours in which a scene is drawn, and a world that was made of it and changed since.
 ///
 /// ```
 /// use carom_scene::{Library, Palette};
@@ -27,6 +29,12 @@ const SAME_DENSITY: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub struct Palette {
     origins: Origins,
+    /// Whether the emitters are still those of the scene, so that `origins` knows whose is what.
+    has_own_emitters: bool,
+    /// Numbers of spheres that were added in code, ascending: `origins` does not count them.
+    added: Vec<u64>,
+    /// What single spheres were given in code, instead of what they come with.
+    painted: BTreeMap<u64, Option<Color>>,
     /// Own colours of single spheres, generators and emitters.
     spheres: Vec<Option<Color>>,
     generators: Vec<Option<Color>>,
@@ -51,10 +59,13 @@ impl Palette {
         let color = |sphere: &Sphere| sphere.color;
         Ok(Self {
             origins,
+            has_own_emitters: true,
+            added: Vec::new(),
+            painted: BTreeMap::new(),
             spheres: scene.spheres.iter().map(color).collect(),
             generators: scene.generators.iter().map(generate::template).map(color).collect(),
-            emitters: scene.emitters.iter().map(|emitter| emitter.sphere.color).collect(),
-            colliders: scene.colliders.iter().map(|collider| collider.color).collect(),
+            emitters: emitter_colors(&scene.emitters),
+            colliders: collider_colors(&scene.colliders),
             colors: scene.colors.clone().unwrap_or_default(),
         })
     }
@@ -62,20 +73,52 @@ impl Palette {
     /// Makes known which emitters the spheres come from that are emitted until `time` \[s\]: to be
     /// called with the world's time before its spheres are drawn.
     ///
-    /// That assumes the scene's own emitters and frames. In a world whose emitters were changed, or
-    /// which is stepped by other frames under `discrete` or `bisect`, spheres may get the colour of
-    /// another emitter.
+    /// That assumes the scene's own frames. In a world that is stepped by other frames under
+    /// `discrete` or `bisect`, spheres may get the colour of another emitter.
     pub fn follow(&mut self, time: f64) {
-        if !self.emitters_agree() {
+        if self.has_own_emitters && !self.emitters_agree() {
             self.origins.follow(time);
         }
+    }
+
+    /// A sphere was added in code, with this colour of its own if it has one. Its number must be
+    /// the largest so far.
+    pub fn add_sphere(&mut self, number: u64, color: Option<Color>) {
+        self.added.push(number);
+        if color.is_some() {
+            self.paint(number, color);
+        }
+    }
+
+    /// Gives a sphere a colour of its own, or takes it.
+    pub fn paint(&mut self, number: u64, color: Option<Color>) {
+        self.painted.insert(number, color);
+    }
+
+    /// The colliders are these from now on.
+    pub fn set_colliders(&mut self, colliders: &[Collider]) {
+        self.colliders = collider_colors(colliders);
+    }
+
+    /// The emitters are these from now on, at this time \[s\]; the spheres that are there keep
+    /// their colours.
+    ///
+    /// Spheres that are emitted later have the colour of their emitter where all emitters have one
+    /// in common, and else none of their own.
+    pub fn set_emitters(&mut self, emitters: &[Emitter], time: f64, spheres: &[SphereId]) {
+        self.follow(time);
+        for number in spheres.iter().map(|id| id.number()) {
+            self.paint(number, self.own(number));
+        }
+        self.has_own_emitters = false;
+        self.emitters = emitter_colors(emitters);
     }
 
     /// The colour of the sphere of this number, radius \[m\] and mass \[kg\]: its own (or that of
     /// its generator or emitter), else that of its density, else that of the scene's spheres, else
     /// a blue.
     pub fn sphere(&self, number: u64, radius: f64, mass: f64) -> Color {
-        let own = self.own_color(number);
+        let own = self.own(number);
         let colors = &self.colors;
         own.or_else(|| density_color(colors, mass / volume(radius)))
             .or(colors.spheres)
@@ -89,13 +132,22 @@ impl Palette {
         own.or(self.colors.colliders).unwrap_or(Self::COLLIDER)
     }
 
-    fn own_color(&self, number: u64) -> Option<Color> {
-        match self.origins.of(number) {
+    /// The colour of its own that the sphere of this number has, or has from its generator or
+    /// emitter.
+    pub fn own(&self, number: u64) -> Option<Color> {
+        if let Some(&painted) = self.painted.get(&number) {
+            return painted;
+        }
+        let added_before = match self.added.binary_search(&number) {
+            Ok(_) => return None,
+            Err(place) => place as u64,
+        };
+        match self.origins.of(number - added_before) {
             Some(Origin::Sphere(index)) => self.spheres[index],
             Some(Origin::Generator(index)) => self.generators[index],
-            Some(Origin::Emitter(index)) => self.emitters[index],
-            None if self.emitters_agree() => self.emitters.first().copied().flatten(),
-            None => None,
+            Some(Origin::Emitter(index)) if self.has_own_emitters => self.emitters[index],
+            _ if self.emitters_agree() => self.emitters.first().copied().flatten(),
+            _ => None,
         }
     }
 
@@ -113,6 +165,14 @@ pub(crate) fn origins(scene: &Scene) -> Result<Origins, SceneError> {
         let own = scene.world().err();
         own.unwrap_or_else(|| crate::error::Problem::new("", text).in_code(&scene.name).into())
     })
+}
+
+fn emitter_colors(emitters: &[Emitter]) -> Vec<Option<Color>> {
+    emitters.iter().map(|emitter| emitter.sphere.color).collect()
+}
+
+fn collider_colors(colliders: &[Collider]) -> Vec<Option<Color>> {
+    colliders.iter().map(|collider| collider.color).collect()
 }
 
 fn density_color(colors: &Colors, density: f64) -> Option<Color> {
@@ -205,6 +265,39 @@ mod tests {
         let mut scene = Scene::new("fountain");
         scene.emitters = vec![emitter(0.25, Some(RED))];
         assert_eq!(Palette::new(&scene).unwrap().sphere(1_000_000, 0.1, 1.0), RED);
+    }
+
+    #[test]
+    fn a_sphere_added_in_code_has_its_colour_and_leaves_others_theirs() {
+        let mut scene = Scene::new("fountains");
+        scene.simulation.frame_time = 0.1;
+        scene.simulation.spheres_collide = false;
+        scene.spheres = vec![sphere(Some(WHITE))];
+        scene.emitters = vec![emitter(0.25, Some(RED)), emitter(0.5, Some(GREEN))];
+        let mut palette = Palette::new(&scene).unwrap();
+        // Before anything is emitted, and after the first two were.
+        palette.add_sphere(1, Some(WHITE));
+        palette.add_sphere(4, None);
+        palette.follow(0.6);
+        let own = [0, 1, 2, 3, 4, 5].map(|number| palette.own(number));
+        assert_eq!(own, [Some(WHITE), Some(WHITE), Some(RED), Some(GREEN), None, Some(RED)]);
+        palette.paint(0, None);
+        assert_eq!(palette.sphere(0, 0.1, 1.0), Palette::SPHERE);
+    }
+
+    #[test]
+    fn when_emitters_change_the_spheres_that_are_there_keep_their_colours() {
+        let mut scene = Scene::new("fountains");
+        scene.simulation.frame_time = 0.1;
+        scene.simulation.spheres_collide = false;
+        scene.emitters = vec![emitter(0.25, Some(RED)), emitter(0.5, Some(GREEN))];
+        let mut world = scene.world().unwrap();
+        (0..6).for_each(|_| drop(world.step(0.1).unwrap().clone()));
+        let mut palette = Palette::new(&scene).unwrap();
+        palette.set_emitters(&[emitter(0.25, Some(WHITE))], world.time(), world.spheres().ids());
+        palette.follow(10.0);
+        let own = [0, 1, 2, 3, 4, 5, 6].map(|number| palette.own(number));
+        assert_eq!(own, [RED, GREEN, RED, RED, GREEN, WHITE, WHITE].map(Some));
     }
 
     #[test]

@@ -150,6 +150,16 @@ pub(crate) struct Properties {
     /// \[kg\]
     pub mass: Vec<f64>,
     pub restitution: Vec<f64>,
+    /// \[N\]; empty while no sphere is under a force of its own.
+    pub applied_force: Vec<DVec3>,
+}
+
+impl Properties {
+    /// Acceleration \[m/s²\] of a sphere by the force that is applied to it alone.
+    #[inline]
+    pub fn applied_acceleration(&self, index: usize) -> Option<DVec3> {
+        self.applied_force.get(index).map(|&force| force / self.mass[index])
+    }
 }
 
 /// All spheres of a world, one array per quantity, in ascending order of id.
@@ -200,6 +210,12 @@ impl Spheres {
         &self.properties.restitution
     }
 
+    /// Forces \[N\] applied to single spheres; empty if there are none
+    /// ([`World::set_applied_forces`](crate::World::set_applied_forces)).
+    pub fn applied_forces(&self) -> &[DVec3] {
+        &self.properties.applied_force
+    }
+
     /// Index of a sphere in the arrays; it changes when spheres are removed.
     pub fn index_of(&self, id: SphereId) -> Option<usize> {
         self.ids().binary_search(&id).ok()
@@ -225,11 +241,14 @@ impl Spheres {
         self.properties.radius.push(sphere.radius);
         self.properties.mass.push(sphere.kilograms());
         self.properties.restitution.push(sphere.restitution);
+        if !self.properties.applied_force.is_empty() {
+            self.properties.applied_force.push(DVec3::ZERO);
+        }
         self.motion.position.push(sphere.position);
         self.motion.velocity.push(sphere.velocity);
     }
 
-    /// Overwrites a sphere with one that passed [`Sphere::validate`].
+    /// Overwrites a sphere with one that passed [`Sphere::validate`]; the force applied to it stays.
     pub(crate) fn set(&mut self, index: usize, sphere: &Sphere) {
         self.properties.radius[index] = sphere.radius;
         self.properties.mass[index] = sphere.kilograms();
@@ -249,6 +268,7 @@ impl Spheres {
         keep(&mut properties.radius, &stays);
         keep(&mut properties.mass, &stays);
         keep(&mut properties.restitution, &stays);
+        keep(&mut properties.applied_force, &stays);
         keep(&mut motion.position, &stays);
         keep(&mut motion.velocity, &stays);
     }

@@ -5,6 +5,11 @@ use crate::sum::Sum;
 pub(crate) struct Clock(Sum);
 
 impl Clock {
+    /// A clock that shows this time \[s\].
+    pub fn at(seconds: f64) -> Self {
+        Self(std::iter::once(seconds).collect())
+    }
+
     /// Time since the beginning \[s\].
     pub fn seconds(&self) -> f64 {
         self.0.value()

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::bodies::{Motion, Spheres};
 use crate::clock::Clock;
 use crate::colliders::Colliders;
@@ -21,7 +23,8 @@ use crate::validate;
 pub(crate) struct State {
     pub settings: Settings,
     pub forces: Numbered<Arc<dyn Force>>,
-    pub colliders: Colliders,
+    /// Shared by worlds that were copied, until one changes its own.
+    pub colliders: Arc<Colliders>,
     pub emitters: Numbered<EmitterState>,
     pub clock: Clock,
     pub spheres: Spheres,
@@ -52,6 +55,39 @@ impl State {
     pub fn changed(&mut self) -> &mut Self {
         self.timeline = None;
         self
+    }
+
+    /// The colliders, to be changed from outside.
+    pub fn colliders_mut(&mut self) -> &mut Colliders {
+        Arc::make_mut(&mut self.changed().colliders)
+    }
+
+    /// Moves on by `h` \[s\] the colliders that move.
+    pub fn advance_colliders(&mut self, h: f64) {
+        if self.colliders.any_moving() {
+            Arc::make_mut(&mut self.colliders).advance(h);
+        }
+    }
+
+    /// Puts a sphere elsewhere. Where flights are renewed in every frame, those of the others stay good.
+    pub fn place(&mut self, index: usize, position: DVec3, velocity: DVec3) {
+        let time = self.clock.seconds();
+        self.timeline = self.timeline.take().filter(Timeline::is_renewed_each_frame);
+        if let Some(timeline) = &mut self.timeline {
+            timeline.place(index, position, velocity, time);
+        }
+        (self.spheres.motion.position[index], self.spheres.motion.velocity[index]) =
+            (position, velocity);
+    }
+
+    /// Sets the clock to a time \[s\].
+    pub fn set_time(&mut self, seconds: f64) {
+        let now = self.clock.seconds();
+        self.timeline = self.timeline.take().filter(Timeline::is_renewed_each_frame);
+        if let Some(timeline) = &mut self.timeline {
+            timeline.set_time(now, seconds);
+        }
+        self.clock = Clock::at(seconds);
     }
 
     /// Emits the spheres that are due at `time` \[s\]; those that are there fly on.

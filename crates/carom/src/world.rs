@@ -117,7 +117,7 @@ impl World {
             return Err(error);
         }
         self.state.clock = clock;
-        self.state.colliders.advance(dt);
+        self.state.advance_colliders(dt);
         if is_exact {
             let now = self.state.now();
             contacts::of_triggers(&now, 0.0, &mut self.search, |contact| {
@@ -243,6 +243,76 @@ impl World {
         Ok(())
     }
 
+    /// Puts spheres elsewhere, with other velocities: each id with a centre \[m\] and a velocity
+    /// \[m/s\]. Where forces are applied to single spheres ([`Self::set_applied_forces`]), the flights
+    /// of the others go on, which makes this cheap.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if one is not in the world, [`Error::Invalid`] for a number that makes no
+    /// sense. Then none is moved.
+    pub fn set_motions(&mut self, motions: &[(SphereId, DVec3, DVec3)]) -> Result<(), Error> {
+        for &(id, position, velocity) in motions {
+            self.index_of(id)?;
+            validate::finite("position", position)
+                .and_then(|()| validate::finite("velocity", velocity))
+                .map_err(|invalid| invalid.about(Subject::Sphere(id)))?;
+        }
+        for &(id, position, velocity) in motions {
+            let index = self.index_of(id)?;
+            self.state.place(index, position, velocity);
+        }
+        Ok(())
+    }
+
+    /// Applies a force of its own \[N\] to every sphere, in the order of [`Self::spheres`]; an empty
+    /// list takes them away. Each is held constant until it is set again; spheres that come into the
+    /// world have none. They add to the forces that act on all, and have no potential energy.
+    ///
+    /// To steer spheres, set them before each frame: this costs little, under the rule `exact` too,
+    /// which renews all flights at the start of a frame while there are such forces.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for another number of forces than spheres, or one that is not finite.
+    pub fn set_applied_forces(&mut self, forces: &[DVec3]) -> Result<(), Error> {
+        let (count, wanted) = (forces.len(), self.spheres().len());
+        let requirement = "one for each sphere, or none at all";
+        validate::require(count == wanted || count == 0, "applied forces", requirement, count)
+            .map_err(|invalid| invalid.about(Subject::Step))?;
+        for (force, &id) in forces.iter().zip(self.spheres().ids()) {
+            validate::finite("applied force", *force)
+                .map_err(|invalid| invalid.about(Subject::Sphere(id)))?;
+        }
+        let had_some = !self.spheres().applied_forces().is_empty();
+        if !had_some || count == 0 {
+            self.state.changed();
+        }
+        let applied = &mut self.state.spheres.properties.applied_force;
+        applied.clear();
+        applied.extend_from_slice(forces);
+        Ok(())
+    }
+
+    /// Sets the clock. Only emitters, and forces that depend on time, tell one time from another; but
+    /// times round differently. A run that sets the clock back depends to the bit on nothing before.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if the time is not finite, or there are emitters, which count it.
+    pub fn set_time(&mut self, seconds: f64) -> Result<(), Error> {
+        let has_emitters = self.state.emitters.iter().len() > 0;
+        validate::require(seconds.is_finite(), "time", "finite", seconds)
+            .and_then(|()| {
+                validate::require(
+                    !has_emitters,
+                    "time",
+                    "left alone where emitters count it",
+                    seconds,
+                )
+            })
+            .map_err(|invalid| invalid.about(Subject::Step))?;
+        self.state.set_time(seconds);
+        Ok(())
+    }
+
     /// Takes a sphere out of the world and returns it.
     ///
     /// # Errors
@@ -304,7 +374,7 @@ impl World {
     pub fn add_collider(&mut self, collider: Collider) -> Result<ColliderId, Error> {
         let id = ColliderId(self.state.colliders.list().next_number());
         collider.validate().map_err(|invalid| invalid.about(Subject::Collider(id)))?;
-        self.state.changed().colliders.push(collider);
+        self.state.colliders_mut().push(collider);
         Ok(id)
     }
 
@@ -341,7 +411,7 @@ impl World {
             self.collider(*id)?;
             collider.validate().map_err(|invalid| invalid.about(Subject::Collider(*id)))?;
         }
-        self.state.changed().colliders.set(changes);
+        self.state.colliders_mut().set(changes);
         Ok(())
     }
 
@@ -358,7 +428,7 @@ impl World {
     /// # Errors
     /// [`Error::Unknown`] if there is no such collider.
     pub fn remove_collider(&mut self, id: ColliderId) -> Result<Collider, Error> {
-        self.state.changed().colliders.remove(id).ok_or(Error::Unknown(Subject::Collider(id)))
+        self.state.colliders_mut().remove(id).ok_or(Error::Unknown(Subject::Collider(id)))
     }
 
     /// Adds an emitter; its first sphere is due now.

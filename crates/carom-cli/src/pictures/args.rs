@@ -9,7 +9,7 @@ use super::viewpoint::Viewpoint;
 use crate::args::{Changes, Choice, RULES, positive};
 
 /// How a scene is seen.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub struct Look {
     /// In pixels; both even for a film.
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = sides)]

@@ -4,7 +4,22 @@ use carom_maze::{GameError, MazeError, PlanError};
 use carom_render::{FilmError, GpuError, PictureError};
 use carom_scene::recording::ReplayError;
 
+use super::error::ShootError;
 use crate::failure::Failure;
+
+impl From<ShootError> for Failure {
+    fn from(error: ShootError) -> Self {
+        match error {
+            ShootError::Scene(error) => error.into(),
+            ShootError::Physics(error) => error.into(),
+            ShootError::Replay(error) => error.into(),
+            ShootError::Game(error) => error.into(),
+            ShootError::Graphics(error) => error.into(),
+            ShootError::Picture(error) => error.into(),
+            ShootError::Film(error) => error.into(),
+        }
+    }
+}
 
 impl From<GpuError> for Failure {
     fn from(error: GpuError) -> Self {

@@ -1,17 +1,12 @@
 //! A film: footage, frame by frame.
 
-use std::io::{self, Write};
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
-use carom_render::{Film, FilmSummary};
+use carom_render::{Camera, Film, FilmError, FilmSummary};
 
+use super::error::ShootError;
 use super::footage::Footage;
 use super::studio::Studio;
-use crate::args::whole_frames;
-use crate::failure::Failure;
-use crate::progress::Progress;
 
 /// A film that is to be made.
 pub struct Order<'a> {
@@ -21,47 +16,52 @@ pub struct Order<'a> {
     pub fps: u32,
 }
 
-/// Films footage for so many seconds, up to a whole frame of the film, and prints a line about the film.
+/// A film that is being made.
 ///
-/// Whatever goes wrong or whoever interrupts, what was filmed until then is a film.
-pub fn shoot(
-    order: Order,
-    (mut footage, seconds): (Box<dyn Footage>, f64),
-    studio: &mut Studio,
-    interrupted: &AtomicBool,
-) -> Result<(), Failure> {
-    let began = Instant::now();
-    let rate = f64::from(order.fps);
-    let [width, height] = studio.size();
-    let mut film = Film::create(order.path, width, height, order.fps)?;
-    // A film of nothing is none: the first frame is in it.
-    let frames = whole_frames(seconds, 1.0 / rate)?.max(1);
-    let footage = footage.as_mut();
-    let camera = studio.camera(footage, 0.0)?;
-    let progress = Progress::new(frames);
-    let mut result = Ok(());
-    for frame in 0..frames {
-        let time = frame as f64 / rate;
-        let picture = studio.picture(footage, time, &camera);
-        result = picture.and_then(|picture| Ok(film.add(&picture)?));
-        progress.show(frame + 1, time);
-        if result.is_err() || interrupted.load(Ordering::Relaxed) {
-            break;
-        }
-    }
-    drop(progress);
-    let finished = film.finish().map_err(Failure::from);
-    let told = finished.and_then(|summary| Ok(tell(order.path, summary, began)?));
-    result?;
-    told?;
-    if interrupted.load(Ordering::Relaxed) { Err(Failure::Interrupted) } else { Ok(()) }
+/// Dropped before [`Self::finish`], what was filmed until then is a film, too.
+pub struct Filming<'a> {
+    film: Film,
+    footage: &'a mut dyn Footage,
+    studio: &'a mut Studio,
+    camera: Camera,
+    fps: f64,
+    /// How many it has.
+    frames: u64,
 }
 
-fn tell(path: &Path, film: FilmSummary, began: Instant) -> io::Result<()> {
-    let FilmSummary { frames, seconds, bytes } = film;
-    let megabytes = bytes as f64 / 1e6;
-    let took = began.elapsed().as_secs_f64();
-    let name = path.display();
-    let line = format!("{name}: {frames} frames, {seconds:.2} s, {megabytes:.2} MB");
-    writeln!(io::stdout().lock(), "{line}, made in {took:.1} s")
+impl<'a> Filming<'a> {
+    /// Begins a film of pictures from this studio.
+    ///
+    /// # Errors
+    /// [`ShootError`] if films cannot have this size or rate, if the file cannot be written, or as
+    /// [`Studio::camera`].
+    pub fn begin(
+        order: Order,
+        footage: &'a mut dyn Footage,
+        studio: &'a mut Studio,
+    ) -> Result<Self, ShootError> {
+        let [width, height] = studio.size();
+        let film = Film::create(order.path, width, height, order.fps)?;
+        let camera = studio.camera(footage, 0.0)?;
+        Ok(Self { film, footage, studio, camera, fps: f64::from(order.fps), frames: 0 })
+    }
+
+    /// Takes a frame, and tells its time \[s\].
+    ///
+    /// # Errors
+    /// [`ShootError`] if footage, graphics device or disk fail.
+    pub fn take_frame(&mut self) -> Result<f64, ShootError> {
+        let time = self.frames as f64 / self.fps;
+        self.film.add(&self.studio.picture(self.footage, time, &self.camera)?)?;
+        self.frames += 1;
+        Ok(time)
+    }
+
+    /// Writes the film.
+    ///
+    /// # Errors
+    /// [`FilmError`] for a film without frames, and a disk that fails.
+    pub fn finish(self) -> Result<FilmSummary, FilmError> {
+        self.film.finish()
+    }
 }

@@ -3,10 +3,10 @@
 use carom_render::{Bounds, Drawing};
 use carom_scene::Scene;
 
-use crate::failure::Failure;
+use super::error::ShootError;
 
 /// Something to see at any time.
-pub trait Footage {
+pub trait Footage: Send {
     /// What it is called for people.
     fn title(&self) -> &str;
 
@@ -14,7 +14,10 @@ pub trait Footage {
     fn scene(&self) -> &Scene;
 
     /// Draws what is to be seen at a time \[s\] that is not before the last one.
-    fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, Failure>;
+    ///
+    /// # Errors
+    /// [`ShootError`] if it cannot go on to that time.
+    fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, ShootError>;
 }
 
 /// What is written on a picture.

@@ -19,7 +19,7 @@ pub fn picture(library: &Library, args: &Picture) -> Result<(), Failure> {
     let h = scene.simulation.frame_time;
     let frames = countable((args.at / h).round(), h)?;
     let mut stepped = Stepped::new(scene)?;
-    let mut studio = Studio::new(&args.look)?;
+    let mut studio = Studio::new(args.look.clone())?;
     let progress = Progress::new(frames);
     let mut time = 0.0;
     for frame in 1..=frames {

@@ -1,10 +1,11 @@
 //! The maze game, as footage: a player tilts the maze.
 
 use carom::DVec3;
-use carom_maze::{Game, GameState, Maze, Options, Player};
+use carom_maze::{Game, GameError, GameState, Maze, Options, Player};
 use carom_render::{Drawing, Roll, draw_world};
 use carom_scene::{Palette, Scene};
 
+use super::error::ShootError;
 use super::footage::{Footage, Words};
 use crate::failure::Failure;
 
@@ -57,7 +58,7 @@ impl Played {
         Ok(Some(time + AFTER_THE_END))
     }
 
-    fn step(&mut self) -> Result<(), Failure> {
+    fn step(&mut self) -> Result<(), GameError> {
         let before = self.game.ball_in_maze().0;
         let steering = self.player.steer(&self.game);
         self.game.step(steering)?;
@@ -81,7 +82,7 @@ impl Footage for Played {
         self.game.scene()
     }
 
-    fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, Failure> {
+    fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, ShootError> {
         let due = (time / self.game.frame_time()).round();
         while (self.frames as f64) < due {
             self.step()?;

@@ -6,12 +6,13 @@ use carom_maze::Maze;
 use carom_scene::{Library, Scene};
 
 use super::args::Record;
-use super::film::{Order, shoot};
+use super::film::Order;
 use super::footage::Footage;
 use super::maze;
 use super::picture::check_ending;
 use super::played::Played;
 use super::replayed::Replayed;
+use super::shoot::shoot;
 use super::stepped::Stepped;
 use super::studio::Studio;
 use crate::failure::Failure;
@@ -44,14 +45,14 @@ pub fn record(library: &Library, args: &Record) -> Result<(), Failure> {
     check_ending(&args.out, "mp4")?;
     let take = take(library, args, scene)?;
     let interrupted = interruption()?;
-    shoot(order(args, &args.out), take, &mut Studio::new(&args.look)?, &interrupted)
+    shoot(order(args, &args.out), take, &mut Studio::new(args.look.clone())?, &interrupted)
 }
 
 /// One film after the other; those that are finished stay, whatever becomes of the next.
 fn record_all(args: &Record) -> Result<(), Failure> {
     let library = Library::new();
     let interrupted = interruption()?;
-    let mut studio = Studio::new(&args.look)?;
+    let mut studio = Studio::new(args.look.clone())?;
     for (file, scene) in ALL {
         let (scene, _) = library.find(scene, &[])?;
         let path = args.out.join(file);

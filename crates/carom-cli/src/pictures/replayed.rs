@@ -7,9 +7,9 @@ use carom_scene::recording::{Playback, Replay, ReplayBall};
 use carom_scene::{Palette, Scene};
 
 use super::drawn;
+use super::error::ShootError;
 use super::footage::{Footage, Words, title};
 use super::running::{Running, Seen};
-use crate::failure::Failure;
 
 /// A recording that is played while it is filmed.
 pub struct Replayed {
@@ -25,7 +25,7 @@ pub struct Replayed {
 
 impl Replayed {
     /// A recording of this scene.
-    pub fn open(path: &Path, scene: Scene) -> Result<Self, Failure> {
+    pub fn open(path: &Path, scene: Scene) -> Result<Self, ShootError> {
         let mut duration = 0.0;
         let mut replay = Replay::open(path, &scene)?;
         while let Some(frame) = replay.next_frame()? {
@@ -60,7 +60,7 @@ impl Footage for Replayed {
         &self.scene
     }
 
-    fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, Failure> {
+    fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, ShootError> {
         let Self { scene, surfaces, playback, palette, spheres, .. } = self;
         surfaces.go_to(time)?;
         if let Some(frame) = playback.at(time)? {

@@ -1,12 +1,12 @@
 //! A scene being stepped, as footage.
 
 use carom_render::Drawing;
-use carom_scene::{Palette, Scene};
+use carom_scene::{Palette, Scene, SceneError};
 
 use super::drawn;
+use super::error::ShootError;
 use super::footage::{Footage, Words, title};
 use super::running::Running;
-use crate::failure::Failure;
 
 /// A scene that is stepped while it is filmed.
 pub struct Stepped {
@@ -17,14 +17,20 @@ pub struct Stepped {
 
 impl Stepped {
     /// A scene at its start.
-    pub fn new(scene: Scene) -> Result<Self, Failure> {
+    ///
+    /// # Errors
+    /// [`SceneError`] if it makes no sense.
+    pub fn new(scene: Scene) -> Result<Self, SceneError> {
         let running = Running::new(&scene)?;
         let palette = Palette::new(&scene)?;
         Ok(Self { scene, running, palette })
     }
 
     /// Takes one frame; the time \[s\] then.
-    pub fn step(&mut self) -> Result<f64, Failure> {
+    ///
+    /// # Errors
+    /// As [`carom::World::step`].
+    pub fn step(&mut self) -> Result<f64, carom::Error> {
         self.running.step()?;
         Ok(self.running.world().time())
     }
@@ -39,7 +45,7 @@ impl Footage for Stepped {
         &self.scene
     }
 
-    fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, Failure> {
+    fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, ShootError> {
         let Self { scene, running, palette } = self;
         running.go_to(time)?;
         // Not the film's time, which may be a rounding before the frame of an emission.

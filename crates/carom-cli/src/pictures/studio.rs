@@ -1,21 +1,25 @@
 //! Where pictures are made.
 
-use carom_render::{Camera, Drawing, Offscreen, Picture, caption, stamp};
+use carom_render::{Camera, Drawing, GpuError, Offscreen, Picture, caption, stamp};
 
 use super::args::Look;
+use super::error::ShootError;
 use super::footage::{Footage, Words, bounds};
-use crate::failure::Failure;
 
 /// Draws footage as the user wants to see it.
-pub struct Studio<'a> {
-    look: &'a Look,
+#[derive(Debug)]
+pub struct Studio {
+    look: Look,
     offscreen: Offscreen,
     drawing: Drawing,
 }
 
-impl<'a> Studio<'a> {
+impl Studio {
     /// A studio on a graphics device of its own.
-    pub fn new(look: &'a Look) -> Result<Self, Failure> {
+    ///
+    /// # Errors
+    /// [`GpuError`] if there is no device, or none for pictures of this size.
+    pub fn new(look: Look) -> Result<Self, GpuError> {
         let offscreen = Offscreen::new(look.size, look.quality)?;
         Ok(Self { look, offscreen, drawing: Drawing::default() })
     }
@@ -26,7 +30,10 @@ impl<'a> Studio<'a> {
     }
 
     /// A camera for footage, by what is to be seen at this time \[s\].
-    pub fn camera(&mut self, footage: &mut dyn Footage, time: f64) -> Result<Camera, Failure> {
+    ///
+    /// # Errors
+    /// As [`Footage::draw`].
+    pub fn camera(&mut self, footage: &mut dyn Footage, time: f64) -> Result<Camera, ShootError> {
         footage.draw(time, &mut self.drawing)?;
         let [width, height] = self.look.size.map(f64::from);
         let bounds = bounds(footage.scene(), &self.drawing);
@@ -36,12 +43,15 @@ impl<'a> Studio<'a> {
     }
 
     /// Footage at a time \[s\].
+    ///
+    /// # Errors
+    /// As [`Footage::draw`], and if the device fails.
     pub fn picture(
         &mut self,
         footage: &mut dyn Footage,
         time: f64,
         camera: &Camera,
-    ) -> Result<Picture, Failure> {
+    ) -> Result<Picture, ShootError> {
         let Words { stamp: now, caption: large } = footage.draw(time, &mut self.drawing)?;
         let mut picture = self.offscreen.draw(&self.drawing, camera)?;
         if !self.look.no_stamp {

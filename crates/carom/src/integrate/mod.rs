@@ -49,7 +49,8 @@ fn acceleration_at(system: &System, index: usize, at: Kinematics, time: f64) -> 
     let Kinematics { position, velocity } = at;
     let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
     let state = SphereState { position, velocity, radius, mass };
-    forces::total(system.forces, &state, time) / mass
+    let common = forces::total(system.forces, &state, time) / mass;
+    system.spheres.applied_acceleration(index).map_or(common, |own| common + own)
 }
 
 /// Position \[m\] and velocity \[m/s\] of the sphere at `index` at the end of `interval`, from

@@ -11,6 +11,7 @@ use super::periodic;
 use super::queue::{Entry, EventQueue};
 use super::support::Support;
 use super::surroundings::Surroundings;
+use super::vicinity::Vicinity;
 use super::{hold, predict};
 use crate::bodies::{Motion, SphereId};
 use crate::forces;
@@ -178,6 +179,8 @@ impl Timeline {
     fn find_kinds(&mut self, system: &System) -> Vec<u32> {
         let spheres = system.spheres;
         let levels = neighbours::levels_of(&spheres.radius);
+        let has_own_forces = !spheres.applied_force.is_empty();
+        self.holds_forces = has_own_forces;
         let mut known = BTreeMap::new();
         let mut kinds_of = Vec::with_capacity(levels.len());
         for (index, &level) in levels.iter().enumerate() {
@@ -186,7 +189,7 @@ impl Timeline {
             let (force, is_all) = forces::total_linear(system.forces, radius, mass);
             self.holds_forces |= !is_all;
             // Spheres under forces of their own are each of its own kind.
-            let own = if is_all { 0 } else { index + 1 };
+            let own = if is_all && !has_own_forces { 0 } else { index + 1 };
             let key = ([radius, mass, restitution].map(f64::to_bits), own);
             let next = self.kinds.len() as u32;
             let number = *known.entry(key).or_insert(next);
@@ -255,8 +258,11 @@ impl Timeline {
         self.outlooks = parallel::map(self.bodies.len(), |around: &mut Surroundings, slot| {
             predict::outlook(self, system, slot as u32, around, time)
         });
+        let horizon = self.horizon();
         for (slot, (outlook, &index)) in (0..).zip(self.outlooks.iter().zip(&self.index_of)) {
-            self.queue.push(Entry { time: outlook.time(), slot, index });
+            if outlook.time() <= horizon {
+                self.queue.push(Entry { time: outlook.time(), slot, index });
+            }
         }
     }
 
@@ -372,6 +378,12 @@ impl Timeline {
         self.kinds[kind as usize].acceleration = acceleration;
     }
 
+    /// Likewise without the forces of its lasting contacts, if it is in any.
+    pub fn set_free_acceleration(&mut self, slot: u32, acceleration: DVec3) {
+        let free = self.kind_of(slot).free;
+        self.kinds[free as usize].acceleration = acceleration;
+    }
+
     /// Takes away the contact forces on a sphere, and its cluster.
     pub fn set_free(&mut self, slot: u32) {
         let kind = *self.kind_of(slot);
@@ -423,6 +435,37 @@ impl Timeline {
     pub fn begin_flight(&mut self, slot: u32, position: DVec3, velocity: DVec3, time: f64) {
         self.bodies[slot as usize].begin_flight(position, velocity, time);
         self.fold(slot);
+    }
+
+    /// Whether all flights begin anew at the start of each frame, for forces that are held over it.
+    pub fn is_renewed_each_frame(&self) -> bool {
+        self.holds_forces
+    }
+
+    /// Until when predictions are of use, on the world's clock \[s\]: until all flights begin anew.
+    #[inline]
+    pub fn horizon(&self) -> f64 {
+        if self.holds_forces { self.frame[1] } else { f64::INFINITY }
+    }
+
+    /// Puts the sphere at an index of the world's arrays elsewhere at `time` \[s\]. What was predicted
+    /// is not predicted anew.
+    pub fn place(&mut self, index: usize, position: DVec3, velocity: DVec3, time: f64) {
+        let slot = self.slot_of[index];
+        self.set_free(slot);
+        self.bodies[slot as usize].begin_flight(position, velocity, time);
+        let level = self.kind_of(slot).level;
+        self.neighbours.relocate(slot, level, [position, velocity], &mut Vicinity::default());
+        self.fold(slot);
+    }
+
+    /// Begins the flights that are at `now` \[s\] anew at another time \[s\]. What was predicted is not
+    /// predicted anew.
+    pub fn set_time(&mut self, now: f64, time: f64) {
+        for slot in 0..self.bodies.len() as u32 {
+            let (position, velocity) = self.state_of(slot, now);
+            self.begin_flight(slot, position, velocity, time);
+        }
     }
 
     /// Folds the place where a flight begins into the periodic box; whether it was elsewhere.

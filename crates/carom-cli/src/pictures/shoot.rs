@@ -1,0 +1,54 @@
+//! Filming for whoever waits at a terminal.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use carom_render::FilmSummary;
+
+use super::film::{Filming, Order};
+use super::footage::Footage;
+use super::studio::Studio;
+use crate::args::whole_frames;
+use crate::failure::Failure;
+use crate::progress::Progress;
+
+/// Films footage for so many seconds, up to a whole frame of the film, and prints a line about the film.
+///
+/// Whatever goes wrong or whoever interrupts, what was filmed until then is a film.
+pub fn shoot(
+    order: Order,
+    (mut footage, seconds): (Box<dyn Footage>, f64),
+    studio: &mut Studio,
+    interrupted: &AtomicBool,
+) -> Result<(), Failure> {
+    let began = Instant::now();
+    let path = order.path;
+    // A film of nothing is none: the first frame is in it.
+    let frames = whole_frames(seconds, 1.0 / f64::from(order.fps))?.max(1);
+    let mut filming = Filming::begin(order, footage.as_mut(), studio)?;
+    let progress = Progress::new(frames);
+    let mut result = Ok(());
+    for frame in 1..=frames {
+        result = filming.take_frame().map(|time| progress.show(frame, time));
+        if result.is_err() || interrupted.load(Ordering::Relaxed) {
+            break;
+        }
+    }
+    drop(progress);
+    let finished = filming.finish().map_err(Failure::from);
+    let told = finished.and_then(|summary| Ok(tell(path, summary, began)?));
+    result?;
+    told?;
+    if interrupted.load(Ordering::Relaxed) { Err(Failure::Interrupted) } else { Ok(()) }
+}
+
+fn tell(path: &Path, film: FilmSummary, began: Instant) -> io::Result<()> {
+    let FilmSummary { frames, seconds, bytes } = film;
+    let megabytes = bytes as f64 / 1e6;
+    let took = began.elapsed().as_secs_f64();
+    let name = path.display();
+    let line = format!("{name}: {frames} frames, {seconds:.2} s, {megabytes:.2} MB");
+    writeln!(io::stdout().lock(), "{line}, made in {took:.1} s")
+}

@@ -1,0 +1,33 @@
+//! A world as it is now, as footage.
+
+use carom::World;
+use carom_render::{Drawing, draw_world};
+use carom_scene::{Palette, Scene};
+
+use super::error::ShootError;
+use super::footage::{Footage, Words, title};
+
+/// A world that does not move while it is seen.
+pub struct Still<'a> {
+    /// What there is besides spheres: its colliders are those of the world, in its order.
+    pub scene: &'a Scene,
+    /// What is seen.
+    pub world: &'a World,
+    /// Its colours, followed to its time.
+    pub palette: &'a Palette,
+}
+
+impl Footage for Still<'_> {
+    fn title(&self) -> &str {
+        title(self.scene)
+    }
+
+    fn scene(&self) -> &Scene {
+        self.scene
+    }
+
+    fn draw(&mut self, _: f64, drawing: &mut Drawing) -> Result<Words, ShootError> {
+        draw_world(self.scene, self.world, self.palette, |_| None, drawing);
+        Ok(Words::at(self.world.time()))
+    }
+}

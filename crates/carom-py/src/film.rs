@@ -1,0 +1,64 @@
+//! Films of scenes.
+
+// What is said of functions here is read in Python, where units stand in plain brackets.
+#![allow(rustdoc::broken_intra_doc_links)]
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use carom_cli::pictures::{Filming, Order, Stepped, Studio};
+use carom_scene::Scene;
+use pyo3::prelude::*;
+
+use crate::arguments;
+use crate::failure::Failure;
+use crate::graphics_failure::raised;
+use crate::look::{Sight, View};
+use crate::running::whole_frames;
+
+/// How long it is filmed before somebody is asked whether to stop.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Films the scene that `text` describes in TOML, for `seconds` [s] or as long as the scene says, up
+/// to a whole frame. Answers with the number of frames.
+///
+/// Whatever goes wrong or whoever interrupts, what was filmed until then is a film.
+#[pyfunction]
+pub fn film_scene(
+    py: Python<'_>,
+    text: &str,
+    path: PathBuf,
+    seconds: Option<&Bound<'_, PyAny>>,
+    frame_rate: &Bound<'_, PyAny>,
+    view: View<'_>,
+) -> PyResult<u64> {
+    let sight = Sight::read(&view)?;
+    let seconds = arguments::optional_number("seconds", seconds)?;
+    // A rate that is too large for this is refused in the words for all of them.
+    let fps = u32::try_from(arguments::count("frame_rate", frame_rate)?).unwrap_or(u32::MAX);
+    let mut scene = Scene::from_toml(text, "scene").map_err(Failure::of_part)?;
+    let seconds = seconds.unwrap_or(scene.simulation.duration);
+    sight.apply(&mut scene);
+    let order = Order { path: &path, fps };
+    py.detach(|| film(scene, order, seconds, sight))
+}
+
+/// Without holding up other threads of Python.
+fn film(scene: Scene, order: Order, seconds: f64, sight: Sight) -> PyResult<u64> {
+    let fps = f64::from(order.fps);
+    let mut stepped = Stepped::new(scene).map_err(Failure::from)?;
+    let mut studio = Studio::new(sight.look).map_err(|error| raised(error.into()))?;
+    let mut filming = Filming::begin(order, &mut stepped, &mut studio).map_err(raised)?;
+    // A film of nothing is none: the first frame is in it.
+    let frames = whole_frames(seconds, 1.0 / fps)?.max(1);
+    let mut asked = Instant::now();
+    for _ in 0..frames {
+        filming.take_frame().map_err(raised)?;
+        if asked.elapsed() > PATIENCE {
+            Python::attach(|py| py.check_signals())?;
+            asked = Instant::now();
+        }
+    }
+    let summary = filming.finish().map_err(|error| raised(error.into()))?;
+    Ok(summary.frames)
+}
