@@ -334,8 +334,13 @@ def test_a_build_without_pictures_says_so(monkeypatch: pytest.MonkeyPatch, tmp_p
         scene.record(tmp_path / "a.mp4")
 
 
-@pytest.mark.skipif(os.name == "nt", reason="there is always a display")
-def test_a_window_that_cannot_be_opened_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.skipif(sys.platform != "linux", reason="there is always a display")
+@pytest.mark.parametrize("has_window", [engine.HAS_WINDOW, True])
+def test_a_window_that_cannot_be_opened_says_why(
+    has_window: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # A build without a window that believes to have one refuses the command `view` instead.
+    monkeypatch.setattr(engine, "HAS_WINDOW", has_window)
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_SOCKET", raising=False)
