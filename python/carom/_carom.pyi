@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from os import PathLike
-from typing import Self, final
+from typing import Self, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +13,7 @@ from carom._pictures import View
 __all__ = [
     "HAS_WINDOW",
     "Engine",
+    "MazeEpisodes",
     "Painter",
     "Snapshot",
     "canonical_toml",
@@ -120,6 +121,44 @@ class Snapshot:
     def time(self) -> float: ...
 
 @final
+class MazeEpisodes:
+    """Episodes of many balls in one maze: what the environments of `carom.gym` stand on."""
+
+    def __new__(
+        cls,
+        num_envs: int,
+        threads: int | None,
+        autoreset_mode: str,
+        start: str,
+        given: dict[str, object],
+    ) -> Self: ...
+    def step(self, actions: ArrayLike) -> _MazeStep: ...
+    def reset(
+        self, marked: list[bool], seeds: list[int | None], start: str | None
+    ) -> _MazeStep: ...
+    def scene_toml(self, ball: int) -> str: ...
+    @property
+    def bounds(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]: ...
+    @property
+    def rough_frames(self) -> int: ...
+    @property
+    def _seconds_in_engine(self) -> float: ...
+
+# Collectibles taken, and whether the end wall was touched.
+_MazeStates: TypeAlias = tuple[NDArray[np.int64], NDArray[np.bool_]]
+# Observations, rewards, terminated, truncated, states; which episodes ended and were started anew,
+# their last observations and states.
+_MazeStep: TypeAlias = tuple[
+    NDArray[np.float32],
+    NDArray[np.float64],
+    NDArray[np.bool_],
+    NDArray[np.bool_],
+    _MazeStates,
+    NDArray[np.int64],
+    NDArray[np.float32],
+    _MazeStates,
+]
+
 class Painter:
     """What `carom.Renderer` stands on: a graphics device that is kept open, and a camera."""
 

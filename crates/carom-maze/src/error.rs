@@ -94,6 +94,63 @@ pub enum GameError {
     Physics(#[from] carom::Error),
 }
 
+/// Why episodes cannot be played, or not go on.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EpisodeError {
+    /// An option that makes no sense.
+    #[error("`{field}` must be {requirement}, not {value}")]
+    Option {
+        /// Name of the field of [`EpisodeOptions`](crate::EpisodeOptions) or
+        /// [`Rewards`](crate::Rewards).
+        field: &'static str,
+        /// What it must be, continuing "must be".
+        requirement: &'static str,
+        /// What it was.
+        value: f64,
+    },
+    /// Another number of things than there are balls.
+    #[error("{what} must be {balls}, one for each ball, not {count}")]
+    Count {
+        /// What was counted.
+        what: &'static str,
+        /// How many there must be.
+        balls: usize,
+        /// How many there were.
+        count: usize,
+    },
+    /// A ball that is not there.
+    #[error("there is no ball {ball}: there are {balls}, counted from 0")]
+    NoBall {
+        /// Which was asked for.
+        ball: usize,
+        /// How many there are.
+        balls: usize,
+    },
+    /// An action that is not a number.
+    #[error("the action for ball {ball} must be finite, not {value}")]
+    Action {
+        /// Whose, from 0.
+        ball: usize,
+        /// What it was.
+        value: f64,
+    },
+    /// More collectibles than can be kept account of.
+    #[error("a maze for episodes has at most {most} collectibles, not {count}")]
+    Collectibles {
+        /// How many it has.
+        count: usize,
+        /// How many it may have.
+        most: usize,
+    },
+    /// The maze makes no sense.
+    #[error(transparent)]
+    Maze(#[from] MazeError),
+    /// The physics refuses a frame.
+    #[error(transparent)]
+    Physics(#[from] carom::Error),
+}
+
 /// Why there is no plan to win.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]

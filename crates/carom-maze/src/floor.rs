@@ -95,7 +95,7 @@ impl Floor {
     }
 
     /// The cell that a point is in.
-    fn cell_at(&self, point: DVec3) -> Option<usize> {
+    pub fn cell_at(&self, point: DVec3) -> Option<usize> {
         let place = (point - self.origin) / self.cell;
         let (column, row) = ((place.x + 0.5).floor(), (place.z + 0.5).floor());
         let is_inside =
@@ -157,7 +157,7 @@ impl Floor {
 }
 
 /// Corners of a box about all that the ball can roll between \[m\].
-fn bounds(maze: &Maze) -> [DVec3; 2] {
+pub(crate) fn bounds(maze: &Maze) -> [DVec3; 2] {
     let mut bounds = [maze.start(); 2];
     for collider in maze.with_role(|role| role != Role::Ceiling) {
         use carom_scene::scene::Shape;

@@ -23,6 +23,8 @@
 //!
 //! A frame of the game: the *tilt* follows the steering, the *motion* of every collider takes it
 //! from the old tilt to the new one, the *world* is stepped, and *events* are read from its report.
+//!
+//! [`Episodes`] are for agents that learn: many balls at once, each under a tilt of its own.
 
 #![warn(clippy::unwrap_used)]
 
@@ -30,6 +32,7 @@ mod builtin;
 mod camera;
 mod cover;
 mod drawing;
+mod episodes;
 mod error;
 mod floor;
 mod game;
@@ -43,7 +46,8 @@ mod tilt;
 
 pub use builtin::DRAWINGS as BUILT_IN_DRAWINGS;
 pub use drawing::TextProblem;
-pub use error::{GameError, MazeError, PlanError};
+pub use episodes::{Arena, EpisodeOptions, Episodes, Outcome, Rewards, Start};
+pub use error::{EpisodeError, GameError, MazeError, PlanError};
 pub use game::{Game, GameEvent, GameState};
 pub use maze::{Maze, Role};
 pub use options::Options;

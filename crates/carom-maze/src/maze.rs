@@ -193,6 +193,18 @@ impl Maze {
             .map(move |it| (DVec3::from_array(it.position), inner(&it.shape)))
     }
 
+    /// Centres and radii \[m\] of spheres about the collectibles.
+    pub(crate) fn collectible_reaches(&self) -> impl Iterator<Item = (DVec3, f64)> + '_ {
+        let outer = |shape: &Shape| match *shape {
+            Shape::Sphere { radius } => radius,
+            Shape::Box { size } => 0.5 * DVec3::from_array(size).length(),
+            Shape::Rectangle { size_x, size_z } => 0.5 * (size_x * size_x + size_z * size_z).sqrt(),
+            Shape::HalfSpace => 0.0,
+        };
+        self.with_role(|role| matches!(role, Role::Collectible(_)))
+            .map(move |it| (DVec3::from_array(it.position), outer(&it.shape)))
+    }
+
     /// Colliders of some roles.
     pub(crate) fn with_role(&self, is_it: fn(Role) -> bool) -> impl Iterator<Item = &Collider> {
         let both = self.scene.colliders.iter().zip(&self.roles);

@@ -26,7 +26,7 @@ pub fn random_text(seed: u64, columns: usize, rows: usize) -> Result<String, Maz
     if !playable.contains(&columns) || !playable.contains(&rows) {
         return Err(MazeError::Size { columns, rows, most: MOST_CELLS_PER_SIDE });
     }
-    let mut numbers = Numbers(Pcg64::seed_from_u64(seed));
+    let mut numbers = Numbers::new(seed);
     let mut carving = Carving::new(columns, rows);
     carving.carve(&mut numbers);
     let start = (0, 0);
@@ -156,11 +156,16 @@ impl Carving {
 }
 
 /// Random numbers, the same on every platform.
-struct Numbers(Pcg64);
+#[derive(Debug, Clone)]
+pub(crate) struct Numbers(Pcg64);
 
 impl Numbers {
+    pub fn new(seed: u64) -> Self {
+        Self(Pcg64::seed_from_u64(seed))
+    }
+
     /// An integer in 0..count.
-    fn below(&mut self, count: usize) -> usize {
+    pub fn below(&mut self, count: usize) -> usize {
         // The high word of the product: uneven by less than count / 2^64.
         ((u128::from(self.0.next_u64()) * count as u128) >> 64) as usize
     }

@@ -98,17 +98,36 @@ impl Tilt {
             0.0 if options.levels_back => approached(angle, 0.0, most),
             part => angle + part * most,
         };
-        let tilt = match steering {
+        let steepest = options.max_tilt_degrees.to_radians();
+        match steering {
             Steering::Turn { about_x, about_z } => Self {
                 about_x: turned(self.about_x, about_x),
                 about_z: turned(self.about_z, about_z),
-            },
-            Steering::Towards(target) => Self {
-                about_x: approached(self.about_x, target.about_x, most),
-                about_z: approached(self.about_z, target.about_z, most),
-            },
+            }
+            .limited(steepest),
+            Steering::Towards(target) => self.towards(target, most, steepest),
+        }
+    }
+
+    /// The tilt that is turned towards a target by at most `most` about each axis, and is at most so
+    /// steep \[rad\].
+    pub(crate) fn towards(self, target: Self, most: f64, steepest: f64) -> Self {
+        let tilt = Self {
+            about_x: approached(self.about_x, target.about_x, most),
+            about_z: approached(self.about_z, target.about_z, most),
         };
-        tilt.limited(options.max_tilt_degrees.to_radians())
+        tilt.limited(steepest)
+    }
+
+    /// The world's direction down, along the axes of the maze.
+    pub(crate) fn down_in_maze(self) -> DVec3 {
+        let angle = self.angle();
+        if angle == 0.0 {
+            return DVec3::NEG_Y;
+        }
+        let (sine, cosine) = libm::sincos(angle);
+        let part = sine / angle;
+        DVec3::new(-self.about_z * part, -cosine, self.about_x * part)
     }
 
     /// The same direction, at most this steep \[rad\].

@@ -1,5 +1,6 @@
 //! What a Python exception is made of.
 
+use carom_maze::{EpisodeError, MazeError};
 use carom_scene::SceneError;
 use carom_scene::part::PartError;
 use pyo3::prelude::*;
@@ -111,6 +112,29 @@ impl From<SceneError> for Failure {
             _ => (Kind::Scene, None, None),
         };
         Self { kind, message, field, line }
+    }
+}
+
+impl From<EpisodeError> for Failure {
+    fn from(error: EpisodeError) -> Self {
+        match error {
+            EpisodeError::Option { field, requirement, value } => {
+                Self::value(field, format_args!("must be {requirement}, not {value}"))
+            }
+            EpisodeError::Physics(error) => error.into(),
+            EpisodeError::Maze(error) => error.into(),
+            other => Self::new(Kind::Value, other),
+        }
+    }
+}
+
+impl From<MazeError> for Failure {
+    fn from(error: MazeError) -> Self {
+        match error {
+            MazeError::Scene(error) => error.into(),
+            MazeError::Size { .. } => Self::new(Kind::Value, error).about("maze_size"),
+            _ => Self::new(Kind::Scene, error).about("maze"),
+        }
     }
 }
 

@@ -21,6 +21,7 @@ mod describing;
 mod editing;
 mod engine;
 mod failure;
+mod maze;
 #[cfg(feature = "pictures")]
 mod film;
 #[cfg(feature = "pictures")]
@@ -37,6 +38,7 @@ mod snapshot;
 mod tables;
 
 pub use engine::Engine;
+pub use maze::MazeEpisodes;
 #[cfg(feature = "pictures")]
 pub use painter::Painter;
 pub use snapshot::Snapshot;
@@ -49,6 +51,8 @@ mod _carom {
     #[cfg(feature = "pictures")]
     #[pymodule_export]
     use crate::Painter;
+    #[pymodule_export]
+    use crate::MazeEpisodes;
     #[pymodule_export]
     use crate::Snapshot;
     #[pymodule_export]

@@ -1,0 +1,163 @@
+//! One ball's episode.
+
+use carom::{DVec3, Participants, SphereId, StepReport};
+
+use super::Arena;
+use super::options::EpisodeOptions;
+use crate::maze::Role;
+use crate::random::Numbers;
+use crate::tilt::Tilt;
+
+/// Whether and how an episode has ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// It goes on.
+    Rolling,
+    /// The ball touched an end wall.
+    Won,
+    /// The ball fell out of the maze.
+    Fell,
+    /// It took as many steps as it may, and nothing else ended it.
+    TimeUp,
+}
+
+/// A ball's episode, but for its motion.
+#[derive(Debug, Clone)]
+pub(super) struct Ball {
+    pub tilt: Tilt,
+    /// A bit for each collectible.
+    pub taken: u64,
+    pub outcome: Outcome,
+    pub steps: u32,
+    pub reward: f64,
+    /// Where it is, as shaping sees it; zero without shaping.
+    potential: f64,
+    numbers: Numbers,
+}
+
+/// How tilts follow actions, in one frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Steering {
+    /// \[rad\]
+    steepest: f64,
+    /// About each axis in a frame \[rad\].
+    most: f64,
+}
+
+impl Steering {
+    pub fn new(options: &EpisodeOptions) -> Self {
+        let speed = options.tilt_speed_degrees_per_second.to_radians();
+        let steepest = options.max_tilt_degrees.to_radians();
+        Self { steepest, most: speed * options.frame_time }
+    }
+
+    pub fn steered(self, tilt: Tilt, action: [f64; 2]) -> Tilt {
+        let [to_x, to_z] = action.map(|part| self.steepest * part.clamp(-1.0, 1.0));
+        tilt.towards(Tilt::down(to_x, to_z), self.most, self.steepest)
+    }
+}
+
+impl Ball {
+    pub fn new(seed: u64) -> Self {
+        Self {
+            tilt: Tilt::LEVEL,
+            taken: 0,
+            outcome: Outcome::Rolling,
+            steps: 0,
+            reward: 0.0,
+            potential: 0.0,
+            numbers: Numbers::new(seed),
+        }
+    }
+
+    pub fn seed(&mut self, seed: u64) {
+        self.numbers = Numbers::new(seed);
+    }
+
+    pub fn choose(&mut self, places: &[DVec3]) -> DVec3 {
+        places[self.numbers.below(places.len())]
+    }
+
+    /// Begins an episode at a place.
+    pub fn begin(&mut self, place: DVec3, arena: &Arena) {
+        (self.tilt, self.taken) = (Tilt::LEVEL, 0);
+        (self.outcome, self.steps, self.reward) = (Outcome::Rolling, 0, 0.0);
+        self.potential = arena.potential(place, 0).unwrap_or(0.0);
+    }
+
+    pub fn begin_step(&mut self, arena: &Arena) {
+        let is_rolling = self.outcome == Outcome::Rolling;
+        self.reward = if is_rolling { arena.options().rewards.step } else { 0.0 };
+    }
+
+    /// Counts a step that ended at a place.
+    pub fn end_step(&mut self, place: DVec3, arena: &Arena) {
+        let EpisodeOptions { max_steps, rewards, .. } = arena.options();
+        self.steps = self.steps.saturating_add(1);
+        if rewards.shaping > 0.0 {
+            let after = match self.outcome {
+                Outcome::Won | Outcome::Fell => 0.0,
+                // Where nothing is known, nothing changes.
+                _ => arena.potential(place, self.taken).unwrap_or(self.potential),
+            };
+            if self.outcome != Outcome::TimeUp {
+                self.reward += rewards.discount * after - self.potential;
+            }
+            self.potential = after;
+        }
+        if self.outcome == Outcome::Rolling && max_steps.is_some_and(|most| self.steps >= most) {
+            self.outcome = Outcome::TimeUp;
+        }
+    }
+
+    fn is_rolling(&self) -> bool {
+        self.outcome == Outcome::Rolling
+    }
+
+    fn take(&mut self, index: usize, arena: &Arena) {
+        let bit = 1 << index;
+        if self.is_rolling() && self.taken & bit == 0 {
+            self.taken |= bit;
+            self.reward += arena.options().rewards.collectible;
+        }
+    }
+
+    fn win(&mut self, arena: &Arena) {
+        if self.is_rolling() {
+            self.outcome = Outcome::Won;
+            self.reward += arena.options().rewards.end_wall;
+        }
+    }
+
+    pub fn fall(&mut self, arena: &Arena) {
+        if self.is_rolling() {
+            self.outcome = Outcome::Fell;
+            self.reward += arena.options().rewards.fall;
+        }
+    }
+}
+
+/// Notes what balls touched in a frame: collectibles first, which count in the frame that wins.
+/// `index_of` says which ball a sphere is, if it counts.
+pub(super) fn note(
+    report: &StepReport,
+    balls: &mut [Ball],
+    arena: &Arena,
+    index_of: impl Fn(SphereId) -> Option<usize>,
+) {
+    for contact in &report.triggers {
+        let Role::Collectible(collectible) = arena.role(contact.collider) else { continue };
+        if let Some(index) = index_of(contact.sphere) {
+            balls[index].take(collectible, arena);
+        }
+    }
+    for impact in &report.impacts {
+        let Participants::Collider { collider, sphere } = impact.between else { continue };
+        if arena.role(collider) != Role::EndWall {
+            continue;
+        }
+        if let Some(index) = index_of(sphere) {
+            balls[index].win(arena);
+        }
+    }
+}

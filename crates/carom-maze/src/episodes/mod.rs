@@ -1,0 +1,296 @@
+//! Episodes for agents that learn: many balls at once, each for itself, in one maze.
+
+mod arena;
+mod ball;
+mod observation;
+mod options;
+mod rescue;
+mod ways;
+
+use std::sync::Arc;
+
+use carom::{DQuat, DVec3, Error, SphereId, World};
+use carom_scene::scene::Scene;
+
+use crate::error::EpisodeError;
+use crate::maze::Role;
+use crate::tilt::Tilt;
+use ball::{Ball, Steering};
+use rescue::Rescue;
+
+pub use arena::Arena;
+pub use ball::Outcome;
+pub use options::{EpisodeOptions, Rewards};
+
+/// Where an episode starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Start {
+    /// At the maze's start.
+    #[default]
+    Maze,
+    /// At any of [`Arena::starts`], all alike, by the ball's own random numbers.
+    Random,
+}
+
+/// Episodes of many balls in one maze, which do not see each other.
+///
+/// The maze stands still, and the weight of each ball is turned by a tilt of its own: forces that a
+/// turning maze would have on the ball are left out. An action is the tilt that is wanted, in parts
+/// of the steepest; the tilt follows as fast as [`EpisodeOptions::tilt_speed_degrees_per_second`] lets
+/// it. A ball that touches a collectible has it, and goes on; touching an end wall wins, and falling
+/// out of the maze ends the episode, too. After that the ball rolls on, and earns nothing, until it
+/// is [reset](Self::reset).
+///
+/// What an episode becomes depends, to the bit, on its start and its actions alone, not on how many
+/// others there are.
+///
+/// ```
+/// use std::sync::Arc;
+/// use carom_maze::{Arena, EpisodeOptions, Episodes, Maze};
+///
+/// let arena = Arc::new(Arena::new(Maze::course()?, EpisodeOptions::default())?);
+/// let mut episodes = Episodes::new(arena, 2)?;
+/// for _ in 0..50 {
+///     episodes.step(&[[1.0, 0.0], [0.0, -0.5]])?;
+/// }
+/// let mut seen = vec![0.0; episodes.arena().observation_length()];
+/// episodes.observe(0, &mut seen);
+/// assert!(seen[0] > 2.23, "rolled to +x");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Episodes {
+    arena: Arc<Arena>,
+    /// All balls; the number of each is its place in `balls`.
+    world: World,
+    balls: Vec<Ball>,
+    /// Weight of each ball along the axes of the maze \[N\].
+    weights: Vec<DVec3>,
+    rescue: Rescue,
+    /// Working memory of resets.
+    moved: Vec<(SphereId, DVec3, DVec3)>,
+}
+
+impl Episodes {
+    /// Episodes of `count` balls at the maze's start, the maze level. Random numbers are those of the
+    /// seeds 0, 1, 2, ...
+    ///
+    /// # Errors
+    /// [`EpisodeError::Count`] for no balls.
+    pub fn new(arena: Arc<Arena>, count: usize) -> Result<Self, EpisodeError> {
+        if count == 0 {
+            let what = "the number of balls";
+            return Err(EpisodeError::Count { what, balls: 1, count });
+        }
+        let mut world = arena.world().clone();
+        let ball = world.spheres().get(0);
+        for _ in 1..count {
+            world.add_sphere(ball)?;
+        }
+        let balls = (0..count as u64).map(Ball::new).collect();
+        let rescue = Rescue::new(&arena)?;
+        let weights = vec![DVec3::ZERO; count];
+        let mut episodes = Self { arena, world, balls, weights, rescue, moved: Vec::new() };
+        let all: Vec<usize> = (0..count).collect();
+        episodes.reset(&all, Start::Maze)?;
+        Ok(episodes)
+    }
+
+    /// Takes a step: an action for each ball, the tilt wanted towards +x and +z, in parts of the
+    /// steepest in \[-1, 1\]; more is cut off. A positive part lowers the maze there.
+    ///
+    /// # Errors
+    /// [`EpisodeError::Count`] for another number of actions than balls, [`EpisodeError::Action`] for
+    /// one that is not finite: then nothing is done. [`EpisodeError::Physics`] if a number would
+    /// overflow; the frame in which it would is not taken.
+    pub fn step(&mut self, actions: &[[f64; 2]]) -> Result<(), EpisodeError> {
+        let (balls, count) = (self.balls.len(), actions.len());
+        if balls != count {
+            return Err(EpisodeError::Count { what: "the number of actions", balls, count });
+        }
+        if let Some(ball) = actions.iter().position(|[x, z]| !(x.is_finite() && z.is_finite())) {
+            let [x, z] = actions[ball];
+            return Err(EpisodeError::Action { ball, value: if x.is_finite() { z } else { x } });
+        }
+        self.balls.iter_mut().for_each(|ball| ball.begin_step(&self.arena));
+        for _ in 0..self.arena.options().frames_per_step {
+            self.take_frame(actions)?;
+        }
+        let places = self.world.spheres().positions();
+        for (ball, &place) in self.balls.iter_mut().zip(places) {
+            ball.end_step(place, &self.arena);
+        }
+        Ok(())
+    }
+
+    fn take_frame(&mut self, actions: &[[f64; 2]]) -> Result<(), EpisodeError> {
+        let steering = Steering::new(self.arena.options());
+        let weight = self.arena.weight();
+        for ((ball, weight_of_ball), &action) in
+            self.balls.iter_mut().zip(&mut self.weights).zip(actions)
+        {
+            ball.tilt = steering.steered(ball.tilt, action);
+            *weight_of_ball = weight * ball.tilt.down_in_maze();
+        }
+        self.step_world()?;
+        let lowest = self.arena.options().reset_height;
+        for (ball, place) in self.balls.iter_mut().zip(self.world.spheres().positions()) {
+            if place.y < lowest {
+                ball.fall(&self.arena);
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves all balls by a frame, and notes what they touch.
+    fn step_world(&mut self) -> Result<(), EpisodeError> {
+        self.rescue.clear();
+        loop {
+            self.world.set_applied_forces(&self.weights)?;
+            // Times round differently: at all times the same frame has the same bits.
+            self.world.set_time(0.0)?;
+            match self.world.step(self.arena.options().frame_time).map(drop) {
+                Ok(()) => break,
+                Err(Error::TooManyImpacts { sphere, .. }) if !self.rescue.has(sphere) => {
+                    let weight = &mut self.weights[index_of(sphere)];
+                    self.rescue.park(sphere, weight, &mut self.world, &self.arena)?;
+                }
+                Err(error) => return Err(error.into()),
+            }
+        }
+        let rescue = &self.rescue;
+        ball::note(self.world.report(), &mut self.balls, &self.arena, |id| {
+            (!rescue.has(id)).then_some(index_of(id))
+        });
+        self.rescue.release(&mut self.world, &mut self.balls, &self.arena)
+    }
+
+    /// Starts new episodes of some balls, the maze level for them.
+    ///
+    /// # Errors
+    /// [`EpisodeError::NoBall`] for one that is not there; then none is reset.
+    pub fn reset(&mut self, balls: &[usize], start: Start) -> Result<(), EpisodeError> {
+        balls.iter().try_for_each(|&ball| self.check(ball))?;
+        self.moved.clear();
+        for &index in balls {
+            let ball = &mut self.balls[index];
+            let place = match start {
+                Start::Maze => self.arena.maze().start(),
+                Start::Random => ball.choose(self.arena.starts()),
+            };
+            ball.begin(place, &self.arena);
+            self.moved.push((self.world.spheres().ids()[index], place, DVec3::ZERO));
+        }
+        Ok(self.world.set_motions(&self.moved)?)
+    }
+
+    /// Gives a ball the random numbers of a seed, from which it chooses where to start.
+    ///
+    /// # Errors
+    /// [`EpisodeError::NoBall`] if it is not there.
+    pub fn seed(&mut self, ball: usize, seed: u64) -> Result<(), EpisodeError> {
+        self.check(ball)?;
+        self.balls[ball].seed(seed);
+        Ok(())
+    }
+
+    fn check(&self, ball: usize) -> Result<(), EpisodeError> {
+        let balls = self.balls.len();
+        if ball < balls { Ok(()) } else { Err(EpisodeError::NoBall { ball, balls }) }
+    }
+
+    /// The maze, and how it is played.
+    pub fn arena(&self) -> &Arena {
+        &self.arena
+    }
+
+    /// How many balls there are.
+    pub fn len(&self) -> usize {
+        self.balls.len()
+    }
+
+    /// Never: there is one ball at least.
+    pub fn is_empty(&self) -> bool {
+        self.balls.is_empty()
+    }
+
+    /// Centre \[m\] and velocity \[m/s\] of a ball along the axes of the maze.
+    ///
+    /// # Panics
+    /// If it is not there; so do those below.
+    pub fn motion(&self, ball: usize) -> (DVec3, DVec3) {
+        let spheres = self.world.spheres();
+        (spheres.positions()[ball], spheres.velocities()[ball])
+    }
+
+    /// How the maze is tilted for a ball.
+    pub fn tilt(&self, ball: usize) -> Tilt {
+        self.balls[ball].tilt
+    }
+
+    /// Which collectibles a ball has taken in this episode: bit i for the i-th.
+    pub fn taken(&self, ball: usize) -> u64 {
+        self.balls[ball].taken
+    }
+
+    /// Whether an episode goes on.
+    pub fn outcome(&self, ball: usize) -> Outcome {
+        self.balls[ball].outcome
+    }
+
+    /// What the last step earned.
+    pub fn reward(&self, ball: usize) -> f64 {
+        self.balls[ball].reward
+    }
+
+    /// Steps since the episode began.
+    pub fn steps(&self, ball: usize) -> u32 {
+        self.balls[ball].steps
+    }
+
+    /// Writes what an agent sees, as many of these numbers as there is place for:
+    ///
+    /// - the centre of the ball along x and z \[m\], in the maze's own frame;
+    /// - its velocity along x and z \[m/s\];
+    /// - the slope of the maze down towards +x and +z \[rad\];
+    /// - for each collectible 1 if it is still there, else 0.
+    ///
+    /// Each is within [`Arena::observation_bounds`]; what is not is cut off.
+    pub fn observe(&self, ball: usize, out: &mut [f32]) {
+        let (place, velocity) = self.motion(ball);
+        let Ball { tilt, taken, .. } = self.balls[ball];
+        observation::write((place, velocity), tilt, taken, self.arena.observation_bounds(), out);
+    }
+
+    /// How everything looks for a ball, in the world: the maze tilted, without what the ball has taken.
+    pub fn scene(&self, ball: usize) -> Scene {
+        let (rotation, (place, velocity)) = (self.tilt(ball).rotation(), self.motion(ball));
+        let mut scene = self.arena.maze().scene().clone();
+        scene.simulation.allow_overlap = true;
+        let turned = |vector: DVec3| (rotation * vector).to_array();
+        (scene.spheres[0].position, scene.spheres[0].velocity) = (turned(place), turned(velocity));
+        let is_taken = |role: &Role| match role {
+            Role::Collectible(index) => self.taken(ball) >> index & 1 == 1,
+            _ => false,
+        };
+        let mut roles = self.arena.maze().roles().iter();
+        scene.colliders.retain(|_| !roles.next().is_some_and(is_taken));
+        for collider in &mut scene.colliders {
+            collider.position = turned(DVec3::from_array(collider.position));
+            let level = DQuat::from_array(collider.rotation).normalize();
+            collider.rotation = (rotation * level).to_array();
+        }
+        scene
+    }
+
+    /// Frames of single balls that were taken by the rule `discrete`, because in them the ball met
+    /// walls more often than the rule `exact` is allowed to follow.
+    pub fn rough_frames(&self) -> u64 {
+        self.rescue.frames()
+    }
+}
+
+/// Which ball a sphere is: the balls are all spheres there ever were.
+fn index_of(id: SphereId) -> usize {
+    id.number() as usize
+}

@@ -1,0 +1,112 @@
+//! How episodes are played: values chosen for all balls.
+
+use carom::Rule;
+
+use crate::error::EpisodeError;
+
+/// How episodes are played.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EpisodeOptions {
+    /// How frames are taken.
+    pub rule: Rule,
+    /// Length of a frame \[s\], > 0.
+    pub frame_time: f64,
+    /// Frames in a step: for so long an action holds. At least 1.
+    pub frames_per_step: u32,
+    /// Largest tilt against level \[°\], in (0, 45].
+    pub max_tilt_degrees: f64,
+    /// How fast the maze turns about each axis \[°/s\], > 0; infinite: at once.
+    pub tilt_speed_degrees_per_second: f64,
+    /// An episode ends when its ball is below this, along the maze's own up \[m\].
+    pub reset_height: f64,
+    /// Steps after which an episode is over; `None`: it goes on until it is won or the ball falls.
+    pub max_steps: Option<u32>,
+    /// What is worth how much.
+    pub rewards: Rewards,
+}
+
+impl Default for EpisodeOptions {
+    fn default() -> Self {
+        Self {
+            rule: Rule::default(),
+            // The course's.
+            frame_time: 0.02,
+            frames_per_step: 1,
+            max_tilt_degrees: 20.0,
+            // A quick hand: from level to the steepest in a third of a second.
+            tilt_speed_degrees_per_second: 60.0,
+            reset_height: -5.0,
+            max_steps: None,
+            rewards: Rewards::default(),
+        }
+    }
+}
+
+/// What is worth how much.
+///
+/// Shaping shows the way before anything is reached, and leaves the best way to play the best: with
+/// the potential Φ = -`shaping` · (cost of the way to the nearest collectible that is left, or to the
+/// end wall if none is), each step adds `discount` · Φ(after) - Φ(before), and Φ = 0 where an episode
+/// ends won or fallen (A. Y. Ng, D. Harada, S. Russell, "Policy invariance under reward
+/// transformations", ICML 1999).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rewards {
+    /// For each collectible.
+    pub collectible: f64,
+    /// For the end wall.
+    pub end_wall: f64,
+    /// For falling out of the maze.
+    pub fall: f64,
+    /// For each step.
+    pub step: f64,
+    /// For each metre of the way, >= 0; zero: no shaping. Along walls a metre counts more.
+    pub shaping: f64,
+    /// Discount of the agent that is shaped, in \[0, 1\].
+    pub discount: f64,
+}
+
+impl Default for Rewards {
+    fn default() -> Self {
+        Self {
+            collectible: 1.0,
+            end_wall: 1.0,
+            fall: -1.0,
+            step: 0.0,
+            shaping: 0.0,
+            discount: 0.99,
+        }
+    }
+}
+
+impl EpisodeOptions {
+    /// Refuses values that make no sense for a ball that starts at a height \[m\].
+    pub(crate) fn validate(&self, start: f64) -> Result<(), EpisodeError> {
+        let require = |good: bool, field, requirement, value| {
+            if good { Ok(()) } else { Err(EpisodeError::Option { field, requirement, value }) }
+        };
+        let frame = self.frame_time;
+        let is_length = frame > 0.0 && frame.is_finite();
+        require(is_length, "frame_time", "positive and finite", frame)?;
+        let frames = self.frames_per_step;
+        require(frames > 0, "frames_per_step", "at least 1", frames.into())?;
+        let tilt = self.max_tilt_degrees;
+        let in_range = tilt > 0.0 && tilt <= 45.0;
+        require(in_range, "max_tilt_degrees", "above 0 and at most 45", tilt)?;
+        let speed = self.tilt_speed_degrees_per_second;
+        require(speed > 0.0, "tilt_speed_degrees_per_second", "positive", speed)?;
+        let height = self.reset_height;
+        let is_below = height < start && height.is_finite();
+        require(is_below, "reset_height", "finite, and below the ball's start", height)?;
+        let steps = self.max_steps.unwrap_or(u32::MAX);
+        require(steps > 0, "max_steps", "at least 1", steps.into())?;
+        let Rewards { collectible, end_wall, fall, step, shaping, discount } = self.rewards;
+        let values =
+            [("collectible", collectible), ("end_wall", end_wall), ("fall", fall), ("step", step)];
+        for (field, value) in values {
+            require(value.is_finite(), field, "finite", value)?;
+        }
+        let is_price = shaping >= 0.0 && shaping.is_finite();
+        require(is_price, "shaping", "zero or positive, and finite", shaping)?;
+        require((0.0..=1.0).contains(&discount), "discount", "in [0, 1]", discount)
+    }
+}

@@ -1,0 +1,198 @@
+//! Episodes in a maze, as the environments of `carom.gym` need them.
+
+// What is said of methods here is read in Python, where units stand in plain brackets.
+#![allow(rustdoc::broken_intra_doc_links)]
+
+mod given;
+mod results;
+mod team;
+
+use std::sync::{Mutex, MutexGuard};
+use std::time::Instant;
+
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::sync::MutexExt;
+use pyo3::types::PyDict;
+
+use crate::arguments;
+use crate::failure::Failure;
+use given::Given;
+use results::{Results, States};
+use team::Team;
+
+/// Episodes of many balls in one maze: what the environments of `carom.gym` stand on.
+#[pyclass(frozen, module = "carom._carom")]
+#[derive(Debug)]
+pub struct MazeEpisodes(Mutex<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    team: Team,
+    actions: Vec<[f64; 2]>,
+    /// Time that steps took, but for what Python does before and after \[s\].
+    seconds: f64,
+}
+
+/// How many collectibles each ball has, and whether it won.
+type StateArrays<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<bool>>);
+
+/// Observations, rewards, terminated, truncated, states; then which episodes ended and were started
+/// anew, their last observations, and their last states.
+type Step<'py> = (
+    Bound<'py, PyArray2<f32>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<bool>>,
+    Bound<'py, PyArray1<bool>>,
+    StateArrays<'py>,
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray2<f32>>,
+    StateArrays<'py>,
+);
+
+#[pymethods]
+impl MazeEpisodes {
+    /// Episodes of `num_envs` balls; `given` are the arguments of `carom.gym.MazeEnv`, by name.
+    #[new]
+    fn new(
+        num_envs: &Bound<'_, PyAny>,
+        threads: Option<&Bound<'_, PyAny>>,
+        autoreset_mode: &str,
+        start: &str,
+        given: Bound<'_, PyDict>,
+    ) -> PyResult<Self> {
+        let count = arguments::count("num_envs", num_envs)? as usize;
+        let threads = threads.map(|threads| arguments::count("threads", threads)).transpose()?;
+        if threads == Some(0) {
+            return Err(Failure::value("threads", "must be at least 1, not 0").into());
+        }
+        let manner = (given::autoreset(autoreset_mode)?, given::start(start)?);
+        let arena = Given(given).arena()?;
+        let team = Team::new(arena, count, threads.map(|threads| threads as usize), manner)?;
+        Ok(Self(Mutex::new(Inner { team, actions: Vec::new(), seconds: 0.0 })))
+    }
+
+    /// Takes a step: `actions` are the tilts wanted, (n, 2). Other threads run meanwhile.
+    fn step<'py>(&self, py: Python<'py>, actions: &Bound<'py, PyAny>) -> PyResult<Step<'py>> {
+        let mut guard = self.lock(py)?;
+        let Inner { team, actions: wanted, seconds } = &mut *guard;
+        read_actions(actions, team.len(), wanted)?;
+        let length = team.arena().observation_length();
+        let results = py.detach(|| {
+            let began = Instant::now();
+            let results = team.step(wanted);
+            *seconds += began.elapsed().as_secs_f64();
+            results
+        })?;
+        arrays(py, results, length)
+    }
+
+    /// Starts new episodes of the balls that are marked, n of them, with new random numbers where
+    /// there is a seed; at "maze", the start, or at "random" places.
+    fn reset<'py>(
+        &self,
+        py: Python<'py>,
+        marked: Vec<bool>,
+        seeds: Vec<Option<u64>>,
+        start: Option<&str>,
+    ) -> PyResult<Step<'py>> {
+        let start = start.map(given::start).transpose()?;
+        let team = &mut self.lock(py)?.team;
+        for (name, count) in [("reset_mask", marked.len()), ("seed", seeds.len())] {
+            if count != team.len() {
+                let problem = format_args!("must have {} entries, not {count}", team.len());
+                return Err(Failure::value(name, problem).into());
+            }
+        }
+        let results = team.reset(&marked, &seeds, start)?;
+        arrays(py, results, team.arena().observation_length())
+    }
+
+    /// The least and the most that each number of an observation can be.
+    #[getter]
+    fn bounds<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyArray1<f32>>, Bound<'py, PyArray1<f32>>)> {
+        let guard = self.lock(py)?;
+        let [low, high] = guard.team.arena().observation_bounds();
+        Ok((PyArray1::from_slice(py, low), PyArray1::from_slice(py, high)))
+    }
+
+    /// How everything looks for a ball, as a scene in TOML: the maze tilted, without what it has taken.
+    fn scene_toml(&self, py: Python<'_>, ball: &Bound<'_, PyAny>) -> PyResult<String> {
+        let ball = arguments::count("ball", ball)? as usize;
+        let team = &self.lock(py)?.team;
+        let Some((episodes, place)) = team.find(ball) else {
+            return Err(Failure::unknown("ball", ball).into());
+        };
+        Ok(episodes.scene(place).to_toml())
+    }
+
+    /// Frames of single balls that the rule "exact" refused and "discrete" took.
+    #[getter]
+    fn rough_frames(&self, py: Python<'_>) -> PyResult<u64> {
+        Ok(self.lock(py)?.team.rough_frames())
+    }
+
+    /// Time that all steps took in the engine, without the conversion of arguments and arrays [s].
+    #[getter(_seconds_in_engine)]
+    fn seconds_in_engine(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.lock(py)?.seconds)
+    }
+}
+
+impl MazeEpisodes {
+    fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
+        let broken = |_| PyRuntimeError::new_err("the engine of these episodes has failed before");
+        self.0.lock_py_attached(py).map_err(broken)
+    }
+}
+
+/// Reads actions for so many balls.
+fn read_actions(
+    given: &Bound<'_, PyAny>,
+    count: usize,
+    actions: &mut Vec<[f64; 2]>,
+) -> PyResult<()> {
+    actions.clear();
+    // What agents give; anything else is brought into its form first.
+    if let Ok(array) = given.cast::<PyArrayDyn<f32>>()
+        && array.shape() == [count, 2]
+        && let Ok(numbers) = array.try_readonly()
+        && let Ok(numbers) = numbers.as_slice()
+    {
+        actions.extend(numbers.as_chunks().0.iter().map(|pair: &[f32; 2]| pair.map(f64::from)));
+    } else {
+        let numbers = arguments::array("actions", given, &[count, 2])?;
+        actions.extend_from_slice(numbers.as_chunks().0);
+    }
+    match actions.iter().flatten().find(|number| !number.is_finite()) {
+        None => Ok(()),
+        Some(number) => {
+            Err(Failure::value("actions", format_args!("must be finite, not {number}")).into())
+        }
+    }
+}
+
+fn arrays(py: Python<'_>, results: Results, length: usize) -> PyResult<Step<'_>> {
+    let rows = |numbers: Vec<f32>| {
+        let count = numbers.len() / length;
+        PyArray1::from_vec(py, numbers).reshape([count, length])
+    };
+    let states = |states: States| {
+        let won = PyArray1::from_vec(py, states.won);
+        (PyArray1::from_vec(py, states.collected), won)
+    };
+    Ok((
+        rows(results.observations)?,
+        PyArray1::from_vec(py, results.rewards),
+        PyArray1::from_vec(py, results.terminated),
+        PyArray1::from_vec(py, results.truncated),
+        states(results.states),
+        PyArray1::from_vec(py, results.ended),
+        rows(results.ended_observations)?,
+        states(results.ended_states),
+    ))
+}

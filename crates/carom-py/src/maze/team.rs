@@ -1,0 +1,216 @@
+//! Many episodes, on several threads.
+
+use std::num::NonZero;
+use std::ops::Range;
+use std::sync::Arc;
+use std::thread;
+
+use carom_maze::{Arena, EpisodeError, Episodes, Outcome, Start};
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use super::results::Results;
+use crate::failure::Failure;
+
+/// Balls that one thread takes at a time: few enough to stay in its cache, with what belongs to them.
+const BALLS_IN_A_BLOCK: usize = 512;
+
+/// What becomes of episodes that are over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Autoreset {
+    /// The next step starts a new one, whatever the action.
+    NextStep,
+    /// The step that ends one starts a new one.
+    SameStep,
+    /// Nothing.
+    Disabled,
+}
+
+/// Many episodes, in blocks that threads share. No result depends on how many threads there are.
+#[derive(Debug)]
+pub struct Team {
+    arena: Arc<Arena>,
+    blocks: Vec<Block>,
+    /// None where one thread does everything.
+    pool: Option<ThreadPool>,
+    autoreset: Autoreset,
+    /// Where episodes start that nobody says it of.
+    start: Start,
+}
+
+/// Episodes that one thread steps.
+#[derive(Debug)]
+struct Block {
+    episodes: Episodes,
+    results: Results,
+    /// Balls to be reset; working memory.
+    over: Vec<usize>,
+}
+
+impl Team {
+    /// Episodes of `count` balls, on so many threads; `None`: on as many as there are processors.
+    ///
+    /// # Errors
+    /// [`Failure`] for no balls, and if threads cannot be started.
+    pub fn new(
+        arena: Arena,
+        count: usize,
+        threads: Option<usize>,
+        (autoreset, start): (Autoreset, Start),
+    ) -> Result<Self, Failure> {
+        if count == 0 {
+            return Err(Failure::value("num_envs", "must be at least 1, not 0"));
+        }
+        let arena = Arc::new(arena);
+        let block = |first: usize| {
+            let balls = BALLS_IN_A_BLOCK.min(count - first);
+            let episodes = Episodes::new(Arc::clone(&arena), balls)?;
+            Ok(Block { episodes, results: Results::default(), over: Vec::new() })
+        };
+        let blocks: Vec<Block> =
+            (0..count).step_by(BALLS_IN_A_BLOCK).map(block).collect::<Result<_, EpisodeError>>()?;
+        let processors = || thread::available_parallelism().map_or(1, NonZero::get);
+        let pool = pool(threads.unwrap_or_else(processors).min(blocks.len()))?;
+        Ok(Self { arena, blocks, pool, autoreset, start })
+    }
+
+    pub fn arena(&self) -> &Arena {
+        &self.arena
+    }
+
+    /// How many balls there are.
+    pub fn len(&self) -> usize {
+        self.blocks.iter().map(|block| block.episodes.len()).sum()
+    }
+
+    /// The episodes among which a ball is, and its place there.
+    pub fn find(&self, ball: usize) -> Option<(&Episodes, usize)> {
+        let block = self.blocks.get(ball / BALLS_IN_A_BLOCK)?;
+        let place = ball % BALLS_IN_A_BLOCK;
+        (place < block.episodes.len()).then_some((&block.episodes, place))
+    }
+
+    /// Takes a step; there must be an action for each ball.
+    ///
+    /// # Errors
+    /// [`Failure`] if a number would overflow.
+    pub fn step(&mut self, actions: &[[f64; 2]]) -> Result<Results, Failure> {
+        let (autoreset, start) = (self.autoreset, self.start);
+        let step =
+            |(block, actions): (&mut Block, &[[f64; 2]])| block.step(actions, autoreset, start);
+        let blocks = &mut self.blocks;
+        match &self.pool {
+            None => blocks.iter_mut().zip(actions.chunks(BALLS_IN_A_BLOCK)).try_for_each(step)?,
+            Some(pool) => pool.install(|| {
+                let actions = actions.par_chunks(BALLS_IN_A_BLOCK);
+                blocks.par_iter_mut().zip(actions).try_for_each(step)
+            })?,
+        }
+        Ok(self.results())
+    }
+
+    /// Starts new episodes of the balls that are marked, with new random numbers where there is a
+    /// seed; both lists have an entry for each ball.
+    ///
+    /// # Errors
+    /// [`Failure`] if the engine refuses the start.
+    pub fn reset(
+        &mut self,
+        marked: &[bool],
+        seeds: &[Option<u64>],
+        start: Option<Start>,
+    ) -> Result<Results, Failure> {
+        let start = start.unwrap_or(self.start);
+        for (number, block) in self.blocks.iter_mut().enumerate() {
+            let balls = block.balls(number);
+            block.reset(&marked[balls.clone()], &seeds[balls], start)?;
+        }
+        Ok(self.results())
+    }
+
+    /// The results of all blocks.
+    fn results(&self) -> Results {
+        let mut all = Results::with_capacity(self.len(), self.arena.observation_length());
+        for (number, block) in self.blocks.iter().enumerate() {
+            all.append(&block.results, number * BALLS_IN_A_BLOCK);
+        }
+        all
+    }
+
+    /// Frames of single balls that the rule `exact` refused.
+    pub fn rough_frames(&self) -> u64 {
+        self.blocks.iter().map(|block| block.episodes.rough_frames()).sum()
+    }
+}
+
+impl Block {
+    /// Which balls are here, if this is the block of a number.
+    fn balls(&self, number: usize) -> Range<usize> {
+        let first = number * BALLS_IN_A_BLOCK;
+        first..first + self.episodes.len()
+    }
+
+    fn step(
+        &mut self,
+        actions: &[[f64; 2]],
+        autoreset: Autoreset,
+        start: Start,
+    ) -> Result<(), EpisodeError> {
+        let Self { episodes, results, over } = self;
+        results.clear();
+        if autoreset == Autoreset::NextStep {
+            find_over(episodes, over);
+        }
+        episodes.step(actions)?;
+        match autoreset {
+            Autoreset::Disabled => results.push_outcomes(episodes),
+            Autoreset::NextStep => {
+                episodes.reset(over, start)?;
+                results.push_outcomes(episodes);
+            }
+            Autoreset::SameStep => {
+                find_over(episodes, over);
+                results.push_ended(episodes, over);
+                results.push_outcomes(episodes);
+                episodes.reset(over, start)?;
+            }
+        }
+        results.push_states(episodes);
+        Ok(())
+    }
+
+    fn reset(
+        &mut self,
+        marked: &[bool],
+        seeds: &[Option<u64>],
+        start: Start,
+    ) -> Result<(), EpisodeError> {
+        let Self { episodes, results, over } = self;
+        over.clear();
+        over.extend((0..marked.len()).filter(|&ball| marked[ball]));
+        for &ball in over.iter() {
+            if let Some(seed) = seeds[ball] {
+                episodes.seed(ball, seed)?;
+            }
+        }
+        episodes.reset(over, start)?;
+        results.clear();
+        results.push_outcomes(episodes);
+        results.push_states(episodes);
+        Ok(())
+    }
+}
+
+/// Balls whose episodes are over.
+fn find_over(episodes: &Episodes, over: &mut Vec<usize>) {
+    over.clear();
+    over.extend((0..episodes.len()).filter(|&it| episodes.outcome(it) != Outcome::Rolling));
+}
+
+fn pool(threads: usize) -> Result<Option<ThreadPool>, Failure> {
+    if threads <= 1 {
+        return Ok(None);
+    }
+    let built = ThreadPoolBuilder::new().num_threads(threads).build();
+    built.map(Some).map_err(|error| Failure::value("threads", error))
+}

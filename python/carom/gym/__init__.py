@@ -1,0 +1,40 @@
+"""Environments of Gymnasium: mazes to be learned.
+
+To import this module registers them; ``pip install 'carom[gym]'`` brings Gymnasium.
+
+>>> import carom.gym
+>>> import gymnasium
+>>> env = gymnasium.make("carom/Maze-v0")
+>>> observation, info = env.reset(seed=1)
+>>> observation.shape, env.action_space.shape
+((10,), (2,))
+>>> envs = gymnasium.make_vec("carom/Maze-v0", num_envs=64)
+>>> observations, infos = envs.reset(seed=1)
+>>> observations.shape
+(64, 10)
+"""
+
+try:
+    import gymnasium
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        "carom.gym needs Gymnasium: pip install 'carom[gym]'", name=error.name
+    ) from error
+
+from carom.gym._arguments import MazeArguments
+from carom.gym._maze import MazeEnv
+from carom.gym._maze_vector import MazeVectorEnv
+
+__all__ = ["MAZE", "MazeArguments", "MazeEnv", "MazeVectorEnv"]
+
+MAZE = "carom/Maze-v0"
+"""The name under which Gymnasium knows the maze."""
+
+if MAZE not in gymnasium.registry:
+    gymnasium.register(
+        id=MAZE,
+        entry_point="carom.gym:MazeEnv",
+        vector_entry_point="carom.gym:MazeVectorEnv",
+        # 40 s.
+        max_episode_steps=2000,
+    )

@@ -1,0 +1,135 @@
+"""What can be said of a maze and of how it is played."""
+
+from __future__ import annotations
+
+from os import PathLike, fspath
+from typing import Any, Literal, TypedDict
+
+import numpy as np
+from gymnasium import spaces
+
+from carom._carom import MazeEpisodes
+from carom.errors import CaromError
+
+Start = Literal["maze", "random"]
+"""Where episodes start: where the maze says, or anywhere on the floor, from the seed."""
+
+
+class MazeArguments(TypedDict, total=False):
+    """Arguments of `MazeEnv` and `MazeVectorEnv`, by name; all may be left out.
+
+    Attributes:
+        maze: ``"course"`` (default), ``"spiral"``, ``"random"``, a drawing (several lines), or the path
+            of a file with one.
+        maze_seed: Of a random maze, 0.
+        maze_size: Columns and rows of a random maze, (5, 4).
+        rule: ``"exact"`` (default), or ``"discrete"``, which is faster: `docs/physics.md`.
+        frame_time: Length of a frame, 0.02 [s].
+        frames_per_step: Frames in a step, 1: for so long an action holds.
+        max_tilt_degrees: Steepest tilt, 20 [°], at most 45.
+        tilt_speed_degrees_per_second: How fast the maze follows an action about each axis,
+            60 [°/s]; ``inf``: at once.
+        start: ``"maze"`` (default), or ``"random"``: anywhere on the floor.
+        collectible_reward: For each collectible, 1.
+        end_wall_reward: For the end wall, 1.
+        fall_reward: For falling out of the maze, -1.
+        step_reward: For each step, 0.
+        shaping: For each metre of the way to the nearest collectible that is left, or to the end wall
+            if none is, 0. It shows the way, and leaves the best way to play the best: Φ = -shaping ·
+            way, and each step adds discount · Φ(after) - Φ(before) (Ng, Harada, Russell, ICML 1999).
+        discount: Discount of the agent that is shaped, 0.99.
+    """
+
+    maze: str | PathLike[str]
+    maze_seed: int
+    maze_size: tuple[int, int]
+    rule: Literal["exact", "discrete"]
+    frame_time: float
+    frames_per_step: int
+    max_tilt_degrees: float
+    tilt_speed_degrees_per_second: float
+    start: Start
+    collectible_reward: float
+    end_wall_reward: float
+    fall_reward: float
+    step_reward: float
+    shaping: float
+    discount: float
+
+
+DEFAULTS = MazeArguments(
+    maze="course",
+    maze_seed=0,
+    maze_size=(5, 4),
+    rule="exact",
+    frame_time=0.02,
+    frames_per_step=1,
+    max_tilt_degrees=20.0,
+    tilt_speed_degrees_per_second=60.0,
+    start="maze",
+    collectible_reward=1.0,
+    end_wall_reward=1.0,
+    fall_reward=-1.0,
+    step_reward=0.0,
+    shaping=0.0,
+    discount=0.99,
+)
+
+METADATA: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 50}
+"""What Gymnasium wants to know of an environment."""
+
+
+class Episodes:
+    """Episodes of balls, as they were asked for, and the spaces of one of them."""
+
+    def __init__(
+        self,
+        num_envs: int,
+        given: MazeArguments,
+        *,
+        max_episode_steps: int | None = None,
+        threads: int | None = 1,
+        autoreset_mode: str = "Disabled",
+    ) -> None:
+        for name in given:
+            if name not in DEFAULTS:
+                raise TypeError(f"{name}: there is no such argument of a maze")
+        arguments: dict[str, Any] = {**DEFAULTS, **given, "max_episode_steps": max_episode_steps}
+        arguments["maze"] = fspath(arguments["maze"])
+        start = arguments.pop("start")
+        self.engine = MazeEpisodes(num_envs, threads, autoreset_mode, start, arguments)
+        low, high = self.engine.bounds
+        self.observation_space = spaces.Box(low, high, dtype=np.float32)
+        self.action_space = spaces.Box(-1.0, 1.0, (2,), dtype=np.float32)
+        step = arguments["frame_time"] * arguments["frames_per_step"]
+        self.metadata = {**METADATA, "render_fps": max(1, round(1.0 / step))}
+
+
+def checked_mode(render_mode: str | None) -> str | None:
+    """A way to render that there is.
+
+    Raises:
+        CaromError: For any other.
+    """
+    if render_mode is not None and render_mode not in METADATA["render_modes"]:
+        raise CaromError(f'render_mode: must be None or "rgb_array", not {render_mode}', "render_mode")
+    return render_mode
+
+
+def engine_seed(seed: int) -> int:
+    """A seed as the engine takes it: any whole number that is not negative, modulo 2^64."""
+    if seed < 0:
+        raise CaromError(f"seed: must be zero or positive, not {seed}", "seed")
+    return int(seed) % 2**64
+
+
+def chosen_start(options: dict[str, Any] | None) -> str | None:
+    """What the options of a reset say of where to start.
+
+    Raises:
+        CaromError: For an option that there is not.
+    """
+    for name in options or {}:
+        if name not in ("start", "reset_mask"):
+            raise CaromError(f"options: there is no {name}, but start", "options")
+    return (options or {}).get("start")
