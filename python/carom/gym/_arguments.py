@@ -112,9 +112,7 @@ def checked_mode(render_mode: str | None) -> str | None:
         CaromError: For any other.
     """
     if render_mode is not None and render_mode not in METADATA["render_modes"]:
-        raise CaromError(
-            f'render_mode: must be None or "rgb_array", not {render_mode}', "render_mode"
-        )
+        raise CaromError(f'render_mode: must be None or "rgb_array", not {render_mode}', "render_mode")
     return render_mode
 
 

@@ -188,7 +188,9 @@ class MazeVectorEnv(_Base):
         return [engine_seed(seed + place) for place in range(self.num_envs)]
 
 
-def _infos(states: tuple[NDArray[Any], NDArray[Any]], mask: NDArray[np.bool_]) -> dict[str, Any]:
+def _infos(
+    states: tuple[NDArray[Any], NDArray[Any]], mask: NDArray[np.bool_]
+) -> dict[str, Any]:
     """Infos as Gymnasium wants them: each with a mask of the environments that it is of."""
     collected, won = states
     return {
