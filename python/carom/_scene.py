@@ -20,7 +20,6 @@ from carom import _pictures as pictures
 from carom._carom import canonical_toml, read_scene
 from carom._text import fields_of, toml_of, toml_value
 from carom._trajectory import Trajectory
-from carom._window import open_window
 from carom._world import World
 from carom.errors import CaromError
 
@@ -264,6 +263,9 @@ class Scene(parts.Part):
             SceneError: If the scene makes no sense.
             GraphicsError: If this build has no window, or it cannot be opened here.
         """
+        # Not above: the process runs this module, which nobody may have imported before.
+        from carom._window import open_window
+
         return open_window(self.to_toml())
 
     def _repr_png_(self) -> bytes | None:
