@@ -6,8 +6,8 @@ array, the tilt, physics, rewards, new episodes, observations written into NumPy
     pip install . && pip install -r bench/requirements.txt
     python bench/maze_env.py [--mujoco] [--json figures.json] [--seconds 2]
 
-Two kinds of random tilt: "at once", any tilt up to 20° in each frame; "followed", the maze turns to it by
-60°/s, so that balls get farther and meet walls more often.
+Two kinds of random tilt: "at once", any tilt up to 20° in each frame; "followed", the maze turns to
+it by 60°/s, so that balls get farther and meet walls more often.
 """
 
 from __future__ import annotations
@@ -122,7 +122,9 @@ def main() -> None:
     arguments = parser.parse_args()
 
     figures = []
-    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    processors = (
+        len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    )
     for rule in arguments.rules:
         for tilt in TILT_SPEEDS:
             for num_envs in arguments.num_envs:
@@ -137,7 +139,9 @@ def main() -> None:
         for tilt, speed in TILT_SPEEDS.items():
             for name, rate in maze_mujoco.rates(speed, arguments.seconds).items():
                 figures.append(Figure(f"MuJoCo {name}", tilt, 1, 1, rate, rate))
-    load = ", ".join(f"{load:.1f}" for load in os.getloadavg()) if hasattr(os, "getloadavg") else "?"
+    load = (
+        ", ".join(f"{load:.1f}" for load in os.getloadavg()) if hasattr(os, "getloadavg") else "?"
+    )
     print(f"\nload of the machine: {load}\n\n{table(figures)}\n\n{ratios(figures)}")
     if arguments.json:
         with open(arguments.json, "w", encoding="utf-8") as file:

@@ -1,4 +1,4 @@
-"""The same maze in MuJoCo: static boxes, planes for ground and ceiling, a ball of the same size and mass.
+"""The same maze in MuJoCo: static boxes, planes for ground and ceiling, the same ball.
 
 All is done that makes MuJoCo fast: contacts without friction (as in Carom), one step of 0.02 s per
 frame, no trace kept of collectibles, rewards or episodes.

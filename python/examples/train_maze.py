@@ -3,8 +3,8 @@
     pip install '.[train]'
     python python/examples/train_maze.py [--seeds 5] [--steps 600000] [--picture curve.png]
 
-Proximal policy optimisation (J. Schulman et al., arXiv:1707.06347) as Stable-Baselines3 has it, on 64
-mazes at once. An action holds for a tenth of a second; shaping shows the way along the floor.
+Proximal policy optimisation (J. Schulman et al., arXiv:1707.06347) as Stable-Baselines3 has it, on
+64 mazes at once. An action holds for a tenth of a second; shaping shows the way along the floor.
 """
 
 from __future__ import annotations

@@ -21,13 +21,13 @@ mod describing;
 mod editing;
 mod engine;
 mod failure;
-mod maze;
 #[cfg(feature = "pictures")]
 mod film;
 #[cfg(feature = "pictures")]
 mod graphics_failure;
 #[cfg(feature = "pictures")]
 mod look;
+mod maze;
 #[cfg(feature = "pictures")]
 mod painter;
 mod part;
@@ -48,11 +48,11 @@ pub use snapshot::Snapshot;
 mod _carom {
     #[pymodule_export]
     use crate::Engine;
+    #[pymodule_export]
+    use crate::MazeEpisodes;
     #[cfg(feature = "pictures")]
     #[pymodule_export]
     use crate::Painter;
-    #[pymodule_export]
-    use crate::MazeEpisodes;
     #[pymodule_export]
     use crate::Snapshot;
     #[pymodule_export]
