@@ -38,10 +38,18 @@ from carom._parts import (
 )
 from carom._pictures import Renderer, Viewpoint
 from carom._scene import Scene
+from carom._sweep import Failure, Runs, sweep
 from carom._tables import IMPACT, LEDGER, TRIGGER
 from carom._trajectory import Trajectory
 from carom._world import World
-from carom.errors import CaromError, GraphicsError, SceneError, StepError, UnknownError
+from carom.errors import (
+    CaromError,
+    GraphicsError,
+    RunError,
+    SceneError,
+    StepError,
+    UnknownError,
+)
 
 __all__ = [
     "IMPACT",
@@ -58,6 +66,7 @@ __all__ = [
     "DensityColor",
     "Emitter",
     "Exact",
+    "Failure",
     "Force",
     "Generator",
     "GraphicsError",
@@ -70,6 +79,8 @@ __all__ = [
     "Rectangle",
     "Renderer",
     "Row",
+    "RunError",
+    "Runs",
     "Scene",
     "SceneError",
     "Shape",
@@ -86,4 +97,5 @@ __all__ = [
     "load",
     "scene",
     "scenes",
+    "sweep",
 ]

@@ -98,6 +98,16 @@ def load(name: str, changes: Mapping[str, Any] = NO_CHANGES, **parameters: Any) 
     return Scene(**fields_of(json.loads(text)))
 
 
+def find(name: str) -> Scene | Callable[..., Scene]:
+    """The scene with a name, as `load` finds it, or the function that makes it if it has one."""
+    announced = _announced()
+    names = [(own, "") for own in dict.fromkeys([*_registered, *announced])]
+    text, found = find_scene(name, [], _folders(), names)
+    if text is None:
+        return _maker(found, announced).make
+    return Scene(**fields_of(json.loads(text)))
+
+
 def scenes() -> list[Listed]:
     """All scenes that `load` finds, in the order in which names are looked up."""
     announced = _announced()
@@ -120,15 +130,20 @@ def registered_texts() -> list[str]:
 
 def _make(name: str, announced: Mapping[str, EntryPoint], parameters: Mapping[str, Any]) -> Scene:
     """Makes a scene of Python."""
-    if name not in _registered:
-        make = announced[name].load()
-        # Its own decorator has registered it by now, unless it has none.
-        _registered.setdefault(name, _Registered(make, ""))
-    make, description = _registered[name]
+    make, description = _maker(name, announced)
     made = make(**parameters)
     if not isinstance(made, Scene):
         raise TypeError(f"{name}: its function returned a {type(made).__name__}, not a carom.Scene")
     return replace(made, name=name, description=made.description or description)
+
+
+def _maker(name: str, announced: Mapping[str, EntryPoint]) -> _Registered:
+    """What makes a scene of Python."""
+    if name not in _registered:
+        make = announced[name].load()
+        # Its own decorator has registered it by now, unless it has none.
+        _registered.setdefault(name, _Registered(make, ""))
+    return _registered[name]
 
 
 def _announced() -> dict[str, EntryPoint]:

@@ -31,3 +31,7 @@ class GraphicsError(CaromError, RuntimeError):
 
 class StepError(CaromError, ArithmeticError):
     """A step that cannot be taken: a number would overflow, or there are too many impacts."""
+
+
+class RunError(CaromError, RuntimeError):
+    """A run of a sweep failed, or the cluster that performs it."""

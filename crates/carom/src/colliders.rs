@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use crate::collider::{Collider, ColliderId};
 use crate::detect::surface_tree::SurfaceTree;
 use crate::numbered::Numbered;
-use crate::surface::{self, Surface};
+use crate::surface::{self, Role, Surface};
 
 /// Colliders in their order, and the surfaces made of them.
 #[derive(Debug, Clone, Default)]
@@ -14,6 +14,8 @@ pub(crate) struct Colliders {
     surfaces: Vec<Surface>,
     /// Made when first asked for after a change.
     tree: OnceLock<SurfaceTree>,
+    /// Likewise, of triggers alone.
+    trigger_tree: OnceLock<SurfaceTree>,
 }
 
 impl Colliders {
@@ -28,13 +30,24 @@ impl Colliders {
 
     /// Finds surfaces, by their index in [`Self::surfaces`].
     pub fn tree(&self) -> &SurfaceTree {
-        self.tree.get_or_init(|| SurfaceTree::new(&self.surfaces))
+        self.tree.get_or_init(|| SurfaceTree::of(&self.surfaces, |_| true))
+    }
+
+    /// Likewise, those that report and deflect nothing.
+    pub fn trigger_tree(&self) -> &SurfaceTree {
+        let is_trigger = |surface: &Surface| surface.role == Role::Reports;
+        self.trigger_tree.get_or_init(|| SurfaceTree::of(&self.surfaces, is_trigger))
+    }
+
+    fn forget_trees(&mut self) {
+        self.tree.take();
+        self.trigger_tree.take();
     }
 
     pub fn push(&mut self, collider: Collider) {
         surface::place(ColliderId(self.list.next_number()), &collider, &mut self.surfaces);
         self.list.push(collider);
-        self.tree.take();
+        self.forget_trees();
     }
 
     /// Puts colliders in the places of some that are there.
@@ -74,6 +87,6 @@ impl Colliders {
         for (number, collider) in self.list.iter() {
             surface::place(ColliderId(number), collider, &mut self.surfaces);
         }
-        self.tree.take();
+        self.forget_trees();
     }
 }

@@ -45,6 +45,12 @@ impl Flight {
         (position, velocity)
     }
 
+    /// How far it goes at most along each axis within a time \[s\] \[m\]: drag only slows it down.
+    #[inline]
+    pub(crate) fn farthest(&self, t: f64) -> DVec3 {
+        t * (self.velocity.abs() + 0.5 * t * self.acceleration.abs())
+    }
+
     /// This flight as seen from a frame whose origin starts at `origin` \[m\] and moves with a
     /// constant velocity u \[m/s\]. The air stays at rest, so that `w = v - u` obeys
     /// `w' = (a - γu) - γw`.

@@ -17,6 +17,8 @@ pub(crate) struct System<'a> {
     pub forces: &'a Numbered<Arc<dyn Force>>,
     pub surfaces: &'a [Surface],
     pub tree: &'a SurfaceTree,
+    /// Of the surfaces that report contact and deflect nothing.
+    pub trigger_tree: &'a SurfaceTree,
     pub spheres: &'a Properties,
 }
 
@@ -28,6 +30,7 @@ impl<'a> System<'a> {
         spheres: &'a Properties,
     ) -> Self {
         let (surfaces, tree) = (colliders.surfaces(), colliders.tree());
-        Self { settings, forces, surfaces, tree, spheres }
+        let trigger_tree = colliders.trigger_tree();
+        Self { settings, forces, surfaces, tree, trigger_tree, spheres }
     }
 }

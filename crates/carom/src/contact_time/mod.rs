@@ -22,6 +22,7 @@ mod obstacle;
 #[cfg(test)]
 mod oracle;
 mod path;
+mod reach;
 mod roundoff;
 mod search;
 mod sphere_sphere;
@@ -29,5 +30,6 @@ mod sphere_surface;
 mod turning;
 
 pub use bisection::{Bisection, Probe, bisect};
+pub(crate) use reach::is_out_of_reach;
 pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};
 pub(crate) use sphere_surface::sphere_surface;

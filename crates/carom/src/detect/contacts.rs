@@ -76,7 +76,7 @@ pub(crate) fn of_overlaps(
         instant.for_each_surface(
             sphere,
             0.0,
-            &mut search.near,
+            (instant.system.tree, &mut search.near),
             |role| role != Role::Reports,
             |contact| {
                 if contact.separation.distance < -tolerance {
@@ -174,15 +174,16 @@ pub(crate) fn of_triggers(
     search: &mut Search,
     mut visit: impl FnMut(Contact),
 ) {
-    if !instant.system.surfaces.iter().any(|surface| surface.role == Role::Reports) {
+    let triggers = instant.system.trigger_tree;
+    if triggers.is_empty() {
         return;
     }
     for sphere in 0..instant.system.spheres.id.len() as u32 {
         instant.for_each_surface(
             sphere,
             tolerance,
-            &mut search.near,
-            |role| role == Role::Reports,
+            (triggers, &mut search.near),
+            |_| true,
             |contact| {
                 if contact.separation.distance <= tolerance {
                     visit(contact);
@@ -206,7 +207,7 @@ fn of_surfaces(
         instant.for_each_surface(
             sphere,
             tolerance,
-            near,
+            (instant.system.tree, near),
             |role| role == Role::Deflects,
             |contact| {
                 keep(contact, contacts);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::contact::{Bodies, Contact};
-use super::surface_tree::Bounds;
+use super::surface_tree::{Bounds, SurfaceTree};
 use super::{classify, sphere_sphere, sphere_surface};
 use crate::bodies::Motion;
 use crate::integrate;
@@ -59,17 +59,17 @@ impl Instant<'_> {
         }
     }
 
-    /// Visits every surface, of roles for which `wanted` holds, near a sphere with its contact.
+    /// Visits every surface of a tree, of roles for which `wanted` holds, near a sphere with its contact.
     pub fn for_each_surface(
         &self,
         sphere: u32,
         tolerance: f64,
-        near: &mut Vec<u32>,
+        (tree, near): (&SurfaceTree, &mut Vec<u32>),
         wanted: impl Fn(Role) -> bool,
         mut visit: impl FnMut(Contact),
     ) {
         let i = sphere as usize;
-        self.system.tree.near(&reach(&self.system, self.motion, i, tolerance), near);
+        tree.near(&reach(&self.system, self.motion, i, tolerance), near);
         for &surface in near.iter() {
             if wanted(self.system.surfaces[surface as usize].role)
                 && let Some(contact) = self.surface(sphere, surface, tolerance)

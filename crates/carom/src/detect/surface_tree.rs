@@ -16,8 +16,17 @@ impl Bounds {
         Self { min: center - half, max: center + half }
     }
 
+    /// Farther by `margin` \[m\] on all sides.
+    pub fn widened(&self, margin: f64) -> Self {
+        Self { min: self.min - margin, max: self.max + margin }
+    }
+
+    #[inline]
     pub fn overlap(&self, other: &Self) -> bool {
-        self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+        // All comparisons at once: which of them fails cannot be foreseen.
+        let along =
+            |axis: usize| (self.min[axis] <= other.max[axis]) & (other.min[axis] <= self.max[axis]);
+        along(0) & along(1) & along(2)
     }
 
     fn union(self, other: Self) -> Self {
@@ -43,7 +52,7 @@ fn bounds(form: &Form) -> Option<Bounds> {
 /// Finds the surfaces near a place: a bounding volume hierarchy, split at the median centre.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct SurfaceTree {
-    /// Depth first: the left child of an inner node follows it.
+    /// Depth first: the children of an inner node follow it, and all that is below them.
     nodes: Vec<Node>,
     /// Bounded surfaces, grouped by leaf.
     leaves: Vec<(Bounds, u32)>,
@@ -54,22 +63,21 @@ pub(crate) struct SurfaceTree {
 #[derive(Debug, Clone, PartialEq)]
 struct Node {
     bounds: Bounds,
-    kind: NodeKind,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-enum NodeKind {
-    Leaf { first: u32, count: u32 },
-    Inner { right: u32 },
+    /// The node after this one and all below it.
+    next: u32,
+    /// Of a leaf, the place of its first surface and of the one after its last; of an inner node,
+    /// nothing.
+    surfaces: [u32; 2],
 }
 
 /// Up to this many surfaces are looked at one by one; below it a tree saves nothing.
 const LEAF_SIZE: usize = 4;
 
 impl SurfaceTree {
-    pub fn new(surfaces: &[Surface]) -> Self {
+    /// A tree of the surfaces that are `wanted`.
+    pub fn of(surfaces: &[Surface], wanted: impl Fn(&Surface) -> bool) -> Self {
         let mut tree = Self::default();
-        for (index, surface) in surfaces.iter().enumerate() {
+        for (index, surface) in surfaces.iter().enumerate().filter(|(_, it)| wanted(it)) {
             match bounds(&surface.form) {
                 Some(bounds) => tree.leaves.push((bounds, index as u32)),
                 None => tree.unbounded.push(index as u32),
@@ -81,50 +89,47 @@ impl SurfaceTree {
         tree
     }
 
+    /// Whether there are no surfaces at all.
+    pub fn is_empty(&self) -> bool {
+        self.leaves.is_empty() && self.unbounded.is_empty()
+    }
+
     /// Appends the node over `leaves[first .. last]`, and those below it.
     fn build(&mut self, first: usize, last: usize) {
         let part = &mut self.leaves[first..last];
         let bounds = part.iter().map(|leaf| leaf.0).reduce(Bounds::union);
         let Some(bounds) = bounds else { return };
         let count = part.len();
+        let node = self.nodes.len();
         if count <= LEAF_SIZE {
-            let kind = NodeKind::Leaf { first: first as u32, count: count as u32 };
-            self.nodes.push(Node { bounds, kind });
+            let surfaces = [first, last].map(|place| place as u32);
+            self.nodes.push(Node { bounds, next: node as u32 + 1, surfaces });
             return;
         }
         let axis = (bounds.max - bounds.min).max_position();
         let center = |leaf: &(Bounds, u32)| leaf.0.min[axis] + leaf.0.max[axis];
         part.sort_by(|a, b| center(a).total_cmp(&center(b)).then(a.1.cmp(&b.1)));
-        let node = self.nodes.len();
-        self.nodes.push(Node { bounds, kind: NodeKind::Inner { right: 0 } });
+        self.nodes.push(Node { bounds, next: 0, surfaces: [0; 2] });
         self.build(first, first + count / 2);
-        self.nodes[node].kind = NodeKind::Inner { right: self.nodes.len() as u32 };
         self.build(first + count / 2, last);
+        self.nodes[node].next = self.nodes.len() as u32;
     }
 
     /// Indices of the surfaces whose bounds overlap `query`, ascending, into `near`.
     pub fn near(&self, query: &Bounds, near: &mut Vec<u32>) {
         near.clear();
         near.extend_from_slice(&self.unbounded);
-        if !self.nodes.is_empty() {
-            self.collect(0, query, near);
+        let mut place = 0;
+        while let Some(node) = self.nodes.get(place) {
+            if !node.bounds.overlap(query) {
+                place = node.next as usize;
+                continue;
+            }
+            let [first, last] = node.surfaces.map(|place| place as usize);
+            let leaves = &self.leaves[first..last];
+            near.extend(leaves.iter().filter(|leaf| leaf.0.overlap(query)).map(|leaf| leaf.1));
+            place += 1;
         }
         near.sort_unstable();
-    }
-
-    fn collect(&self, node: usize, query: &Bounds, near: &mut Vec<u32>) {
-        if !self.nodes[node].bounds.overlap(query) {
-            return;
-        }
-        match self.nodes[node].kind {
-            NodeKind::Leaf { first, count } => {
-                let leaves = &self.leaves[first as usize..(first + count) as usize];
-                near.extend(leaves.iter().filter(|leaf| leaf.0.overlap(query)).map(|leaf| leaf.1));
-            }
-            NodeKind::Inner { right } => {
-                self.collect(node + 1, query, near);
-                self.collect(right as usize, query, near);
-            }
-        }
     }
 }

@@ -26,6 +26,10 @@ impl Clusters {
         &self.clusters[number as usize]
     }
 
+    pub fn get_mut(&mut self, number: u32) -> &mut Cluster {
+        &mut self.clusters[number as usize]
+    }
+
     pub fn add(&mut self, cluster: Cluster) -> u32 {
         match self.free.pop() {
             Some(number) => {

@@ -8,6 +8,7 @@
 
 mod axis_motion;
 mod body;
+mod carry;
 mod cluster;
 mod grid;
 mod group;

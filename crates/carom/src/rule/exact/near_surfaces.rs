@@ -27,8 +27,9 @@ pub(super) struct NearSurface {
 }
 
 impl NearSurfaces {
-    /// Finds the surfaces that are not farther than `reach` \[m\] along each axis from each cell.
-    pub fn new(contents: Contents, grid: &Grid, reach: DVec3) -> Self {
+    /// Finds the surfaces that spheres of this `radius` \[m\] may touch from each cell, or not farther
+    /// from it than `overhang` \[m\] along each axis.
+    pub fn new(contents: Contents, grid: &Grid, overhang: DVec3, radius: f64) -> Self {
         let mut near_surfaces = Self::default();
         if !contents.surfaces.iter().any(is_listed) {
             return near_surfaces;
@@ -37,8 +38,10 @@ impl NearSurfaces {
         for cell in grid.cells() {
             near_surfaces.starts.push(near_surfaces.surfaces.len() as u32);
             let Bounds { min, max } = grid.bounds(cell);
-            let bounds = Bounds { min: min - reach * SLACK, max: max + reach * SLACK };
-            near_surfaces.add(contents, grid, bounds, &mut near);
+            // The slack, in parts of the radius, is in the reach whatever the overhang.
+            let overhang = overhang * SLACK + radius * (SLACK - 1.0);
+            let centers = Bounds { min: min - overhang, max: max + overhang };
+            near_surfaces.add(contents, grid, (centers, radius), &mut near);
         }
         near_surfaces.starts.push(near_surfaces.surfaces.len() as u32);
         near_surfaces
@@ -53,25 +56,47 @@ impl NearSurfaces {
         &self.surfaces[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
 
-    /// Appends what is within these bounds, images of bounded surfaces included.
-    fn add(&mut self, contents: Contents, grid: &Grid, bounds: Bounds, near: &mut Vec<u32>) {
+    /// Appends what spheres with centres within these bounds and of this radius \[m\] may touch, images
+    /// of bounded surfaces included.
+    fn add(
+        &mut self,
+        contents: Contents,
+        grid: &Grid,
+        (centers, radius): (Bounds, f64),
+        near: &mut Vec<u32>,
+    ) {
         for z in grid.image_turns(2) {
             for y in grid.image_turns(1) {
                 for x in grid.image_turns(0) {
                     let turns = [x, y, z];
                     let shift = way_round(turns.map(i32::from), contents.period);
-                    let bounds = Bounds { min: bounds.min - shift, max: bounds.max - shift };
-                    contents.tree.near(&bounds, near);
+                    let centers = Bounds { min: centers.min - shift, max: centers.max - shift };
+                    contents.tree.near(&centers.widened(radius), near);
                     let listed = near.iter().filter(|&&surface| {
                         let surface = &contents.surfaces[surface as usize];
                         let is_unbounded = matches!(surface.form, Form::HalfSpace { .. });
-                        is_listed(surface) && (turns == [0; 3] || !is_unbounded)
+                        is_listed(surface)
+                            && (turns == [0; 3] || !is_unbounded)
+                            && !is_behind(&surface.form, &centers)
                     });
                     self.surfaces.extend(listed.map(|&surface| NearSurface { surface, turns }));
                 }
             }
         }
     }
+}
+
+/// Whether all centres within some bounds are behind a rectangle, which is met from its front.
+fn is_behind(form: &Form, centers: &Bounds) -> bool {
+    let Form::Rectangle(rectangle) = form else { return false };
+    let part = |axis: usize| match rectangle.normal[axis] {
+        0.0 => 0.0,
+        n if n > 0.0 => n * (centers.max[axis] - rectangle.center[axis]),
+        n => n * (centers.min[axis] - rectangle.center[axis]),
+    };
+    // By more than rounding; bounds that are infinite on the side of the front are never behind.
+    let slack = (SLACK - 1.0) * rectangle.center.abs().element_sum();
+    part(0) + part(1) + part(2) < -slack
 }
 
 /// Surfaces that move are near every sphere; they are not listed.

@@ -130,16 +130,25 @@ impl Contents<'_> {
     fn grids(&self) -> Vec<Grid> {
         let mut grids: Vec<Grid> = Vec::new();
         for level in 0..self.level_count() {
-            let min_width = 2.0 * self.radius_of(level) / (1.0 - 2.0 * OVERHANG) * SLACK;
-            let is_held = |body: &&Body| self.kinds[body.kind as usize].level >= level;
-            let seek =
-                if self.spheres_collide { self.bodies.iter().filter(is_held).count() } else { 0 };
+            let (min_width, seek) = self.cells_wanted(level);
             grids.push(match grids.last() {
                 Some(above) => above.divided(min_width, seek),
                 None => self.grid(min_width, seek),
             });
         }
         grids
+    }
+
+    /// How wide the cells of a level have to be at least \[m\], and how many things look for each
+    /// other in them. Spheres that pass through each other look for surfaces alone.
+    fn cells_wanted(&self, level: u32) -> (f64, usize) {
+        let radius = self.radius_of(level);
+        if !self.spheres_collide {
+            return (radius, self.surfaces.len());
+        }
+        let is_held = |body: &&Body| self.kinds[body.kind as usize].level >= level;
+        let diameter = 2.0 * radius / (1.0 - 2.0 * OVERHANG) * SLACK;
+        (diameter, self.bodies.iter().filter(is_held).count())
     }
 
     /// A grid over all spheres.
@@ -210,11 +219,14 @@ impl Neighbours {
         let count = grids.len();
         let levels = (0u32..).zip(grids.into_iter().zip(half_edges));
         let levels = levels.map(|(number, (grid, half_edges))| {
-            let reach = half_edges + contents.radius_of(number);
+            // A neighbourhood lies about the centre of its cell, unless there are lists.
+            let overhang =
+                if lists.is_some() { half_edges } else { half_edges - 0.5 * grid.width() };
+            let radius = contents.radius_of(number);
             Level {
                 own: Lists::new(grid.len()),
                 visitors: (number as usize + 1 < count).then(|| Lists::new(grid.len())),
-                surfaces: NearSurfaces::new(contents, &grid, reach),
+                surfaces: NearSurfaces::new(contents, &grid, overhang, radius),
                 half_edges,
                 grid,
             }
@@ -321,8 +333,14 @@ impl Neighbours {
             surfaces.of_cell(grid.index(self.cell_of(slot, grid)))
         };
         near.iter().map(move |near| {
-            let turns = [0, 1, 2].map(|axis| i32::from(near.turns[axis]) + turns[axis]);
-            (near.surface, way_round(turns, self.period))
+            let shift = match (near.turns, turns) {
+                ([0, 0, 0], [0, 0, 0]) => DVec3::ZERO,
+                (of_image, turns) => {
+                    let turns = [0, 1, 2].map(|axis| i32::from(of_image[axis]) + turns[axis]);
+                    way_round(turns, self.period)
+                }
+            };
+            (near.surface, shift)
         })
     }
 
@@ -346,6 +364,17 @@ impl Neighbours {
         }
         // The clock has to move on, however fast the sphere is.
         (now + first).max(now.next_up())
+    }
+
+    /// Whether the sphere certainly does not leave its neighbourhood until `horizon`, on the world's
+    /// clock \[s\].
+    #[inline]
+    pub fn stays(&self, slot: u32, body: &Body, kind: &Kind, horizon: f64) -> bool {
+        let Level { half_edges, .. } = &self.levels[kind.level as usize];
+        let center = self.neighbourhoods[slot as usize].center;
+        let offset = center + self.way_round(slot) - body.position;
+        let way = body.flight(kind).farthest(horizon - body.time);
+        (offset.abs() + way).cmple(DEPARTURE * half_edges).all()
     }
 
     /// Gives a sphere that is at `position` \[m\] with `velocity` \[m/s\] another neighbourhood, and

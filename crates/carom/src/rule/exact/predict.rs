@@ -8,6 +8,7 @@ use super::surroundings::Surroundings;
 use super::timeline::{Event, Outlook, Target, Timeline};
 use crate::contact_time;
 use crate::detect::contact::Bodies;
+use crate::flight::Flight;
 use crate::system::System;
 
 /// Predicts what a sphere meets next as of `now` \[s\], and notes it.
@@ -65,7 +66,12 @@ fn outlook_after(
             first = Event { time: renewal, target: Target::Cluster, flights: 0 };
         }
     }
-    let departure = timeline.neighbours.departure(slot, body, kind, now);
+    let (neighbours, horizon) = (&timeline.neighbours, timeline.horizon());
+    let departure = if horizon < f64::INFINITY && neighbours.stays(slot, body, kind, horizon) {
+        f64::INFINITY
+    } else {
+        neighbours.departure(slot, body, kind, now)
+    };
     Outlook { event: first, departure }
 }
 
@@ -129,7 +135,17 @@ fn meet_surfaces(
     if system.surfaces.is_empty() {
         return;
     }
+    let horizon = timeline.horizon();
     for (number, shift) in timeline.surfaces_near(slot) {
+        let surface = &system.surfaces[number as usize];
+        let is_at_rest = surface.motion.is_at_rest();
+        if is_at_rest && horizon < f64::INFINITY {
+            let flight = Flight { position: body.position - shift, ..body.flight(kind) };
+            let time = horizon - body.time;
+            if contact_time::is_out_of_reach(&flight, kind.radius, &surface.form, time) {
+                continue;
+            }
+        }
         let lasts = kind.cluster.is_some_and(|cluster| {
             let sphere = timeline.index_of[slot as usize];
             let bodies = Bodies::Surface { sphere, surface: number };
@@ -138,17 +154,16 @@ fn meet_surfaces(
         if lasts {
             continue;
         }
-        let surface = &system.surfaces[number as usize];
         // A surface that moves is given as it is at the start of the frame.
-        let start =
-            if surface.motion.is_at_rest() { body.time } else { body.time.max(timeline.frame[0]) };
+        let start = if is_at_rest { body.time } else { body.time.max(timeline.frame[0]) };
         let (form, motion) = surface.after(start - timeline.frame[0]);
         let mut flight = body.flight_from(kind, start);
         flight.position -= shift;
         let turns = motion.angular_velocity != DVec3::ZERO;
         // Where a turning surface will be is known until the end of the frame.
-        let horizon = if turns { timeline.frame[1] - start } else { f64::INFINITY };
-        let delay = contact_time::sphere_surface(&flight, kind.radius, &form, &motion, horizon);
+        let until = if turns { timeline.frame[1] } else { horizon };
+        let delay =
+            contact_time::sphere_surface(&flight, kind.radius, &form, &motion, until - start);
         if let Some(delay) = delay
             && start + delay < first.time
         {

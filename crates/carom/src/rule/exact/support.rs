@@ -12,11 +12,11 @@ use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::respond::contact_forces;
 use crate::sum::Sum;
-use crate::surface::Form;
+use crate::surface::{Form, Rectangle};
 
 /// A contact with a normal acceleration below this part of the free accelerations neither presses
 /// nor opens, but for rounding.
-const IDLE: f64 = 1e-12;
+pub(super) const IDLE: f64 = 1e-12;
 /// Spheres in lasting contact whose speed is below this part of the speeds they came with are at
 /// rest, but for rounding.
 const REST: f64 = 1e-12;
@@ -106,7 +106,7 @@ fn staying(stage: &Stage, group: &Group) -> Vec<Touch> {
 }
 
 /// Acceleration of a sphere without contact forces \[m/s²\].
-fn free_acceleration(member: &Member) -> DVec3 {
+pub(super) fn free_acceleration(member: &Member) -> DVec3 {
     member.kind.acceleration - member.kind.drag_rate * member.velocity
 }
 
@@ -277,22 +277,32 @@ fn sliding_time(
         let member = &group.members[touch.second];
         let center = member.position + touch.shift;
         let velocity = member.velocity - touch.surface_velocity;
-        let distances = beyond(&rectangle, center);
-        for (axis, beyond) in [rectangle.axis_x, rectangle.axis_z].into_iter().zip(distances) {
-            if beyond >= 0.0 {
-                continue;
-            }
-            let (half_length, place) = {
-                let place = (center - rectangle.center).dot(axis);
-                (place.abs() - beyond, place)
-            };
-            let motion = AxisMotion {
-                velocity: velocity.dot(axis),
-                acceleration: accelerations.each[touch.second].dot(axis),
-                drag_rate: member.kind.drag_rate,
-            };
-            time = time.min(motion.leaves(-half_length - place, half_length - place));
+        let motion = |axis: DVec3| AxisMotion {
+            velocity: velocity.dot(axis),
+            acceleration: accelerations.each[touch.second].dot(axis),
+            drag_rate: member.kind.drag_rate,
+        };
+        time = time.min(time_on_face(&rectangle, center, motion));
+    }
+    time
+}
+
+/// Time \[s\] until a sphere about `center` \[m\] may slide off the part of a rectangle that it is in
+/// contact with, by its motion along the axes of the rectangle.
+pub(super) fn time_on_face(
+    rectangle: &Rectangle,
+    center: DVec3,
+    motion: impl Fn(DVec3) -> AxisMotion,
+) -> f64 {
+    let mut time = f64::INFINITY;
+    let distances = beyond(rectangle, center);
+    for (axis, beyond) in [rectangle.axis_x, rectangle.axis_z].into_iter().zip(distances) {
+        if beyond >= 0.0 {
+            continue;
         }
+        let place = (center - rectangle.center).dot(axis);
+        let half_length = place.abs() - beyond;
+        time = time.min(motion(axis).leaves(-half_length - place, half_length - place));
     }
     time
 }

@@ -258,8 +258,11 @@ impl Timeline {
         self.outlooks = parallel::map(self.bodies.len(), |around: &mut Surroundings, slot| {
             predict::outlook(self, system, slot as u32, around, time)
         });
+        let horizon = self.horizon();
         for (slot, (outlook, &index)) in (0..).zip(self.outlooks.iter().zip(&self.index_of)) {
-            self.queue.push(Entry { time: outlook.time(), slot, index });
+            if outlook.time() <= horizon {
+                self.queue.push(Entry { time: outlook.time(), slot, index });
+            }
         }
     }
 
@@ -375,6 +378,12 @@ impl Timeline {
         self.kinds[kind as usize].acceleration = acceleration;
     }
 
+    /// Likewise without the forces of its lasting contacts, if it is in any.
+    pub fn set_free_acceleration(&mut self, slot: u32, acceleration: DVec3) {
+        let free = self.kind_of(slot).free;
+        self.kinds[free as usize].acceleration = acceleration;
+    }
+
     /// Takes away the contact forces on a sphere, and its cluster.
     pub fn set_free(&mut self, slot: u32) {
         let kind = *self.kind_of(slot);
@@ -431,6 +440,12 @@ impl Timeline {
     /// Whether all flights begin anew at the start of each frame, for forces that are held over it.
     pub fn is_renewed_each_frame(&self) -> bool {
         self.holds_forces
+    }
+
+    /// Until when predictions are of use, on the world's clock \[s\]: until all flights begin anew.
+    #[inline]
+    pub fn horizon(&self) -> f64 {
+        if self.holds_forces { self.frame[1] } else { f64::INFINITY }
     }
 
     /// Puts the sphere at an index of the world's arrays elsewhere at `time` \[s\]. What was predicted
