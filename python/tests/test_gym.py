@@ -1,5 +1,9 @@
 """Environments of Gymnasium: by the book, seeded, the same alone and among others."""
 
+import subprocess
+import sys
+import threading
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -126,6 +130,32 @@ def test_a_vector_of_thousands_is_the_same_on_any_number_of_threads() -> None:
         return b"".join(seen)
 
     assert rollout(1) == rollout(2) == rollout(3)
+
+
+def test_other_threads_run_during_a_step() -> None:
+    envs = carom.gym.MazeVectorEnv(500, threads=1, rule="discrete", frames_per_step=1000)
+    envs.reset(seed=0)
+    took = [0.0]
+
+    def work() -> None:
+        began = time.perf_counter()
+        envs.step(np.zeros((500, 2), np.float32))
+        took[0] = time.perf_counter() - began
+
+    thread = threading.Thread(target=work)
+    ticks = 0
+    thread.start()
+    while thread.is_alive():
+        ticks += 1
+        time.sleep(0.001)
+    # A step that kept the others waiting would leave a few ticks at its ends. Of those that fit in,
+    # a tenth is enough on a machine at work.
+    assert ticks > 0.1 * took[0] / 0.002 > 3
+
+
+def test_the_name_with_its_module_is_enough() -> None:
+    script = f"import gymnasium; gymnasium.make('carom.gym:{MAZE}').reset(seed=0)"
+    subprocess.run([sys.executable, "-c", script], check=True)
 
 
 def test_what_a_step_returned_stays_as_it_was() -> None:
