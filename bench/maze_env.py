@@ -42,7 +42,7 @@ class Figure:
     threads: int
     steps_per_second: float
     per_core: float
-    """Steps per second that a processor worked for it: on a machine at work, this is what is left."""
+    """Steps per second that a processor worked for it, whatever else the machine does."""
     overhead: float | None = None
     """Part of the time that is not the engine's: Python, conversion, arrays."""
 
