@@ -17,6 +17,7 @@ use pyo3::types::PyDict;
 
 use crate::arguments;
 use crate::failure::Failure;
+use crate::threads;
 use given::Given;
 use results::{Results, States};
 use team::Team;
@@ -60,13 +61,10 @@ impl MazeEpisodes {
         given: Bound<'_, PyDict>,
     ) -> PyResult<Self> {
         let count = arguments::count("num_envs", num_envs)? as usize;
-        let threads = threads.map(|threads| arguments::count("threads", threads)).transpose()?;
-        if threads == Some(0) {
-            return Err(Failure::value("threads", "must be at least 1, not 0").into());
-        }
+        let threads = threads::wanted(threads)?;
         let manner = (given::autoreset(autoreset_mode)?, given::start(start)?);
         let arena = Given(given).arena()?;
-        let team = Team::new(arena, count, threads.map(|threads| threads as usize), manner)?;
+        let team = Team::new(arena, count, threads, manner)?;
         Ok(Self(Mutex::new(Inner { team, actions: Vec::new() })))
     }
 

@@ -1,17 +1,16 @@
 //! Many episodes, on several threads.
 
-use std::num::NonZero;
 use std::ops::Range;
 use std::sync::Arc;
-use std::thread;
 use std::time::Instant;
 
 use carom_maze::{Arena, EpisodeError, Episodes, Outcome, Start};
+use rayon::ThreadPool;
 use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::results::Results;
 use crate::failure::Failure;
+use crate::threads;
 
 /// Balls that one thread takes at a time: few enough to stay in its cache, with what belongs to them.
 const BALLS_IN_A_BLOCK: usize = 512;
@@ -72,8 +71,7 @@ impl Team {
         };
         let blocks: Vec<Block> =
             (0..count).step_by(BALLS_IN_A_BLOCK).map(block).collect::<Result<_, EpisodeError>>()?;
-        let processors = || thread::available_parallelism().map_or(1, NonZero::get);
-        let pool = pool(threads.unwrap_or_else(processors).min(blocks.len()))?;
+        let pool = threads::pool(threads, blocks.len())?;
         Ok(Self { arena, blocks, pool, autoreset, start, seconds: 0.0 })
     }
 
@@ -214,12 +212,4 @@ impl Block {
 fn find_over(episodes: &Episodes, over: &mut Vec<usize>) {
     over.clear();
     over.extend((0..episodes.len()).filter(|&it| episodes.outcome(it) != Outcome::Rolling));
-}
-
-fn pool(threads: usize) -> Result<Option<ThreadPool>, Failure> {
-    if threads <= 1 {
-        return Ok(None);
-    }
-    let built = ThreadPoolBuilder::new().num_threads(threads).build();
-    built.map(Some).map_err(|error| Failure::value("threads", error))
 }
