@@ -119,7 +119,9 @@ def test_arrays_are_kept_and_written_anew_by_each_step() -> None:
 
 
 def test_each_sphere_of_each_world_is_steered_by_itself() -> None:
-    scene = carom.Scene(name="two", spheres=[carom.Sphere(radius=1), carom.Sphere(position=(5, 0, 0), radius=1)])
+    scene = carom.Scene(
+        name="two", spheres=[carom.Sphere(radius=1), carom.Sphere(position=(5, 0, 0), radius=1)]
+    )
     batch = carom.Batch(scene, 3)
     batch.applied_forces = np.arange(18).reshape(3, 2, 3)
     batch.step(0.5, frames=2)
