@@ -1,8 +1,8 @@
 //! Changing a world from outside.
 
 use carom::Collider;
-use carom_scene::{Palette, part};
 use carom_scene::scene::{self, Force};
+use carom_scene::{Palette, part};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 

@@ -45,6 +45,12 @@ pub(super) struct Kind {
 }
 
 impl Kind {
+    /// Whether nothing bends or slows the flight.
+    #[inline(always)]
+    pub fn flies_straight(&self) -> bool {
+        self.acceleration == DVec3::ZERO && self.drag_rate == 0.0
+    }
+
     /// Whether two spheres see each other move in a straight line at constant speed.
     #[inline(always)]
     pub fn flies_like(&self, other: &Self) -> bool {

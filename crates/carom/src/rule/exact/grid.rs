@@ -21,6 +21,8 @@ pub(super) struct Grid {
     origin: DVec3,
     /// Edges of a cell \[m\].
     width: DVec3,
+    /// Their inverses \[1/m\].
+    per_metre: DVec3,
     counts: [u16; 3],
     periodic: [bool; 3],
 }
@@ -38,6 +40,12 @@ pub(super) struct Block<'a> {
 }
 
 impl Block<'_> {
+    /// How many cells there are.
+    #[inline(always)]
+    pub fn len(&self) -> usize {
+        self.lens.iter().map(|&len| usize::from(len)).product()
+    }
+
     /// Visits the cells, in rows one after another.
     #[inline(always)]
     pub fn for_each_row(&self, mut visit: impl FnMut(Range<usize>)) {
@@ -62,6 +70,10 @@ struct Run {
     len: u16,
     turns: i8,
     is_endless: bool,
+}
+
+impl Run {
+    const NONE: Self = Self { first: 0, len: 0, turns: 0, is_endless: false };
 }
 
 /// A side of a cell: downward or upward along an axis.
@@ -94,19 +106,26 @@ impl Grid {
             let width = extent[axis] / f64::from(counts[axis]);
             if periodic[axis] { width } else { width.max(min_width) }
         }));
-        Self { origin: low, width, counts, periodic }
+        Self { origin: low, width, per_metre: width.recip(), counts, periodic }
     }
 
     /// A grid whose cells are parts of the cells of this one, likewise.
     pub fn divided(&self, min_width: f64, seek: usize) -> Self {
         let counts = cell_counts(self.counts, self.width, min_width, seek);
         let parts = [0, 1, 2].map(|axis| f64::from(counts[axis] / self.counts[axis]));
-        Self { width: self.width / DVec3::from_array(parts), counts, ..self.clone() }
+        let width = self.width / DVec3::from_array(parts);
+        Self { width, per_metre: width.recip(), counts, ..self.clone() }
     }
 
     /// How many cells there are.
     pub fn len(&self) -> usize {
         self.counts.iter().map(|&count| usize::from(count)).product()
+    }
+
+    /// Whether every axis closes on itself.
+    #[inline(always)]
+    pub fn is_closed(&self) -> bool {
+        self.periodic == [true; 3]
     }
 
     /// Edges of a cell \[m\].
@@ -123,7 +142,7 @@ impl Grid {
     /// The cell of a place in the box \[m\].
     pub fn cell_of(&self, place: DVec3) -> [u16; 3] {
         [0, 1, 2].map(|axis| {
-            let cell = (place[axis] - self.origin[axis]) / self.width[axis];
+            let cell = (place[axis] - self.origin[axis]) * self.per_metre[axis];
             // A conversion rounds to zero, and takes what is below it for zero.
             (cell as u16).min(self.counts[axis] - 1)
         })
@@ -143,7 +162,7 @@ impl Grid {
     /// Bounds of something about a place, without those on whose side its cell reaches to infinity.
     #[inline(always)]
     pub fn without_ends(&self, place: DVec3, low: DVec3, high: DVec3) -> (DVec3, DVec3) {
-        if self.periodic == [true; 3] {
+        if self.is_closed() {
             (low, high)
         } else {
             self.without_ends_of(self.cell_of(place), low, high)
@@ -178,9 +197,8 @@ impl Grid {
     /// Visits those of a cell and the cells next to it that lie on one side, if one is given.
     #[inline(always)]
     pub fn for_each_block(&self, cell: [u16; 3], side: Option<Side>, mut visit: impl FnMut(Block)) {
-        // So far from the outermost cells, none of those next to it is seen otherwise.
         let is_inside = (0..3).all(|axis| {
-            let rim = if self.periodic[axis] { 1 } else { 2 };
+            let rim = self.rim(axis);
             cell[axis] >= rim && cell[axis] + rim < self.counts[axis]
         });
         if is_inside {
@@ -228,11 +246,23 @@ impl Grid {
         Some(Side { axis, step })
     }
 
+    /// How far from the outermost cells none of those next to a cell is seen otherwise.
+    #[inline(always)]
+    fn rim(&self, axis: usize) -> u16 {
+        if self.periodic[axis] { 1 } else { 2 }
+    }
+
     /// A cell and those next to it along an axis, of these steps: runs in order, then empty ones.
     fn runs(&self, cell: u16, axis: usize, steps: [i16; 2]) -> [Run; 3] {
+        let rim = self.rim(axis);
+        if cell >= rim && cell + rim < self.counts[axis] {
+            let (first, len) = (cell.wrapping_add_signed(steps[0]), steps[1] - steps[0] + 1);
+            let run = Run { first, len: len as u16, ..Run::NONE };
+            return [run, Run::NONE, Run::NONE];
+        }
         let count = i32::from(self.counts[axis]);
         let is_outermost = |cell: i32| cell == 0 || cell + 1 == count;
-        let mut runs = [Run { first: 0, len: 0, turns: 0, is_endless: false }; 3];
+        let mut runs = [Run::NONE; 3];
         let mut next = 0;
         for step in steps[0]..=steps[1] {
             let number = i32::from(cell) + i32::from(step);

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::body::Kind;
 use super::predict;
 use super::stage::Stage;
 use super::timeline::Timeline;
@@ -66,9 +65,8 @@ fn is_alone(
     time: f64,
 ) -> bool {
     let (slot, other) = (slots[one], slots[1 - one]);
-    let Kind { level, radius, .. } = *timeline.kind_of(slot);
+    let radius = timeline.kind_of(slot).radius;
     let around = &mut stage.around[one];
-    timeline.neighbours.near(slot, level, &mut around.near);
     let mut touches = around.look(timeline, slot, |_| time, (other, NEARBY));
     // The two fly alike: where all are of one kind, all do.
     if timeline.kinds.len() > 1 {

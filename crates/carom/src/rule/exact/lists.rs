@@ -59,23 +59,51 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
         Self { pages: vec![Page::empty(); count], spare: Vec::new() }
     }
 
-    /// Puts the members of lists one after another into `members`, from `len` on, and gives where
-    /// they end. What is there behind that has no meaning.
+    /// For how many members there has to be room to copy the first pages of so many lists.
     #[inline(always)]
-    pub fn gather(&self, lists: Range<usize>, members: &mut Vec<T>, len: usize) -> usize {
-        let pages = &self.pages[lists];
-        if members.len() < len + pages.len() * SIZE {
-            members.resize(len + pages.len() * SIZE, T::default());
-        }
-        let mut end = len;
+    pub fn room(&self, lists: usize) -> usize {
+        lists * SIZE
+    }
+
+    /// Copies the members on the first pages of lists into `members`, from `len` on, and counts them.
+    /// What is there behind them has no meaning. Tells whether there are no further pages.
+    #[inline(always)]
+    pub fn copy_first(&self, lists: Range<usize>, members: &mut [T], len: &mut usize) -> bool {
         let mut links = 0;
-        for page in pages {
+        for page in &self.pages[lists] {
             // Always a whole page: no processor can foresee how many there are.
-            members[end..end + SIZE].copy_from_slice(&page.members);
-            end += page.link.len();
+            members[*len..*len + SIZE].copy_from_slice(&page.members);
+            *len += page.link.len();
             links |= page.link.0;
         }
-        if Link(links).next().is_none() { end } else { self.gather_rest(pages, members, end) }
+        Link(links).next().is_none()
+    }
+
+    /// Likewise those on the further pages.
+    #[inline(never)]
+    pub fn copy_rest(&self, lists: Range<usize>, members: &mut Vec<T>, len: &mut usize) {
+        members.truncate(*len);
+        for mut page in &self.pages[lists] {
+            while let Some(next) = page.link.next() {
+                page = &self.pages[next];
+                members.extend_from_slice(&page.members[..page.link.len()]);
+            }
+        }
+        *len = members.len();
+    }
+
+    /// Puts the members of a list into `members`, from `len` on, and gives where they end. What is
+    /// there behind that has no meaning.
+    #[inline(always)]
+    pub fn gather(&self, list: usize, members: &mut Vec<T>, len: usize) -> usize {
+        if members.len() < len + SIZE {
+            members.resize(len + SIZE, T::default());
+        }
+        let mut end = len;
+        if !self.copy_first(list..list + 1, members, &mut end) {
+            self.copy_rest(list..list + 1, members, &mut end);
+        }
+        end
     }
 
     /// The first members of a list.
@@ -85,23 +113,17 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
         &page.members[..page.link.len()]
     }
 
-    /// Likewise what is beyond the first pages.
-    #[inline(never)]
-    fn gather_rest(&self, first: &[Page<T, SIZE>], members: &mut Vec<T>, len: usize) -> usize {
-        members.truncate(len);
-        for mut page in first {
-            while let Some(next) = page.link.next() {
-                page = &self.pages[next];
-                members.extend_from_slice(&page.members[..page.link.len()]);
-            }
-        }
-        members.len()
+    /// The members of a list, if they are all in one piece.
+    #[inline(always)]
+    pub fn whole(&self, list: usize) -> Option<&[T]> {
+        let page = &self.pages[list];
+        page.link.next().is_none().then(|| &page.members[..page.link.len()])
     }
 
     /// The members of a list.
     pub fn members(&self, list: usize) -> Vec<T> {
         let mut members = Vec::new();
-        let end = self.gather(list..list + 1, &mut members, 0);
+        let end = self.gather(list, &mut members, 0);
         members.truncate(end);
         members
     }
@@ -234,7 +256,7 @@ mod tests {
                 _ => {}
             }
             let mut found = vec![1];
-            let end = lists.gather(list..list + 1, &mut found, 1);
+            let end = lists.gather(list, &mut found, 1);
             found.truncate(end);
             assert_eq!(found.remove(0), 1);
             found.sort_unstable();

@@ -18,6 +18,7 @@ mod lists;
 mod near_surfaces;
 mod neighbour;
 mod neighbours;
+mod outlook;
 mod periodic;
 mod predict;
 mod queue;
@@ -29,9 +30,9 @@ mod touch;
 mod vicinity;
 
 pub(crate) use neighbour::MAX_SPHERES;
+use outlook::{Next, Target};
 use stage::Stage;
 pub(crate) use timeline::Timeline;
-use timeline::{Next, Target};
 
 use super::Rule;
 use crate::bodies::SphereId;

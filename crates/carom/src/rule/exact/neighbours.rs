@@ -29,7 +29,7 @@ use super::lists::Lists;
 use super::near_surfaces::NearSurfaces;
 use super::neighbour::Neighbour;
 use super::periodic::{folded, turns_of, way_round};
-use super::vicinity::{Buffer, CellLists, NeighbourLists, Vicinity};
+use super::vicinity::{Buffer, CellLists, Near, NeighbourLists, Vicinity, are_in_same_box};
 use crate::detect::surface_tree::SurfaceTree;
 use crate::norm::Norm;
 use crate::surface::Surface;
@@ -90,8 +90,8 @@ struct Level {
 struct Neighbourhood {
     /// In the box \[m\].
     center: DVec3,
-    /// Of the sphere \[m\].
-    radius: f64,
+    /// That of the sphere, or more by its rounding \[m\].
+    radius: f32,
     /// How often the sphere went round each periodic axis since its flight began.
     turns: [i32; 3],
 }
@@ -233,7 +233,7 @@ impl Neighbours {
         });
         let nowhere = |body: &Body| Neighbourhood {
             center: DVec3::ZERO,
-            radius: kinds[body.kind as usize].radius,
+            radius: rounded_up(kinds[body.kind as usize].radius),
             turns: [0; 3],
         };
         let mut neighbours = Self {
@@ -260,14 +260,24 @@ impl Neighbours {
     /// Finds the spheres that the one at `slot`, of level `level`, may meet before one of them
     /// leaves its neighbourhood.
     #[inline(always)]
-    pub fn near(&self, slot: u32, level: u32, near: &mut Vicinity) {
+    pub fn find(&self, slot: u32, level: u32, near: &mut Vicinity) {
         near.clear();
+        let Some(lists) = &self.lists else { return self.gather(slot, level, None, near) };
+        near.are_listed = lists.whole(slot as usize).is_some_and(are_in_same_box);
+        if !near.are_listed {
+            near.same_box.add_list(lists, slot);
+            near.sort_from(0, slot);
+        }
+    }
+
+    /// Those who were found near the sphere at `slot`.
+    #[inline(always)]
+    pub fn found<'a>(&'a self, slot: u32, near: &'a Vicinity) -> Near<'a> {
         match &self.lists {
-            Some(lists) => {
-                near.same_box.add_list(lists, slot);
-                near.sort_from(0, slot);
+            Some(lists) if near.are_listed => {
+                Near { same_box: lists.first(slot as usize), images: &[] }
             }
-            None => self.gather(slot, level, None, near),
+            _ => near.near(),
         }
     }
 
@@ -275,7 +285,7 @@ impl Neighbours {
     #[inline]
     pub fn read_place(&self, slot: u32) -> f64 {
         let listed = self.lists.as_ref().map_or(0, |lists| lists.first(slot as usize).len());
-        self.neighbourhoods[slot as usize].radius + listed as f64
+        f64::from(self.neighbourhoods[slot as usize].radius) + listed as f64
     }
 
     /// Reads the cells around a sphere, if there are no lists.
@@ -352,6 +362,13 @@ impl Neighbours {
         let (position, velocity) = body.state_at(kind, now);
         let offset = center + self.way_round(slot) - position;
         let half_edges = DEPARTURE * half_edges;
+        if grid.is_closed() && kind.flies_straight() {
+            // Without branches on the direction, which no processor can foresee. What is at rest in
+            // a corner has 0 / 0, which is never the least.
+            let distance = half_edges + DVec3::ONE.copysign(velocity) * offset;
+            let first = (distance.max(DVec3::ZERO) / velocity.abs()).min_element();
+            return (now + first).max(now.next_up());
+        }
         let (low, high) = grid.without_ends(center, offset - half_edges, offset + half_edges);
         let mut first = f64::INFINITY;
         for axis in 0..3 {
@@ -490,7 +507,7 @@ impl Neighbours {
         let is_turned = self.neighbourhoods[slot as usize].turns != [0; 3];
         grid.for_each_block(cell, side, |block| {
             let start = near.same_box.len;
-            block.for_each_row(|row| near.same_box.add_cells(spheres, row));
+            near.same_box.add_block(spheres, &block);
             if block.turns == [0; 3] && !is_turned {
                 near.sort_from(start, slot);
             } else {
@@ -512,12 +529,15 @@ impl Neighbours {
         if let Some(lists) = &mut self.lists {
             before.add_list(lists, slot);
             lists.set(slot as usize, after.found());
-            for gone in before.found().iter().filter(|gone| !contains(after.found(), gone)) {
-                lists.remove(gone.slot() as usize, gone.mirrored(slot));
+            for &come in after.found() {
+                // What is left in the end is gone.
+                if !before.drop_from(0, come) {
+                    lists.add(come.slot() as usize, come.mirrored(slot));
+                    new.images.push(come);
+                }
             }
-            for &come in after.found().iter().filter(|come| !contains(before.found(), come)) {
-                lists.add(come.slot() as usize, come.mirrored(slot));
-                new.images.push(come);
+            for gone in before.found() {
+                lists.remove(gone.slot() as usize, gone.mirrored(slot));
             }
         }
         (self.before, self.after) = (before, after);
@@ -527,9 +547,10 @@ impl Neighbours {
     fn find_peers(&self, slot: u32, peers: &mut Buffer) {
         let [Level { grid, half_edges, own, .. }] = &self.levels[..] else { return };
         let Neighbourhood { center, radius, turns } = self.neighbourhoods[slot as usize];
+        let radius = f64::from(radius);
         grid.for_each_block(grid.cell_of(center), None, |block| {
             let start = peers.len;
-            block.for_each_row(|row| peers.add_cells(own, row));
+            peers.add_block(own, &block);
             let image = block.turns;
             let way = way_round(image.map(i32::from), self.period);
             let reach = block.is_endless.map(|is| if is { f64::INFINITY } else { 2.0 });
@@ -539,7 +560,7 @@ impl Neighbours {
                 // Seen from the other one it is the same to the last bit, but for the sign.
                 let offset = (neighbourhood.center - center) + way;
                 let gap = (offset.abs() - reach).max(DVec3::ZERO);
-                let radius_sum = radius + neighbourhood.radius;
+                let radius_sum = radius + f64::from(neighbourhood.radius);
                 let is_near = gap.length_squared() <= radius_sum * radius_sum * SLACK;
                 is_near & (other.slot() != slot)
             });
@@ -602,7 +623,8 @@ impl Neighbours {
     }
 }
 
-/// Whether a neighbour is among others. Looks at all of them, which is faster than to stop at it.
-fn contains(neighbours: &[Neighbour], neighbour: &Neighbour) -> bool {
-    neighbours.iter().fold(false, |found, other| found | (other == neighbour))
+/// The next number in single precision that is not less.
+fn rounded_up(number: f64) -> f32 {
+    let nearest = number as f32;
+    if f64::from(nearest) < number { nearest.next_up() } else { nearest }
 }

@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::body::{Body, Kind};
+use super::outlook::{Event, Outlook, Target};
 use super::stage::Stage;
 use super::surroundings::Surroundings;
-use super::timeline::{Event, Outlook, Target, Timeline};
+use super::timeline::Timeline;
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
@@ -29,8 +30,9 @@ pub(super) fn outlook(
     now: f64,
 ) -> Outlook {
     let mut first = Event::NEVER;
-    timeline.neighbours.near(slot, timeline.kind_of(slot).level, &mut around.near);
-    meet_spheres(timeline, slot, around, &mut first);
+    let start_with = start_with_later(timeline, slot);
+    around.look(timeline, slot, &start_with, (slot, 0.0));
+    around.first_meeting(timeline, slot, start_with, &mut first);
     outlook_after(timeline, system, slot, first, now)
 }
 
@@ -72,7 +74,7 @@ fn outlook_after(
     } else {
         neighbours.departure(slot, body, kind, now)
     };
-    Outlook { event: first, departure }
+    Outlook::new(first, departure)
 }
 
 /// Lets a sphere pass over a meeting that is due before `until` \[s\], to begin another flight then.
@@ -80,7 +82,7 @@ fn outlook_after(
 /// Two bodies that hardly touch may meet, by the rounding of one formula, and have nothing to
 /// answer, by that of another. Whatever they are in doubt about is over within a contact's duration.
 pub(super) fn pause(timeline: &mut Timeline, slot: u32, bodies: Bodies, until: f64) {
-    let event = timeline.outlooks[slot as usize].event;
+    let event = timeline.outlooks[slot as usize].event();
     let sphere = timeline.index_of[slot as usize];
     let again = match event.target {
         Target::Sphere(other) => Bodies::pair([sphere, timeline.index_of[other as usize]]),
@@ -106,23 +108,22 @@ pub(super) fn relocate(timeline: &mut Timeline, stage: &mut Stage, slot: u32, no
     let level = timeline.kind_of(slot).level;
     let around = &mut stage.around[0];
     timeline.neighbours.relocate(slot, level, state.into(), &mut around.near);
-    let mut first = timeline.outlooks[slot as usize].event;
-    meet_spheres(timeline, slot, around, &mut first);
+    let mut first = timeline.outlooks[slot as usize].event();
+    let start_with = start_with_later(timeline, slot);
+    around.look_at_found(timeline, slot, &start_with, (slot, 0.0));
+    around.first_meeting(timeline, slot, start_with, &mut first);
     let outlook = outlook_after(timeline, stage.system, slot, first, now);
     timeline.schedule(slot, outlook);
 }
 
-/// Puts the first of the spheres near it that a sphere meets in the place of `first`, if it comes
-/// first.
-#[inline]
-fn meet_spheres(timeline: &Timeline, slot: u32, around: &mut Surroundings, first: &mut Event) {
-    let body = &timeline.bodies[slot as usize];
-    let start_with = |other: &Body| body.time.max(other.time);
-    around.look(timeline, slot, start_with, (slot, 0.0));
-    around.first_meeting(timeline, slot, start_with, first);
+/// The start of the flight of a sphere, or of another if that began later.
+fn start_with_later(timeline: &Timeline, slot: u32) -> impl Fn(&Body) -> f64 {
+    let time = timeline.bodies[slot as usize].time;
+    move |other| time.max(other.time)
 }
 
-/// Likewise the first of the surfaces near it that it meets.
+/// Puts the first of the surfaces near it that a sphere meets in the place of `first`, if it comes
+/// first.
 #[inline]
 fn meet_surfaces(
     timeline: &Timeline,

@@ -154,13 +154,11 @@ impl EventQueue {
             let bucket = self.next_bucket;
             self.next_bucket += 1;
             self.current_end = self.start + self.next_bucket as f64 * self.width;
-            let entries = &mut self.buckets[bucket];
-            if entries.is_empty() {
-                continue;
-            }
-            let before = entries.len();
-            self.current.extend(entries.drain(..).filter(|entry| is_live(entry)));
-            self.len -= before - self.current.len();
+            // It gives its memory back: full buckets and empty ones are never all of one size.
+            let entries = std::mem::take(&mut self.buckets[bucket]);
+            self.len -= entries.len();
+            self.current.extend(entries.into_iter().filter(|entry| is_live(entry)));
+            self.len += self.current.len();
             self.current.sort_unstable_by(|a, b| b.cmp(a));
             if !self.current.is_empty() {
                 return true;
@@ -189,8 +187,15 @@ impl EventQueue {
         self.start = first;
         self.next_bucket = 0;
         self.current_end = first;
-        self.len -= far.len();
-        far.into_iter().for_each(|entry| self.push(entry));
+        // What stays far away stays in place.
+        far.retain(|&entry| match self.bucket_of(entry.time) {
+            Some(bucket) => {
+                self.buckets[bucket].push(entry);
+                false
+            }
+            None => true,
+        });
+        self.far = far;
         true
     }
 

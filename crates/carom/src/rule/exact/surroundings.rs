@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use super::body::{Body, Kind};
 use super::neighbour::Neighbour;
-use super::timeline::{Event, Target, Timeline};
-use super::vicinity::Vicinity;
+use super::outlook::{Event, Target};
+use super::timeline::Timeline;
+use super::vicinity::{Near, Vicinity};
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
@@ -45,12 +46,13 @@ struct Pair<'a, const FALLS: bool> {
 }
 
 impl<const FALLS: bool> Pair<'_, FALLS> {
-    /// From the centre of the first sphere to that of the second, at the start \[m\].
+    /// From the centre of the first sphere to that of the second, at the start \[m\]. Between the
+    /// starts of their flights it is `shifted`, where an image is meant.
     #[inline(always)]
-    fn offset(&self, shift: DVec3) -> DVec3 {
+    fn offset(&self, shifted: impl Fn(DVec3) -> DVec3) -> DVec3 {
         let [a, b] = self.bodies;
         let [age_a, age_b] = [self.start - a.time, self.start - b.time];
-        let offset = b.position - a.position + shift + (age_b * b.velocity - age_a * a.velocity);
+        let offset = shifted(b.position - a.position) + (age_b * b.velocity - age_a * a.velocity);
         if FALLS {
             offset + (0.5 * (age_b * age_b - age_a * age_a)) * self.acceleration
         } else {
@@ -109,23 +111,35 @@ impl Surroundings {
         timeline: &Timeline,
         slot: u32,
         start_with: impl Fn(&Body) -> f64,
-        (other, part): (u32, f64),
+        besides: (u32, f64),
+    ) -> bool {
+        timeline.neighbours.find(slot, timeline.kind_of(slot).level, &mut self.near);
+        self.look_at_found(timeline, slot, start_with, besides)
+    }
+
+    /// Likewise among those who were found already.
+    #[inline(always)]
+    pub fn look_at_found(
+        &mut self,
+        timeline: &Timeline,
+        slot: u32,
+        start_with: impl Fn(&Body) -> f64,
+        besides: (u32, f64),
     ) -> bool {
         let kind = *timeline.kind_of(slot);
-        self.count = 0;
-        if timeline.kinds.len() == 1 && kind.flies_like(&kind) {
+        if timeline.all_fly_alike() {
             let alike = |_: &Body| (true, kind.radius);
             return if kind.acceleration == DVec3::ZERO {
-                self.look_at_all::<false>(timeline, slot, start_with, alike, (other, part))
+                self.look_at_all::<false>(timeline, slot, start_with, alike, besides)
             } else {
-                self.look_at_all::<true>(timeline, slot, start_with, alike, (other, part))
+                self.look_at_all::<true>(timeline, slot, start_with, alike, besides)
             };
         }
         let is_alike = |other: &Body| {
             let other = &timeline.kinds[other.kind as usize];
             (kind.flies_like(other), other.radius)
         };
-        self.look_at_all::<true>(timeline, slot, start_with, is_alike, (other, part))
+        self.look_at_all::<true>(timeline, slot, start_with, is_alike, besides)
     }
 
     #[inline(always)]
@@ -138,26 +152,28 @@ impl Surroundings {
         besides: (u32, f64),
     ) -> bool {
         let Self { near, closing, count } = self;
+        let Near { same_box, images } = timeline.neighbours.found(slot, near);
         if timeline.are_many() {
             // All at once, so that none waits for another to come into the cache.
             let bodies = &timeline.bodies;
-            let times = near.in_same_box().iter().map(|near| bodies[near.slot() as usize].time);
+            let times = same_box.iter().map(|near| bodies[near.slot() as usize].time);
             std::hint::black_box(times.sum::<f64>());
         }
-        let most = near.in_same_box().len() + near.images().len();
+        let most = same_box.len() + images.len();
         if closing.len() < most {
             let nobody = Neighbour::in_same_box(slot);
             closing.resize(most, Closing { neighbour: nobody, offset: DVec3::ZERO });
         }
-        let (same_box, images) = (near.in_same_box(), near.images());
-        let closing = &mut closing[..most];
-        let nowhere = |_| DVec3::ZERO;
-        let shift = |image| timeline.neighbours.shift_of(slot, image);
         let look = Look::<FALLS, _, _> { timeline, slot, start_with, is_alike, besides };
-        let mut touches = look.at(same_box, nowhere, closing, count);
-        if !images.is_empty() {
-            touches |= look.at(images, shift, closing, count);
-        }
+        let closing = &mut closing[..most];
+        let seen = look.at(same_box, |_, offset| offset, closing, Seen::default());
+        let Seen { count: found, touches } = if images.is_empty() {
+            seen
+        } else {
+            let shifted = |image, offset| offset + timeline.neighbours.shift_of(slot, image);
+            look.at(images, shifted, closing, seen)
+        };
+        *count = found;
         touches
     }
 
@@ -170,7 +186,8 @@ impl Surroundings {
         (other, part): (u32, f64),
     ) -> bool {
         let (body, kind) = (&timeline.bodies[slot as usize], timeline.kind_of(slot));
-        self.near.iter().any(|neighbour| {
+        let mut near = timeline.neighbours.found(slot, &self.near).iter();
+        near.any(|neighbour| {
             let near = timeline.kind_of(neighbour.slot());
             if neighbour.slot() == other || near.flies_like(kind) {
                 return false;
@@ -191,15 +208,25 @@ impl Surroundings {
         start_with: impl Fn(&Body) -> f64,
         first: &mut Event,
     ) {
-        if timeline.kind_of(slot).acceleration == DVec3::ZERO {
-            self.first_meeting_of::<false>(timeline, slot, start_with, first);
-        } else {
-            self.first_meeting_of::<true>(timeline, slot, start_with, first);
+        let falls = timeline.kind_of(slot).acceleration != DVec3::ZERO;
+        match (timeline.all_fly_alike(), falls) {
+            (true, false) => {
+                self.first_meeting_of::<true, false>(timeline, slot, start_with, first);
+            }
+            (true, true) => {
+                self.first_meeting_of::<true, true>(timeline, slot, start_with, first);
+            }
+            (false, false) => {
+                self.first_meeting_of::<false, false>(timeline, slot, start_with, first);
+            }
+            (false, true) => {
+                self.first_meeting_of::<false, true>(timeline, slot, start_with, first);
+            }
         }
     }
 
     #[inline(always)]
-    fn first_meeting_of<const FALLS: bool>(
+    fn first_meeting_of<const ALIKE: bool, const FALLS: bool>(
         &self,
         timeline: &Timeline,
         slot: u32,
@@ -212,8 +239,8 @@ impl Surroundings {
         let Kind { acceleration, radius, .. } = *kind;
         for &Closing { neighbour, offset } in &self.closing[..self.count] {
             let other = &bodies[neighbour.slot() as usize];
-            let other_kind = &kinds[other.kind as usize];
-            let time = if kind.flies_like(other_kind) {
+            let other_kind = if ALIKE { kind } else { &kinds[other.kind as usize] };
+            let time = if ALIKE || kind.flies_like(other_kind) {
                 let start = start_with(other);
                 let pair = Pair::<FALLS> { bodies: [body, other], acceleration, start };
                 pair.meeting(offset, radius + other_kind.radius)
@@ -226,6 +253,15 @@ impl Surroundings {
             }
         }
     }
+}
+
+/// What a look has shown.
+#[derive(Debug, Clone, Copy, Default)]
+struct Seen {
+    /// How many it may meet.
+    count: usize,
+    /// Whether one of them touches that may not.
+    touches: bool,
 }
 
 /// How a sphere looks at those near it.
@@ -245,26 +281,26 @@ where
     A: Fn(&Body) -> (bool, f64),
 {
     /// Adds to those it may meet: of those that fly alike, the ones that come closer and do not pass
-    /// by. Without branches on that, which no processor can foresee. Tells whether one touches.
+    /// by. Without branches on that, which no processor can foresee. The offsets of images are
+    /// `shifted` \[m\].
     #[inline(always)]
     fn at(
         &self,
         near: &[Neighbour],
-        shift_of: impl Fn(Neighbour) -> DVec3,
+        shifted: impl Fn(Neighbour, DVec3) -> DVec3,
         found: &mut [Closing],
-        count: &mut usize,
-    ) -> bool {
+        Seen { mut count, mut touches }: Seen,
+    ) -> Seen {
         let bodies = &self.timeline.bodies[..];
         let body = bodies[self.slot as usize];
         let Kind { acceleration, radius, .. } = *self.timeline.kind_of(self.slot);
         let (besides, part) = self.besides;
-        let mut touches = false;
         for &neighbour in near {
             let other = &bodies[neighbour.slot() as usize];
             let (is_alike, other_radius) = (self.is_alike)(other);
             let start = (self.start_with)(other);
             let pair = Pair::<FALLS> { bodies: [&body, other], acceleration, start };
-            let offset = pair.offset(shift_of(neighbour));
+            let offset = pair.offset(|offset| shifted(neighbour, offset));
             let velocity = pair.velocity();
             let radius_sum = radius + other_radius;
             let distance_squared = offset.length_squared();
@@ -274,10 +310,10 @@ where
             let reach = radius_sum * (1.0 + part);
             let is_near = (distance_squared <= reach * reach) & is_alike;
             touches |= is_near & (neighbour.slot() != besides);
-            found[*count] = Closing { neighbour, offset };
-            *count += usize::from(((closing < 0.0) & meets) | !is_alike);
+            found[count] = Closing { neighbour, offset };
+            count += usize::from(((closing < 0.0) & meets) | !is_alike);
         }
-        touches
+        Seen { count, touches }
     }
 }
 

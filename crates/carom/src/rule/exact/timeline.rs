@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::body::{Body, Kind};
 use super::cluster::{Cluster, Clusters};
 use super::neighbours::{self, Contents, Neighbours};
+use super::outlook::{Event, Next, Outlook, Target};
 use super::periodic;
 use super::queue::{Entry, EventQueue};
 use super::support::Support;
@@ -19,8 +20,13 @@ use crate::parallel;
 use crate::surface::Role;
 use crate::system::System;
 
-/// Spheres are put in order of place again after this many events per sphere: seldom enough to
-/// cost little, often enough that neighbours stay near each other in memory.
+/// In a periodic box, spheres are put in order of place again after this many departures per sphere:
+/// seldom enough to cost little, often enough that neighbours stay near each other in memory.
+const DEPARTURES_PER_ARRANGEMENT: u64 = 10;
+/// Likewise where all stay in the fast caches, in whatever order they are.
+const DEPARTURES_OF_FEW: u64 = 100;
+/// On open axes the spheres are arranged after this many events per sphere: they may have gathered in
+/// outermost cells, which none of them leaves.
 const EVENTS_PER_ARRANGEMENT: u64 = 24;
 
 /// More spheres than this do not stay in the fast caches.
@@ -39,7 +45,7 @@ pub(crate) struct Timeline {
     pub(super) kinds: Vec<Kind>,
     /// Kinds that nobody is of.
     spare_kinds: Vec<u32>,
-    /// Number of each sphere's flight at the start of the frame, by index.
+    /// Number of each sphere's flight at the start of the frame, by slot.
     flights_before: Vec<u32>,
     /// Place of each slot in the arrays of the world, and back.
     pub(super) index_of: Vec<u32>,
@@ -54,56 +60,9 @@ pub(crate) struct Timeline {
     pub(super) frame: [f64; 2],
     /// Whether spheres are under forces that are held constant over a frame.
     holds_forces: bool,
-    events_since_arranged: u64,
-}
-
-/// What a sphere meets next.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Event {
-    /// On the world's clock \[s\].
-    pub time: f64,
-    pub target: Target,
-    /// Number of the other sphere's flight for which this was predicted.
-    pub flights: u32,
-}
-
-/// What lies ahead of a sphere.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Outlook {
-    pub event: Event,
-    /// When it leaves its neighbourhood, on the world's clock \[s\].
-    pub departure: f64,
-}
-
-impl Outlook {
-    /// When the first of it happens, on the world's clock \[s\].
-    fn time(&self) -> f64 {
-        self.event.time.min(self.departure)
-    }
-}
-
-/// What happens next to a sphere.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Next {
-    Event(Event),
-    /// It leaves its neighbourhood at this time \[s\].
-    Departure(f64),
-}
-
-/// What a sphere comes upon.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Target {
-    /// Another sphere, by slot.
-    Sphere(u32),
-    Surface(u32),
-    /// The forces of its lasting contacts have to be found anew.
-    Cluster,
-    /// Nothing: its flight begins anew from where it is.
-    Restart,
-}
-
-impl Event {
-    pub const NEVER: Self = Self { time: f64::INFINITY, target: Target::Restart, flights: 0 };
+    /// Since the spheres were put in order of place.
+    events: u64,
+    departures: u64,
 }
 
 impl Timeline {
@@ -158,19 +117,17 @@ impl Timeline {
             .collect();
         self.index_of = (0..count as u32).collect();
         self.slot_of = self.index_of.clone();
-        self.count_flights();
     }
 
     /// Counts the flights of each sphere from here on.
     fn count_flights(&mut self) {
-        let Self { flights_before, bodies, slot_of, .. } = self;
-        flights_before.clear();
-        flights_before.extend(slot_of.iter().map(|&slot| bodies[slot as usize].flights));
+        self.flights_before.clear();
+        self.flights_before.extend(self.bodies.iter().map(|body| body.flights));
     }
 
     /// How many flights of a sphere began in this frame.
     pub fn flights_in_frame(&self, slot: u32) -> u32 {
-        let before = self.flights_before[self.index_of[slot as usize] as usize];
+        let before = self.flights_before[slot as usize];
         // Each adds two, or one if an impact began the flight before it.
         self.bodies[slot as usize].flights.wrapping_sub(before).div_ceil(2)
     }
@@ -237,7 +194,8 @@ impl Timeline {
             self.clusters.renumber(|slot| new_slots[slot as usize]);
         }
         self.neighbours = Neighbours::new(self.contents(system, time));
-        self.events_since_arranged = 0;
+        (self.events, self.departures) = (0, 0);
+        self.count_flights();
     }
 
     fn contents<'a>(&'a self, system: &System<'a>, time: f64) -> Contents<'a> {
@@ -286,8 +244,7 @@ impl Timeline {
                 return Err(system.spheres.id[self.index_of[slot] as usize]);
             }
         }
-        let events = EVENTS_PER_ARRANGEMENT * self.bodies.len() as u64;
-        let is_due = self.events_since_arranged > events;
+        let is_due = self.is_arrangement_due(system.settings.boundary.period());
         if is_due {
             self.arrange(system, frame[0]);
         }
@@ -302,7 +259,8 @@ impl Timeline {
 
     /// Notes what a sphere meets next.
     pub(super) fn reschedule(&mut self, slot: u32, event: Event) {
-        self.schedule(slot, Outlook { event, ..self.outlooks[slot as usize] });
+        let departure = self.outlooks[slot as usize].departure;
+        self.schedule(slot, Outlook::new(event, departure));
     }
 
     /// Notes what lies ahead of a sphere.
@@ -317,11 +275,20 @@ impl Timeline {
     pub(super) fn next(&mut self, end: f64) -> Option<(u32, Next)> {
         let entry = self.queue.pop(end, |entry| is_live(&self.outlooks, entry))?;
         self.anticipate();
-        self.events_since_arranged += 1;
-        let Outlook { event, departure } = self.outlooks[entry.slot as usize];
-        let next =
-            if departure < event.time { Next::Departure(departure) } else { Next::Event(event) };
+        self.events += 1;
+        let next = self.outlooks[entry.slot as usize].next();
+        self.departures += u64::from(matches!(next, Next::Departure(_)));
         Some((entry.slot, next))
+    }
+
+    /// Whether the order of the spheres is out of date, in a box with these edges \[m\].
+    fn is_arrangement_due(&self, period: DVec3) -> bool {
+        let (done, per_sphere) = match (period.is_finite(), self.are_many()) {
+            (true, true) => (self.departures, DEPARTURES_PER_ARRANGEMENT),
+            (true, false) => (self.departures, DEPARTURES_OF_FEW),
+            (false, _) => (self.events, EVENTS_PER_ARRANGEMENT),
+        };
+        done > per_sphere * self.bodies.len() as u64
     }
 
     /// Whether there are more spheres than the fast caches hold.
@@ -337,11 +304,11 @@ impl Timeline {
         if !self.are_many() {
             return;
         }
-        let Self { outlooks, bodies, neighbours, queue, .. } = self;
+        let Self { outlooks, bodies, neighbours, queue, index_of, flights_before, .. } = self;
         // What is read in one step is found from what was read in the steps before.
         let spheres = |place: usize| {
             let slot = queue.upcoming(place);
-            let other = slot.and_then(|slot| match outlooks[slot as usize].event.target {
+            let other = slot.and_then(|slot| match outlooks[slot as usize].event().target {
                 Target::Sphere(other) => Some(other),
                 _ => None,
             });
@@ -353,6 +320,7 @@ impl Timeline {
         }
         for slot in spheres(6) {
             read += bodies[slot as usize].time + neighbours.read_place(slot);
+            read += f64::from(index_of[slot as usize] ^ flights_before[slot as usize]);
         }
         for slot in spheres(3) {
             read += neighbours.read_cells(slot);
@@ -361,6 +329,12 @@ impl Timeline {
             read += neighbours.read_bodies(slot, bodies);
         }
         std::hint::black_box(read);
+    }
+
+    /// Whether there is one kind of spheres, and they see each other move in straight lines.
+    #[inline(always)]
+    pub(super) fn all_fly_alike(&self) -> bool {
+        matches!(&self.kinds[..], [kind] if kind.flies_like(kind))
     }
 
     pub(super) fn kind_of(&self, slot: u32) -> &Kind {
@@ -492,13 +466,13 @@ impl Timeline {
     /// The first sphere, by index, that is not anywhere at `time` \[s\], and which of its quantities is
     /// not finite.
     pub fn lost(&self, time: f64) -> Option<(usize, &'static str)> {
-        // Whatever is not finite makes the sum not a number.
-        let trace = |slot: u32| {
-            let (position, velocity) = self.state_of(slot, time);
-            0.0 * (position + velocity).element_sum()
+        // As a rule nobody can be that far, whatever drag does, and no path need be followed.
+        let pull: f64 = self.kinds.iter().map(|kind| size(kind.acceleration)).sum();
+        let farthest = |body: &Body| {
+            let age = (time - body.time).abs();
+            size(body.position) + (1.0 + age) * (size(body.velocity) + age * pull)
         };
-        let slots = 0..self.bodies.len() as u32;
-        if slots.map(trace).sum::<f64>() == 0.0 {
+        if self.bodies.iter().map(farthest).sum::<f64>().is_finite() {
             return None;
         }
         self.slot_of.iter().enumerate().find_map(|(index, &slot)| {
@@ -516,6 +490,11 @@ impl Timeline {
             (periodic::folded(position, period), velocity)
         });
     }
+}
+
+/// Sum of the sizes of the components.
+fn size(vector: DVec3) -> f64 {
+    vector.abs().element_sum()
 }
 
 /// Whether an entry of the queue still tells what happens next to its sphere.

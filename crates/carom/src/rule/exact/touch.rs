@@ -296,8 +296,8 @@ impl<'a> Gathering<'a> {
         let (place, velocity) = timeline.state_of(slot, self.time);
         let mut found = Vec::new();
         let mut around = Vicinity::default();
-        timeline.neighbours.near(slot, kind.level, &mut around);
-        for neighbour in around.iter() {
+        timeline.neighbours.find(slot, kind.level, &mut around);
+        for neighbour in timeline.neighbours.found(slot, &around).iter() {
             let (near, shift) = (neighbour.slot(), timeline.neighbours.shift_of(slot, neighbour));
             let (near_place, near_velocity) = timeline.state_of(near, self.time);
             let radius_sum = kind.radius + timeline.kind_of(near).radius;

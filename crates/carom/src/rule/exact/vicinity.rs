@@ -1,7 +1,6 @@
 //! Who is near one sphere, gathered from cells or lists into memory that is used again.
 
-use std::ops::Range;
-
+use super::grid::Block;
 use super::lists::Lists;
 use super::neighbour::Neighbour;
 
@@ -10,45 +9,61 @@ pub(super) type CellLists = Lists<Neighbour, 3>;
 /// Neighbours of each sphere, by slot: as a rule not more than fifteen.
 pub(super) type NeighbourLists = Lists<Neighbour, 15>;
 
+/// Whether no neighbour is an image. Looks at all of them, which is faster than to stop at one.
+#[inline(always)]
+pub(super) fn are_in_same_box(neighbours: &[Neighbour]) -> bool {
+    neighbours.iter().fold(true, |all, other| all & other.is_in_same_box())
+}
+
 /// Those who are near a sphere.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Near<'a> {
+    /// Those whose positions count in the same box as that of the sphere.
+    pub same_box: &'a [Neighbour],
+    /// Those of whom an image is near.
+    pub images: &'a [Neighbour],
+}
+
+impl<'a> Near<'a> {
+    pub fn iter(self) -> impl Iterator<Item = Neighbour> + use<'a> {
+        self.same_box.iter().chain(self.images).copied()
+    }
+}
+
+/// Memory in which those who are near a sphere are gathered.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Vicinity {
     pub same_box: Buffer,
     pub images: Vec<Neighbour>,
+    /// Whether they are all on the list of the sphere, in the same box: then they are not here.
+    pub are_listed: bool,
 }
 
 impl Vicinity {
-    /// Those whose positions count in the same box as that of the sphere.
+    /// Those who were gathered.
     #[inline(always)]
-    pub fn in_same_box(&self) -> &[Neighbour] {
-        self.same_box.found()
+    pub fn near(&self) -> Near<'_> {
+        Near { same_box: self.same_box.found(), images: &self.images }
     }
 
-    /// Those of whom an image is near.
     #[inline(always)]
-    pub fn images(&self) -> &[Neighbour] {
-        &self.images
-    }
-
-    pub fn iter(&self) -> impl Iterator<Item = Neighbour> {
-        self.in_same_box().iter().chain(&self.images).copied()
-    }
-
     pub fn clear(&mut self) {
         self.same_box.len = 0;
         self.images.clear();
+        self.are_listed = false;
     }
 
     /// Of those from `start` on, moves images to the others, and drops the sphere itself.
     #[inline(always)]
     pub fn sort_from(&mut self, start: usize, slot: u32) {
-        let Self { same_box, images } = self;
+        let Self { same_box, images, .. } = self;
         let added = &same_box.buffer[start..same_box.len];
-        let are_images = added.iter().fold(false, |any, other| any | !other.is_in_same_box());
-        if are_images {
+        if are_in_same_box(added) {
+            same_box.drop_from(start, Neighbour::in_same_box(slot));
+        } else {
             images.extend(added.iter().filter(|other| !other.is_in_same_box()));
+            same_box.retain_from(start, |other| other.is_in_same_box() & (other.slot() != slot));
         }
-        same_box.retain_from(start, |other| other.is_in_same_box() & (other.slot() != slot));
     }
 }
 
@@ -68,15 +83,39 @@ impl Buffer {
 
     /// Adds the spheres of some cells.
     #[inline(always)]
-    pub fn add_cells(&mut self, cells: &CellLists, range: Range<usize>) {
-        self.len = cells.gather(range, &mut self.buffer, self.len);
+    pub fn add_block(&mut self, cells: &CellLists, block: &Block) {
+        let Self { buffer, len } = self;
+        let most = *len + cells.room(block.len());
+        if buffer.len() < most {
+            buffer.resize(most, Neighbour::default());
+        }
+        let mut are_all = true;
+        block.for_each_row(|row| are_all &= cells.copy_first(row, buffer, len));
+        if !are_all {
+            block.for_each_row(|row| cells.copy_rest(row, buffer, len));
+        }
     }
 
     /// Adds the neighbours of a sphere.
     #[inline(always)]
     pub fn add_list(&mut self, lists: &NeighbourLists, slot: u32) {
-        let list = slot as usize..slot as usize + 1;
-        self.len = lists.gather(list, &mut self.buffer, self.len);
+        self.len = lists.gather(slot as usize, &mut self.buffer, self.len);
+    }
+
+    /// Of those from `start` on, drops one who is there once at most; whether it was there. Looks at
+    /// all of them, likewise.
+    #[inline(always)]
+    pub fn drop_from(&mut self, start: usize, one: Neighbour) -> bool {
+        let found = &mut self.buffer[start..self.len];
+        let Some(&last) = found.last() else { return false };
+        let mut count = 0;
+        for other in found {
+            let is_one = *other == one;
+            count += usize::from(is_one);
+            *other = if is_one { last } else { *other };
+        }
+        self.len -= count;
+        count > 0
     }
 
     /// Of those from `start` on, keeps some. Without branches on that, which no processor can

@@ -1,0 +1,129 @@
+//! What lies ahead of a sphere.
+
+use super::neighbour::MAX_SPHERES;
+
+/// What a sphere meets next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Event {
+    /// On the world's clock \[s\].
+    pub time: f64,
+    pub target: Target,
+    /// Number of the other sphere's flight for which this was predicted.
+    pub flights: u32,
+}
+
+impl Event {
+    pub const NEVER: Self = Self { time: f64::INFINITY, target: Target::Restart, flights: 0 };
+}
+
+/// What a sphere comes upon.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Target {
+    /// Another sphere, by slot.
+    Sphere(u32),
+    Surface(u32),
+    /// The forces of its lasting contacts have to be found anew.
+    Cluster,
+    /// Nothing: its flight begins anew from where it is.
+    Restart,
+}
+
+/// What happens next to a sphere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Next {
+    Event(Event),
+    /// It leaves its neighbourhood at this time \[s\].
+    Departure(f64),
+}
+
+/// What lies ahead of a sphere: an event, in little memory, for each sphere has one, and a departure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Outlook {
+    /// Of the event, on the world's clock \[s\].
+    time: f64,
+    /// When it leaves its neighbourhood, on the world's clock \[s\].
+    pub departure: f64,
+    target: PackedTarget,
+    flights: u32,
+}
+
+impl Outlook {
+    #[inline(always)]
+    pub fn new(event: Event, departure: f64) -> Self {
+        let Event { time, target, flights } = event;
+        Self { time, departure, target: PackedTarget::of(target), flights }
+    }
+
+    #[inline(always)]
+    pub fn event(&self) -> Event {
+        Event { time: self.time, target: self.target.unpacked(), flights: self.flights }
+    }
+
+    /// When the first of it happens, on the world's clock \[s\].
+    #[inline(always)]
+    pub fn time(&self) -> f64 {
+        self.time.min(self.departure)
+    }
+
+    /// What happens first.
+    #[inline(always)]
+    pub fn next(&self) -> Next {
+        if self.departure < self.time {
+            Next::Departure(self.departure)
+        } else {
+            Next::Event(self.event())
+        }
+    }
+}
+
+/// A target in four bytes: the slot of a sphere, a surface's number with the highest bit set (there
+/// is no memory for so many surfaces that it was set before), or one of the numbers below.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct PackedTarget(u32);
+
+impl PackedTarget {
+    const SURFACE: u32 = 1 << 31;
+    /// No slot: these are smaller.
+    const CLUSTER: Self = Self(MAX_SPHERES as u32);
+    const RESTART: Self = Self(MAX_SPHERES as u32 + 1);
+
+    #[inline(always)]
+    fn of(target: Target) -> Self {
+        match target {
+            Target::Sphere(slot) => Self(slot),
+            Target::Surface(surface) => Self(surface | Self::SURFACE),
+            Target::Cluster => Self::CLUSTER,
+            Target::Restart => Self::RESTART,
+        }
+    }
+
+    #[inline(always)]
+    fn unpacked(self) -> Target {
+        match self {
+            Self(surface) if surface & Self::SURFACE != 0 => {
+                Target::Surface(surface & !Self::SURFACE)
+            }
+            Self::CLUSTER => Target::Cluster,
+            Self::RESTART => Target::Restart,
+            Self(slot) => Target::Sphere(slot),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_outlook_gives_back_the_event_it_was_made_of() {
+        let last = MAX_SPHERES as u32 - 1;
+        let spheres = [0, last].map(Target::Sphere);
+        let others = [Target::Surface(0), Target::Surface(7), Target::Cluster, Target::Restart];
+        for (number, target) in (0u32..).zip(spheres.into_iter().chain(others)) {
+            let event = Event { time: f64::from(number), target, flights: number };
+            assert_eq!(Outlook::new(event, 2.0).event(), event);
+            let is_first = event.time <= 2.0;
+            assert_eq!(Outlook::new(event, 2.0).next() == Next::Event(event), is_first);
+        }
+    }
+}
