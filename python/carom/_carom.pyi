@@ -209,6 +209,7 @@ _MazeStep: TypeAlias = tuple[
     _MazeStates,
 ]
 
+@final
 class Painter:
     """What `carom.Renderer` stands on: a graphics device that is kept open, and a camera."""
 
