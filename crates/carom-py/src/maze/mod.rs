@@ -36,6 +36,9 @@ struct Inner {
 /// How many collectibles each ball has, and whether it won.
 type StateArrays<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<bool>>);
 
+/// The least and the most of each number of an observation.
+type Bounds<'py> = (Bound<'py, PyArray1<f32>>, Bound<'py, PyArray1<f32>>);
+
 /// Observations, rewards, terminated, truncated, states; then which episodes ended and were started
 /// anew, their last observations, and their last states.
 type Step<'py> = (
@@ -101,10 +104,7 @@ impl MazeEpisodes {
 
     /// The least and the most that each number of an observation can be.
     #[getter]
-    fn bounds<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyArray1<f32>>, Bound<'py, PyArray1<f32>>)> {
+    fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Bounds<'py>> {
         let guard = self.lock(py)?;
         let [low, high] = guard.team.arena().observation_bounds();
         Ok((PyArray1::from_slice(py, low), PyArray1::from_slice(py, high)))
