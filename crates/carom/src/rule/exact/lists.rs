@@ -69,27 +69,37 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
     /// What is there behind them has no meaning. Tells whether there are no further pages.
     #[inline(always)]
     pub fn copy_first(&self, lists: Range<usize>, members: &mut [T], len: &mut usize) -> bool {
-        let mut links = 0;
+        let (mut links, mut end) = (0, *len);
         for page in &self.pages[lists] {
             // Always a whole page: no processor can foresee how many there are.
-            members[*len..*len + SIZE].copy_from_slice(&page.members);
-            *len += page.link.len();
+            members[end..end + SIZE].copy_from_slice(&page.members);
+            end += page.link.len();
             links |= page.link.0;
         }
+        *len = end;
         Link(links).next().is_none()
     }
 
-    /// Likewise those on the further pages.
+    /// Likewise those on the further pages. Leaves `room` for so many more.
     #[inline(never)]
-    pub fn copy_rest(&self, lists: Range<usize>, members: &mut Vec<T>, len: &mut usize) {
-        members.truncate(*len);
+    pub fn copy_rest(
+        &self,
+        lists: Range<usize>,
+        members: &mut Vec<T>,
+        len: &mut usize,
+        room: usize,
+    ) {
         for mut page in &self.pages[lists] {
             while let Some(next) = page.link.next() {
                 page = &self.pages[next];
-                members.extend_from_slice(&page.members[..page.link.len()]);
+                let end = *len + SIZE;
+                if members.len() < end + room {
+                    members.resize(end + room, T::default());
+                }
+                members[*len..end].copy_from_slice(&page.members);
+                *len += page.link.len();
             }
         }
-        *len = members.len();
     }
 
     /// Puts the members of a list into `members`, from `len` on, and gives where they end. What is
@@ -101,7 +111,7 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
         }
         let mut end = len;
         if !self.copy_first(list..list + 1, members, &mut end) {
-            self.copy_rest(list..list + 1, members, &mut end);
+            self.copy_rest(list..list + 1, members, &mut end, 0);
         }
         end
     }

@@ -36,6 +36,12 @@ impl Neighbour {
         self.0 < 1 << SLOT_BITS
     }
 
+    /// One that is an image if this one or the other is. It is nobody.
+    #[inline(always)]
+    pub fn joined(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
     /// The turns of an image.
     pub fn image_turns(self) -> [i32; 3] {
         let number = (self.0 >> SLOT_BITS) as i32 - 1;

@@ -359,16 +359,19 @@ impl Neighbours {
     pub fn departure(&self, slot: u32, body: &Body, kind: &Kind, now: f64) -> f64 {
         let Level { grid, half_edges, .. } = &self.levels[kind.level as usize];
         let center = self.neighbourhoods[slot as usize].center;
-        let (position, velocity) = body.state_at(kind, now);
-        let offset = center + self.way_round(slot) - position;
+        let center_here = center + self.way_round(slot);
         let half_edges = DEPARTURE * half_edges;
         if grid.is_closed() && kind.flies_straight() {
-            // Without branches on the direction, which no processor can foresee. What is at rest in
-            // a corner has 0 / 0, which is never the least.
+            // Without branches on the direction, which no processor can foresee. What is at rest on
+            // a side has 0 / 0 there, which is never the least.
+            let velocity = body.velocity;
+            let offset = center_here - (body.position + (now - body.time) * velocity);
             let distance = half_edges + DVec3::ONE.copysign(velocity) * offset;
             let first = (distance.max(DVec3::ZERO) / velocity.abs()).min_element();
             return (now + first).max(now.next_up());
         }
+        let (position, velocity) = body.state_at(kind, now);
+        let offset = center_here - position;
         let (low, high) = grid.without_ends(center, offset - half_edges, offset + half_edges);
         let mut first = f64::INFINITY;
         for axis in 0..3 {

@@ -61,6 +61,7 @@ impl Stage<'_> {
     }
 
     /// Writes down impacts that were answered together.
+    #[inline(always)]
     pub fn record(&mut self, impacts: &[Impact], account: ImpactGroup) {
         let (first, count) = (self.report.impacts.len(), impacts.len());
         self.report.impacts.extend_from_slice(impacts);

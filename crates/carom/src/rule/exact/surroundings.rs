@@ -237,20 +237,24 @@ impl Surroundings {
         let body = &bodies[slot as usize];
         let kind = &kinds[body.kind as usize];
         let Kind { acceleration, radius, .. } = *kind;
-        for &Closing { neighbour, offset } in &self.closing[..self.count] {
-            let other = &bodies[neighbour.slot() as usize];
+        let (mut time, mut which) = (first.time, None);
+        for one in &self.closing[..self.count] {
+            let other = &bodies[one.neighbour.slot() as usize];
             let other_kind = if ALIKE { kind } else { &kinds[other.kind as usize] };
-            let time = if ALIKE || kind.flies_like(other_kind) {
+            let meeting = if ALIKE || kind.flies_like(other_kind) {
                 let start = start_with(other);
                 let pair = Pair::<FALLS> { bodies: [body, other], acceleration, start };
-                pair.meeting(offset, radius + other_kind.radius)
+                pair.meeting(one.offset, radius + other_kind.radius)
             } else {
-                meeting_of_others(timeline, slot, neighbour)
+                meeting_of_others(timeline, slot, one.neighbour)
             };
-            if time < first.time {
-                let target = Target::Sphere(neighbour.slot());
-                *first = Event { time, target, flights: other.flights };
-            }
+            let is_first = meeting < time;
+            time = if is_first { meeting } else { time };
+            which = if is_first { Some(one.neighbour) } else { which };
+        }
+        if let Some(other) = which {
+            let (target, other) = (Target::Sphere(other.slot()), &bodies[other.slot() as usize]);
+            *first = Event { time, target, flights: other.flights };
         }
     }
 }

@@ -12,7 +12,7 @@ pub(super) type NeighbourLists = Lists<Neighbour, 15>;
 /// Whether no neighbour is an image. Looks at all of them, which is faster than to stop at one.
 #[inline(always)]
 pub(super) fn are_in_same_box(neighbours: &[Neighbour]) -> bool {
-    neighbours.iter().fold(true, |all, other| all & other.is_in_same_box())
+    neighbours.iter().fold(Neighbour::default(), |all, &other| all.joined(other)).is_in_same_box()
 }
 
 /// Those who are near a sphere.
@@ -85,15 +85,15 @@ impl Buffer {
     #[inline(always)]
     pub fn add_block(&mut self, cells: &CellLists, block: &Block) {
         let Self { buffer, len } = self;
-        let most = *len + cells.room(block.len());
-        if buffer.len() < most {
-            buffer.resize(most, Neighbour::default());
+        let most = cells.room(block.len());
+        if buffer.len() < *len + most {
+            buffer.resize(*len + most, Neighbour::default());
         }
-        let mut are_all = true;
-        block.for_each_row(|row| are_all &= cells.copy_first(row, buffer, len));
-        if !are_all {
-            block.for_each_row(|row| cells.copy_rest(row, buffer, len));
-        }
+        block.for_each_row(|row| {
+            if !cells.copy_first(row.clone(), buffer, len) {
+                cells.copy_rest(row, buffer, len, most);
+            }
+        });
     }
 
     /// Adds the neighbours of a sphere.
