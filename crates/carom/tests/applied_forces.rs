@@ -149,7 +149,8 @@ fn a_ball_pressed_into_a_corner_stays_until_the_tilt_turns() {
         world.step(FRAME).unwrap();
     }
     let ball = world.spheres().get(0);
-    let way = 0.5 * (f64::from(frames) * FRAME).powi(2);
+    let time = f64::from(frames) * FRAME;
+    let way = 0.5 * time * time;
     assert_eq!((ball.position.x, ball.position.y), (1.75, 0.25));
     assert!((ball.position.z - (1.75 - way)).abs() < 1e-13, "{ball:?}");
 }
