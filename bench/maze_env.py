@@ -6,8 +6,8 @@ array, the tilt, physics, rewards, new episodes, observations written into NumPy
     pip install . && pip install -r bench/requirements.txt
     python bench/maze_env.py [--mujoco] [--json figures.json] [--seconds 2]
 
-Two kinds of random tilt: "at once", any tilt up to 20° in each frame; "followed", the maze turns to it by
-60°/s, so that balls get farther and meet walls more often.
+Two kinds of random tilt: "at once", any tilt up to 20° in each frame; "followed", the maze turns to
+it by 60°/s, so that balls get farther and meet walls more often.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Figure:
     threads: int
     steps_per_second: float
     per_core: float
-    """Steps per second of each thread."""
+    """Steps per second that a processor worked for it, whatever else the machine does."""
     overhead: float | None = None
     """Part of the time that is not the engine's: Python, conversion, arrays."""
 
@@ -64,20 +64,22 @@ def carom_figure(rule: str, tilt: str, num_envs: int, threads: int, seconds: flo
     engine = envs.unwrapped._engine
     run(envs, actions, 0.2 * seconds)
     before = engine._seconds_in_engine
-    steps, wall = run(envs, actions, seconds)
-    rate = steps * num_envs / wall
+    steps, wall, worked = run(envs, actions, seconds)
+    steps *= num_envs
     overhead = 1.0 - (engine._seconds_in_engine - before) / wall
-    return Figure(rule, tilt, num_envs, threads, rate, rate / threads, overhead)
+    return Figure(rule, tilt, num_envs, threads, steps / wall, steps / worked, overhead)
 
 
-def run(envs: gymnasium.vector.VectorEnv, actions: np.ndarray, seconds: float) -> tuple[int, float]:
-    """Steps for a while; how many steps, and how long they took [s]."""
-    steps, began = 0, time.perf_counter()
+def run(
+    envs: gymnasium.vector.VectorEnv, actions: np.ndarray, seconds: float
+) -> tuple[int, float, float]:
+    """Steps for a while; how many steps, how long they took, and what processors worked [s]."""
+    steps, began, worked = 0, time.perf_counter(), time.process_time()
     while time.perf_counter() - began < seconds:
         for action in actions:
             envs.step(action)
         steps += len(actions)
-    return steps, time.perf_counter() - began
+    return steps, time.perf_counter() - began, time.process_time() - worked
 
 
 def random_actions(num_envs: int) -> np.ndarray:
@@ -122,7 +124,9 @@ def main() -> None:
     arguments = parser.parse_args()
 
     figures = []
-    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    processors = (
+        len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    )
     for rule in arguments.rules:
         for tilt in TILT_SPEEDS:
             for num_envs in arguments.num_envs:
@@ -135,9 +139,11 @@ def main() -> None:
         import maze_mujoco
 
         for tilt, speed in TILT_SPEEDS.items():
-            for name, rate in maze_mujoco.rates(speed, arguments.seconds).items():
-                figures.append(Figure(f"MuJoCo {name}", tilt, 1, 1, rate, rate))
-    load = ", ".join(f"{load:.1f}" for load in os.getloadavg()) if hasattr(os, "getloadavg") else "?"
+            for name, rates in maze_mujoco.rates(speed, arguments.seconds).items():
+                figures.append(Figure(f"MuJoCo {name}", tilt, 1, 1, *rates))
+    load = (
+        ", ".join(f"{load:.1f}" for load in os.getloadavg()) if hasattr(os, "getloadavg") else "?"
+    )
     print(f"\nload of the machine: {load}\n\n{table(figures)}\n\n{ratios(figures)}")
     if arguments.json:
         with open(arguments.json, "w", encoding="utf-8") as file:

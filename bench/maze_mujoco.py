@@ -1,4 +1,4 @@
-"""The same maze in MuJoCo: static boxes, planes for ground and ceiling, a ball of the same size and mass.
+"""The same maze in MuJoCo: static boxes, planes for ground and ceiling, the same ball.
 
 All is done that makes MuJoCo fast: contacts without friction (as in Carom), one step of 0.02 s per
 frame, no trace kept of collectibles, rewards or episodes.
@@ -27,9 +27,10 @@ def model_xml() -> str:
     env = carom.gym.MazeEnv()
     env.reset(seed=0)
     scene = carom.Scene.from_toml(env._engine.scene_toml(0))
-    ball = scene.spheres[0]
+    world = scene.world()
+    radius, mass, place = world.radii[0], world.masses[0], world.positions[0]
     geoms = [geom for collider in scene.colliders for geom in geom_of(collider)]
-    place = " ".join(map(str, ball.position))
+    place = " ".join(map(str, place))
     return f"""
     <mujoco>
       <option timestep="{FRAME_TIME}" gravity="0 0 0" integrator="Euler"/>
@@ -38,7 +39,7 @@ def model_xml() -> str:
         {"".join(geoms)}
         <body pos="{place}">
           <freejoint/>
-          <geom type="sphere" size="{ball.radius}" mass="{ball.mass}"/>
+          <geom type="sphere" size="{radius}" mass="{mass}"/>
         </body>
       </worldbody>
     </mujoco>"""
@@ -84,27 +85,31 @@ def weights(speed: float, frames: int, balls: int) -> np.ndarray:
     return result
 
 
-def rates(speed: float, seconds: float) -> dict[str, float]:
-    """Steps per second on one thread: stepped from Python, and in its own batch loop in C++."""
+Rates = tuple[float, float]
+"""Steps per second, and per second that a processor worked for it."""
+
+
+def rates(speed: float, seconds: float) -> dict[str, Rates]:
+    """Of one thread: stepped from Python, and in MuJoCo's own loop in C++."""
     model = mujoco.MjModel.from_xml_string(model_xml())
     return {"mj_step": stepped(model, speed, seconds), "rollout": rolled_out(model, speed, seconds)}
 
 
-def stepped(model: mujoco.MjModel, speed: float, seconds: float) -> float:
+def stepped(model: mujoco.MjModel, speed: float, seconds: float) -> Rates:
     """One ball, a call from Python for every step."""
     data = mujoco.MjData(model)
     forces = weights(speed, 10_000, 1)[0]
-    steps, began = 0, time.perf_counter()
+    steps, began, worked = 0, time.perf_counter(), time.process_time()
     while time.perf_counter() - began < seconds:
         for force in forces[:1000]:
             data.qfrc_applied[:3] = force
             mujoco.mj_step(model, data)
         steps += 1000
         forces = np.roll(forces, -1000, axis=0)
-    return steps / (time.perf_counter() - began)
+    return steps / (time.perf_counter() - began), steps / (time.process_time() - worked)
 
 
-def rolled_out(model: mujoco.MjModel, speed: float, seconds: float) -> float:
+def rolled_out(model: mujoco.MjModel, speed: float, seconds: float) -> Rates:
     """Many balls, in `mujoco.rollout`, which knows all forces before."""
     data = mujoco.MjData(model)
     states = mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS)
@@ -113,7 +118,7 @@ def rolled_out(model: mujoco.MjModel, speed: float, seconds: float) -> float:
     state = np.tile(state, (BATCH, 1))
     forces = np.zeros((BATCH, FRAMES, model.nv))
     forces[:, :, :3] = weights(speed, FRAMES, BATCH)
-    steps, began = 0, time.perf_counter()
+    steps, began, worked = 0, time.perf_counter(), time.process_time()
     with rollout.Rollout(nthread=0) as runner:
         while time.perf_counter() - began < seconds:
             states_after, _ = runner.rollout(
@@ -125,4 +130,4 @@ def rolled_out(model: mujoco.MjModel, speed: float, seconds: float) -> float:
             )
             state = states_after[:, -1]
             steps += BATCH * FRAMES
-    return steps / (time.perf_counter() - began)
+    return steps / (time.perf_counter() - began), steps / (time.process_time() - worked)

@@ -8,6 +8,7 @@
 Right-handed frame, y up, SI units, float64. The same input gives the same bits on every machine.
 """
 
+from carom._batch import Batch
 from carom._carom import Snapshot
 from carom._library import Listed, load, scene, scenes
 from carom._parts import (
@@ -56,6 +57,7 @@ __all__ = [
     "LEDGER",
     "TRIGGER",
     "Ball",
+    "Batch",
     "Bisect",
     "Box",
     "Camera",

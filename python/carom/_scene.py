@@ -7,7 +7,7 @@ import math
 import os
 import subprocess
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, overload
@@ -20,11 +20,13 @@ from carom import _pictures as pictures
 from carom._carom import canonical_toml, read_scene
 from carom._text import fields_of, toml_of, toml_value
 from carom._trajectory import Trajectory
-from carom._window import open_window
 from carom._world import World
 from carom.errors import CaromError
 
 NO_CHANGES: Mapping[str, Any] = MappingProxyType({})
+
+_SEEDS = 2**32
+"""Seeds of random fillings are less."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,6 +123,23 @@ class Scene(parts.Part):
         'exact'
         """
         return Scene.from_toml(toml_of(self), source=self.name, changes=changes)
+
+    def with_seed(self, seed: int) -> Scene:
+        """The same scene with this seed for its first random filling, the next for the second...
+
+        Raises:
+            CaromError: If nothing in the scene is random.
+        """
+        generators: list[parts.Generator] = []
+        next_seed = seed
+        for generator in self.generators:
+            if isinstance(generator, parts.RandomFill):
+                generator = replace(generator, seed=next_seed)
+                next_seed = (next_seed + 1) % _SEEDS
+            generators.append(generator)
+        if not any(isinstance(generator, parts.RandomFill) for generator in generators):
+            raise CaromError("seed: the scene has no random filling", "seed")
+        return replace(self, generators=generators)
 
     def world(self) -> World:
         """The world at the start of the scene.
@@ -244,6 +263,9 @@ class Scene(parts.Part):
             SceneError: If the scene makes no sense.
             GraphicsError: If this build has no window, or it cannot be opened here.
         """
+        # Not above: the process runs this module, which nobody may have imported before.
+        from carom._window import open_window
+
         return open_window(self.to_toml())
 
     def _repr_png_(self) -> bytes | None:

@@ -68,7 +68,10 @@ class World(Engine):
         """Everything is made by then."""
 
     def __copy__(self) -> World:
-        """A world of its own that goes on as this one does, bit for bit."""
+        """A world of its own that goes on as this one does, bit for bit.
+
+        What happened in the last frame is not copied.
+        """
         return self.__deepcopy__({})
 
     def __deepcopy__(self, memo: dict[int, Any]) -> World:

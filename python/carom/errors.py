@@ -30,7 +30,13 @@ class GraphicsError(CaromError, RuntimeError):
 
 
 class StepError(CaromError, ArithmeticError):
-    """A step that cannot be taken: a number would overflow, or there are too many impacts."""
+    """A step that cannot be taken: a number would overflow, or there are too many impacts.
+
+    Attributes:
+        worlds: The numbers of the worlds that refused it, in a `Batch`.
+    """
+
+    worlds: list[int] | None = None
 
 
 class RunError(CaromError, RuntimeError):

@@ -86,7 +86,7 @@ def fourth_cumulant(e: NDArray[np.float64]) -> NDArray[np.float64]:
 def main() -> None:
     """Measures, tells and draws."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--repeats", type=int, default=16, help="runs at each restitution (16)")
+    parser.add_argument("--repeats", type=int, default=32, help="runs at each restitution (32)")
     parser.add_argument("--store", help="file that keeps finished runs")
     parser.add_argument("--picture", default="haff.png", help="file to write")
     arguments = parser.parse_args()

@@ -91,11 +91,18 @@ def test_spheres_keep_their_colours() -> None:
     assert colors(world)[4] is None
 
 
-def test_emitters_of_code_give_their_spheres_their_colour() -> None:
+def test_spheres_of_emitters_of_code_have_the_colour_of_theirs() -> None:
     world = carom.World()
-    first = world.add_emitter(carom.Emitter(carom.Sphere(radius=0.1, color=RED), 1.0))
-    world.step(0.5)
-    second = carom.Emitter(carom.Sphere(radius=0.1, color=GREEN), 1.0, position=(0, 5, 0))
-    world.set_emitter(first, second)
+    # Not at the end of a frame of its own.
+    world.step(0.123)
+    red = carom.Emitter(carom.Sphere(radius=0.1, color=RED), 1.0)
+    green = carom.Emitter(carom.Sphere(radius=0.1, color=GREEN), 0.75, position=(0, 5, 0))
+    first = world.add_emitter(red)
+    second = world.add_emitter(green)
+    # At 0 both, at 0.75 green, at 1 red.
+    world.step(1.2)
+    assert colors(world) == [RED, GREEN, GREEN, RED]
+    world.remove_emitter(second)
+    world.set_emitter(first, replace(red, sphere=carom.Sphere(radius=0.1, color=BLUE)))
     world.step(1.0)
-    assert colors(world) == [RED, GREEN]
+    assert colors(world) == [RED, GREEN, GREEN, RED, BLUE]

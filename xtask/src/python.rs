@@ -75,6 +75,8 @@ impl Environment {
     /// Makes it anew, in a folder among what is built.
     fn new(name: &str) -> Outcome<Self> {
         setup::python()?;
+        // The package draws.
+        setup::graphics()?;
         let folder = target_folder().join(name);
         if folder.exists() {
             fs::remove_dir_all(&folder).map_err(|error| said(&folder, error))?;

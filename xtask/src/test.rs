@@ -15,9 +15,11 @@ pub fn test() -> Outcome {
     cargo_with(&documents, &[("RUSTDOCFLAGS", "--deny warnings")])?;
     // The scene files can be read without the crates that only recordings need.
     cargo(&["check", "--package", "carom-scene", "--no-default-features", "--quiet"])?;
-    // The command line is built without pictures, too, by those who work on the physics.
+    // The command line is built without pictures, too, by those who work on the physics; the
+    // Python package, by those who have no C++ compiler.
     let plain = ["--package", "carom-cli", "--no-default-features", "--quiet"];
     cargo(&[&["check"], &plain[..]].concat())?;
+    cargo(&["check", "--package", "carom-py", "--no-default-features", "--quiet"])?;
     // Graphics libraries ask for this folder, and complain aloud where a system names none.
     let folder = std::env::var("XDG_RUNTIME_DIR").unwrap_or_else(|_| "/tmp".to_owned());
     let graphics = [("XDG_RUNTIME_DIR", folder.as_str())];

@@ -85,7 +85,7 @@ fn a_ball_on_a_slope_gains_what_gravity_gives() {
         }
         let (_, velocity) = episodes.motion(0);
         // 1 s at 10°. Fifty frames round some fifty times.
-        let expected = 9.8 * 10f64.to_radians().sin();
+        let expected = 9.8 * libm::sin(10f64.to_radians());
         assert!((velocity.x - expected).abs() < 1e-12, "{rule:?}: {velocity}");
         assert!(velocity.z.abs() < 1e-12);
     }
@@ -258,8 +258,8 @@ fn a_ball_that_meets_walls_too_often_takes_the_frame_otherwise_and_others_do_not
         let before = narrow.rough_frames();
         narrow.step(&actions).unwrap();
         wide.step(&actions).unwrap();
-        for ball in 0..8 {
-            rough[ball] |= state(&narrow, ball) != state(&wide, ball);
+        for (ball, rough) in rough.iter_mut().enumerate() {
+            *rough |= state(&narrow, ball) != state(&wide, ball);
         }
         let differs = rough.iter().filter(|rough| **rough).count() as u64;
         assert!(differs <= narrow.rough_frames(), "{differs} differ after {before} rough frames");

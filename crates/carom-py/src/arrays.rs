@@ -19,11 +19,18 @@ pub enum Quantity {
     Radii,
     Masses,
     Restitutions,
+    AppliedForces,
 }
 
 impl Quantity {
-    pub const ALL: [Self; 5] =
-        [Self::Positions, Self::Velocities, Self::Radii, Self::Masses, Self::Restitutions];
+    pub const ALL: [Self; 6] = [
+        Self::Positions,
+        Self::Velocities,
+        Self::Radii,
+        Self::Masses,
+        Self::Restitutions,
+        Self::AppliedForces,
+    ];
 
     /// As Python calls it.
     pub fn name(self) -> &'static str {
@@ -33,54 +40,42 @@ impl Quantity {
             Self::Radii => "radii",
             Self::Masses => "masses",
             Self::Restitutions => "restitutions",
+            Self::AppliedForces => "applied_forces",
         }
+    }
+
+    /// Whether a sphere has one number of it, not three.
+    pub fn is_number(self) -> bool {
+        matches!(self, Self::Radii | Self::Masses | Self::Restitutions)
     }
 
     /// The shape of its array for `count` spheres.
     pub fn shape(self, count: usize) -> Vec<usize> {
-        match self {
-            Self::Positions | Self::Velocities => vec![count, 3],
-            Self::Radii | Self::Masses | Self::Restitutions => vec![count],
-        }
+        if self.is_number() { vec![count] } else { vec![count, 3] }
     }
 
-    fn values(self, spheres: &Spheres) -> Values<'_> {
-        match self {
-            Self::Positions => Values::Vectors(spheres.positions()),
-            Self::Velocities => Values::Vectors(spheres.velocities()),
-            Self::Radii => Values::Numbers(spheres.radii()),
-            Self::Masses => Values::Numbers(spheres.masses()),
-            Self::Restitutions => Values::Numbers(spheres.restitutions()),
+    /// Writes its values of all spheres one after another.
+    pub fn write(self, spheres: &Spheres, place: &mut [f64]) {
+        let vectors = match self {
+            Self::Positions => spheres.positions(),
+            Self::Velocities => spheres.velocities(),
+            Self::AppliedForces => match spheres.applied_forces() {
+                // There are none on anyone.
+                [] => return place.fill(0.0),
+                forces => forces,
+            },
+            Self::Radii => return write_numbers(spheres.radii(), place),
+            Self::Masses => return write_numbers(spheres.masses(), place),
+            Self::Restitutions => return write_numbers(spheres.restitutions(), place),
+        };
+        for (place, vector) in place.chunks_exact_mut(3).zip(vectors) {
+            place.copy_from_slice(&vector.to_array());
         }
     }
 }
 
-/// What the engine holds of a quantity.
-enum Values<'a> {
-    Vectors(&'a [DVec3]),
-    Numbers(&'a [f64]),
-}
-
-impl Values<'_> {
-    fn to_vec(&self) -> Vec<f64> {
-        match self {
-            Self::Vectors(vectors) => flat(vectors),
-            Self::Numbers(numbers) => numbers.to_vec(),
-        }
-    }
-
-    fn write(&self, place: &mut [f64]) {
-        match self {
-            Self::Vectors(vectors) => {
-                for (place, vector) in place.chunks_exact_mut(3).zip(*vectors) {
-                    place.copy_from_slice(&vector.to_array());
-                }
-            }
-            Self::Numbers(numbers) => {
-                place.iter_mut().zip(*numbers).for_each(|(place, number)| *place = *number);
-            }
-        }
-    }
+fn write_numbers(numbers: &[f64], place: &mut [f64]) {
+    place.iter_mut().zip(numbers).for_each(|(place, number)| *place = *number);
 }
 
 /// Three numbers of each vector, in a row.
@@ -100,10 +95,38 @@ pub struct Arrays {
 
 /// An array, and what Python gets to see of it.
 #[derive(Debug)]
-struct Shown {
+pub struct Shown {
     own: Py<PyArrayDyn<f64>>,
     /// The same memory, not to be written to.
     view: Py<PyAny>,
+}
+
+impl Shown {
+    /// An array of these values.
+    pub fn new(py: Python<'_>, values: Vec<f64>, shape: Vec<usize>) -> PyResult<Self> {
+        let own = PyArray1::from_vec(py, values).reshape(shape)?;
+        let view = read_only(&own)?;
+        Ok(Self { own: own.unbind(), view })
+    }
+
+    /// What Python gets to see.
+    pub fn view(&self, py: Python<'_>) -> Py<PyAny> {
+        self.view.clone_ref(py)
+    }
+
+    /// Writes into the array; `false` if somebody in another language is reading it: theirs stays
+    /// as it is.
+    pub fn write(&self, py: Python<'_>, write: impl FnOnce(&mut [f64])) -> bool {
+        let array = self.own.bind(py);
+        let mut borrowed = array.try_readwrite();
+        match borrowed.as_mut().map(|array| array.as_slice_mut()) {
+            Ok(Ok(slice)) => {
+                write(slice);
+                true
+            }
+            _ => false,
+        }
+    }
 }
 
 impl Arrays {
@@ -116,12 +139,13 @@ impl Arrays {
     ) -> PyResult<Py<PyAny>> {
         self.follow(spheres);
         if let Some(shown) = &self.shown[quantity as usize] {
-            return Ok(shown.view.clone_ref(py));
+            return Ok(shown.view(py));
         }
-        let values = PyArray1::from_vec(py, quantity.values(spheres).to_vec());
-        let own = values.reshape(quantity.shape(spheres.len()))?;
-        let view = read_only(&own)?;
-        let shown = Shown { own: own.unbind(), view: view.clone_ref(py) };
+        let shape = quantity.shape(spheres.len());
+        let mut values = vec![0.0; shape.iter().product()];
+        quantity.write(spheres, &mut values);
+        let shown = Shown::new(py, values, shape)?;
+        let view = shown.view(py);
         self.shown[quantity as usize] = Some(shown);
         Ok(view)
     }
@@ -154,12 +178,8 @@ impl Arrays {
         for &quantity in quantities {
             let place = &mut self.shown[quantity as usize];
             let Some(shown) = place else { continue };
-            let array = shown.own.bind(py);
-            let mut borrowed = array.try_readwrite();
-            match borrowed.as_mut().map(|array| array.as_slice_mut()) {
-                Ok(Ok(slice)) => quantity.values(spheres).write(slice),
-                // Somebody in another language is reading it: theirs stays as it is.
-                _ => *place = None,
+            if !shown.write(py, |values| quantity.write(spheres, values)) {
+                *place = None;
             }
         }
     }

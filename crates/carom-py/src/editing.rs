@@ -90,8 +90,9 @@ impl Engine {
         let emitter = emitter_of(&part)?;
         self.change(py, |inner| {
             let id = inner.world.add_emitter(emitter)?;
+            let time = inner.world.time();
+            part.emitters.iter().for_each(|it| inner.palette_mut().add_emitter(it, time));
             inner.described_mut().emitters.extend(part.emitters);
-            inner.color_emitted();
             Ok(id.number())
         })
     }
@@ -193,8 +194,9 @@ impl Engine {
         self.change(py, |inner| {
             let (id, place) = find_emitter(&inner.world, id)?;
             inner.world.set_emitter(id, emitter)?;
-            inner.described_mut().emitters[place].clone_from(only(&part.emitters)?);
-            inner.color_emitted();
+            let (emitter, time) = (only(&part.emitters)?, inner.world.time());
+            inner.palette_mut().set_emitter(place, emitter, time);
+            inner.described_mut().emitters[place].clone_from(emitter);
             Ok(())
         })
     }
@@ -208,8 +210,9 @@ impl Engine {
         self.change(py, |inner| {
             let (id, place) = find_emitter(&inner.world, id)?;
             inner.world.remove_emitter(id)?;
+            let time = inner.world.time();
+            inner.palette_mut().remove_emitter(place, time);
             inner.described_mut().emitters.remove(place);
-            inner.color_emitted();
             Ok(())
         })
     }
@@ -230,13 +233,6 @@ impl Inner {
     /// Draws the colliders in the colours of their descriptions from now on.
     fn color_colliders(&mut self) {
         Arc::make_mut(&mut self.palette).set_colliders(&self.described.colliders);
-    }
-
-    /// Likewise what emitters emit.
-    fn color_emitted(&mut self) {
-        let (time, spheres) = (self.world.time(), self.world.spheres().ids());
-        let emitters = &self.described.emitters;
-        Arc::make_mut(&mut self.palette).set_emitters(emitters, time, spheres);
     }
 }
 

@@ -5,7 +5,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use carom::{DVec3, World};
+use carom::{DVec3, Sphere, SphereId, World};
 use carom_scene::{Palette, Scene};
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
@@ -257,6 +257,18 @@ impl Engine {
         self.set_quantity(Quantity::Restitutions, values)
     }
 
+    /// Forces applied to single spheres [N], shape (n, 3), besides those that act on all; held until
+    /// they are set again. Spheres that come into the world have none.
+    #[getter]
+    fn applied_forces(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::AppliedForces)
+    }
+
+    #[setter]
+    fn set_applied_forces(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::AppliedForces, values)
+    }
+
     /// Ids, ascending, shape (n,), uint64. An id is never given twice in one world.
     #[getter]
     fn ids(&self, py: Python<'_>) -> PyResult<Py<PyArray1<u64>>> {
@@ -287,24 +299,50 @@ impl Engine {
 }
 
 /// Sets a quantity of all spheres; if a value is refused, none is set.
-fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<(), Failure> {
-    let before = world.snapshot();
+pub fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<(), Failure> {
+    let about = |error: carom::Error| Failure::from(error).about(quantity.name());
+    let vectors = || values.chunks_exact(3).map(DVec3::from_slice);
     let ids = world.spheres().ids().to_vec();
-    for (index, id) in ids.into_iter().enumerate() {
-        let mut sphere = world.spheres().get(index);
-        match quantity {
-            Quantity::Positions => sphere.position = DVec3::from_slice(&values[3 * index..]),
-            Quantity::Velocities => sphere.velocity = DVec3::from_slice(&values[3 * index..]),
-            Quantity::Radii => sphere.radius = values[index],
-            Quantity::Masses => sphere = sphere.with_mass(values[index]),
-            Quantity::Restitutions => sphere.restitution = values[index],
+    let old = world.spheres();
+    match quantity {
+        Quantity::Positions | Quantity::Velocities => {
+            let kept = match quantity {
+                Quantity::Positions => old.velocities(),
+                _ => old.positions(),
+            };
+            let motion = |((id, new), &kept): ((SphereId, DVec3), &DVec3)| match quantity {
+                Quantity::Positions => (id, new, kept),
+                _ => (id, kept, new),
+            };
+            let motions: Vec<_> = ids.into_iter().zip(vectors()).zip(kept).map(motion).collect();
+            world.set_motions(&motions).map_err(about)
         }
-        if let Err(error) = world.set_sphere(id, sphere) {
-            world.restore(&before);
-            return Err(Failure::from(error).about(quantity.name()));
+        Quantity::AppliedForces => {
+            let forces: Vec<DVec3> = vectors().collect();
+            world.set_applied_forces(&forces).map_err(about)
+        }
+        Quantity::Radii | Quantity::Masses | Quantity::Restitutions => {
+            let before = world.snapshot();
+            for (index, (id, &value)) in ids.into_iter().zip(values).enumerate() {
+                let sphere = changed(world.spheres().get(index), quantity, value);
+                if let Err(error) = world.set_sphere(id, sphere) {
+                    world.restore(&before);
+                    return Err(about(error));
+                }
+            }
+            Ok(())
         }
     }
-    Ok(())
+}
+
+/// A sphere with another property.
+fn changed(sphere: Sphere, quantity: Quantity, value: f64) -> Sphere {
+    match quantity {
+        Quantity::Radii => Sphere { radius: value, ..sphere },
+        Quantity::Masses => sphere.with_mass(value),
+        Quantity::Restitutions => Sphere { restitution: value, ..sphere },
+        Quantity::Positions | Quantity::Velocities | Quantity::AppliedForces => sphere,
+    }
 }
 
 /// Sums over all spheres.

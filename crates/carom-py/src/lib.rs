@@ -16,6 +16,7 @@
 
 mod arguments;
 mod arrays;
+mod batch;
 mod command_line;
 mod describing;
 mod editing;
@@ -36,7 +37,9 @@ mod running;
 mod scenes;
 mod snapshot;
 mod tables;
+mod threads;
 
+pub use batch::BatchEngine;
 pub use engine::Engine;
 pub use maze::MazeEpisodes;
 #[cfg(feature = "pictures")]
@@ -46,6 +49,8 @@ pub use snapshot::Snapshot;
 /// The compiled part of the package `carom`. Its interface is that of the package, not this one.
 #[pyo3::pymodule(gil_used = true)]
 mod _carom {
+    #[pymodule_export]
+    use crate::BatchEngine;
     #[pymodule_export]
     use crate::Engine;
     #[pymodule_export]

@@ -1,10 +1,11 @@
 //! Which sphere, generator or emitter of a scene the spheres of its world come from.
 
-use carom::{DVec3, World};
+use carom::{DVec3, EmitterId, World};
 
 use crate::scene::{Generator, Scene};
 
-/// What a sphere comes from: an index into the list of its kind in the scene.
+/// What a sphere comes from: an index into the list of its kind in the scene. Emitters of code have
+/// the indices after those of the scene, another one for each change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Origin {
     Sphere(usize),
@@ -46,6 +47,24 @@ impl Origins {
     /// Follows the emitters until a frame ends at `time` \[s\] or later.
     pub fn follow(&mut self, time: f64) {
         self.emissions.follow(time, usize::MAX);
+    }
+
+    /// From `time` \[s\] on, there is an emitter of this period \[s\] more, after the others.
+    pub fn add_emitter(&mut self, period: f64, time: f64) {
+        self.emissions.go_to(time);
+        self.emissions.add(period).ok();
+    }
+
+    /// From `time` \[s\] on, the emitter at this place in the order is another one.
+    pub fn set_emitter(&mut self, place: usize, period: f64, time: f64) {
+        self.emissions.go_to(time);
+        self.emissions.set(place, period).ok();
+    }
+
+    /// From `time` \[s\] on, the emitter at this place in the order is no more.
+    pub fn remove_emitter(&mut self, place: usize, time: f64) {
+        self.emissions.go_to(time);
+        self.emissions.remove(place);
     }
 
     /// Follows the emitters until the sphere of this number is known, or a frame ends at `time`
@@ -94,6 +113,8 @@ struct Emissions {
     world: World,
     /// In s.
     frame_time: f64,
+    /// How many emitters there were until now, changed ones counted anew.
+    known: usize,
     /// Emitter of each sphere that was emitted.
     emitters: Vec<usize>,
 }
@@ -103,18 +124,43 @@ impl Emissions {
         let mut settings = scene.settings();
         settings.boundary = carom::Boundary::Open;
         settings.spheres_collide = false;
-        let mut world = World::new(settings)?;
-        for (i, emitter) in scene.emitters.iter().enumerate() {
-            let sphere = carom::Sphere::new(DVec3::new(i as f64, 0.0, 0.0), 1.0);
-            world.add_emitter(carom::Emitter {
-                sphere,
-                position: DVec3::ZERO,
-                rotation: carom::DQuat::IDENTITY,
-                period: emitter.period,
-                max_spheres: None,
-            })?;
+        let (world, frame_time) = (World::new(settings)?, scene.simulation.frame_time);
+        let mut emissions = Self { world, frame_time, known: 0, emitters: Vec::new() };
+        scene.emitters.iter().try_for_each(|emitter| emissions.add(emitter.period))?;
+        Ok(emissions)
+    }
+
+    fn add(&mut self, period: f64) -> Result<(), carom::Error> {
+        let emitter = self.next(period);
+        self.world.add_emitter(emitter).map(drop)
+    }
+
+    fn set(&mut self, place: usize, period: f64) -> Result<(), carom::Error> {
+        let emitter = self.next(period);
+        self.id(place).map_or(Ok(()), |id| self.world.set_emitter(id, emitter))
+    }
+
+    fn remove(&mut self, place: usize) {
+        if let Some(id) = self.id(place) {
+            self.world.remove_emitter(id).ok();
         }
-        Ok(Self { world, frame_time: scene.simulation.frame_time, emitters: Vec::new() })
+    }
+
+    fn id(&self, place: usize) -> Option<EmitterId> {
+        self.world.emitters().nth(place).map(|(id, _)| id)
+    }
+
+    /// An emitter that is told apart from all before.
+    fn next(&mut self, period: f64) -> carom::Emitter {
+        let sphere = carom::Sphere::new(DVec3::new(self.known as f64, 0.0, 0.0), 1.0);
+        self.known += 1;
+        carom::Emitter {
+            sphere,
+            position: DVec3::ZERO,
+            rotation: carom::DQuat::IDENTITY,
+            period,
+            max_spheres: None,
+        }
     }
 
     /// No more than this many spheres are emitted until `time` \[s\].
@@ -129,15 +175,32 @@ impl Emissions {
         let has_emitters = self.world.emitters().len() > 0;
         while has_emitters && self.world.time() < time && self.emitters.len() < count {
             // The scene's own world refuses the same step: nothing more is ever emitted.
-            let Ok(report) = self.world.step(self.frame_time) else {
+            if self.step(self.frame_time).is_err() {
                 return;
-            };
-            for id in report.emitted.clone() {
-                if let Ok(sphere) = self.world.remove_sphere(id) {
-                    self.emitters.push(sphere.position.x as usize);
-                }
             }
         }
+    }
+
+    /// Goes on to `time` \[s\], by frames and, where that is none, a part of one.
+    fn go_to(&mut self, time: f64) {
+        if self.world.emitters().len() == 0 {
+            // A time that makes no sense is refused, and no world is ever there.
+            self.world.set_time(time).ok();
+        }
+        while self.world.time() < time {
+            let rest = time - self.world.time();
+            if self.step(rest.min(self.frame_time)).is_err() {
+                return;
+            }
+        }
+    }
+
+    fn step(&mut self, dt: f64) -> Result<(), carom::Error> {
+        for id in self.world.step(dt)?.emitted.clone() {
+            let sphere = self.world.remove_sphere(id)?;
+            self.emitters.push(sphere.position.x as usize);
+        }
+        Ok(())
     }
 }
 

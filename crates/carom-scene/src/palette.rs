@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use carom::{SphereId, volume};
+use carom::volume;
 
 use crate::error::SceneError;
 use crate::generate;
@@ -29,8 +29,6 @@ const SAME_DENSITY: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub struct Palette {
     origins: Origins,
-    /// Whether the emitters are still those of the scene, so that `origins` knows whose is what.
-    has_own_emitters: bool,
     /// Numbers of spheres that were added in code, ascending: `origins` does not count them.
     added: Vec<u64>,
     /// What single spheres were given in code, instead of what they come with.
@@ -38,6 +36,7 @@ pub struct Palette {
     /// Own colours of single spheres, generators and emitters.
     spheres: Vec<Option<Color>>,
     generators: Vec<Option<Color>>,
+    /// Those of emitters by the indices of `origins`.
     emitters: Vec<Option<Color>>,
     colliders: Vec<Option<Color>>,
     colors: Colors,
@@ -59,12 +58,11 @@ impl Palette {
         let color = |sphere: &Sphere| sphere.color;
         Ok(Self {
             origins,
-            has_own_emitters: true,
             added: Vec::new(),
             painted: BTreeMap::new(),
             spheres: scene.spheres.iter().map(color).collect(),
             generators: scene.generators.iter().map(generate::template).map(color).collect(),
-            emitters: emitter_colors(&scene.emitters),
+            emitters: scene.emitters.iter().map(|emitter| emitter.sphere.color).collect(),
             colliders: collider_colors(&scene.colliders),
             colors: scene.colors.clone().unwrap_or_default(),
         })
@@ -76,7 +74,7 @@ impl Palette {
     /// That assumes the scene's own frames. In a world that is stepped by other frames under
     /// `discrete` or `bisect`, spheres may get the colour of another emitter.
     pub fn follow(&mut self, time: f64) {
-        if self.has_own_emitters && !self.emitters_agree() {
+        if !self.emitters_agree() {
             self.origins.follow(time);
         }
     }
@@ -100,18 +98,22 @@ impl Palette {
         self.colliders = collider_colors(colliders);
     }
 
-    /// The emitters are these from now on, at this time \[s\]; the spheres that are there keep
-    /// their colours.
-    ///
-    /// Spheres that are emitted later have the colour of their emitter where all emitters have one
-    /// in common, and else none of their own.
-    pub fn set_emitters(&mut self, emitters: &[Emitter], time: f64, spheres: &[SphereId]) {
-        self.follow(time);
-        for number in spheres.iter().map(|id| id.number()) {
-            self.paint(number, self.own(number));
-        }
-        self.has_own_emitters = false;
-        self.emitters = emitter_colors(emitters);
+    /// An emitter was added at this time \[s\], after those that were there.
+    pub fn add_emitter(&mut self, emitter: &Emitter, time: f64) {
+        self.origins.add_emitter(emitter.period, time);
+        self.emitters.push(emitter.sphere.color);
+    }
+
+    /// The emitter at this place in the order was changed at this time \[s\]; the spheres that it
+    /// emitted keep their colours.
+    pub fn set_emitter(&mut self, place: usize, emitter: &Emitter, time: f64) {
+        self.origins.set_emitter(place, emitter.period, time);
+        self.emitters.push(emitter.sphere.color);
+    }
+
+    /// The emitter at this place in the order was removed at this time \[s\].
+    pub fn remove_emitter(&mut self, place: usize, time: f64) {
+        self.origins.remove_emitter(place, time);
     }
 
     /// The colour of the sphere of this number, radius \[m\] and mass \[kg\]: its own (or that of
@@ -145,9 +147,9 @@ impl Palette {
         match self.origins.of(number - added_before) {
             Some(Origin::Sphere(index)) => self.spheres[index],
             Some(Origin::Generator(index)) => self.generators[index],
-            Some(Origin::Emitter(index)) if self.has_own_emitters => self.emitters[index],
-            _ if self.emitters_agree() => self.emitters.first().copied().flatten(),
-            _ => None,
+            Some(Origin::Emitter(index)) => self.emitters[index],
+            None if self.emitters_agree() => self.emitters.first().copied().flatten(),
+            None => None,
         }
     }
 
@@ -165,10 +167,6 @@ pub(crate) fn origins(scene: &Scene) -> Result<Origins, SceneError> {
         let own = scene.world().err();
         own.unwrap_or_else(|| crate::error::Problem::new("", text).in_code(&scene.name).into())
     })
-}
-
-fn emitter_colors(emitters: &[Emitter]) -> Vec<Option<Color>> {
-    emitters.iter().map(|emitter| emitter.sphere.color).collect()
 }
 
 fn collider_colors(colliders: &[Collider]) -> Vec<Option<Color>> {
@@ -286,18 +284,35 @@ mod tests {
     }
 
     #[test]
-    fn when_emitters_change_the_spheres_that_are_there_keep_their_colours() {
+    fn when_emitters_change_spheres_have_the_colour_of_the_one_that_emitted_them() {
         let mut scene = Scene::new("fountains");
-        scene.simulation.frame_time = 0.1;
         scene.simulation.spheres_collide = false;
-        scene.emitters = vec![emitter(0.25, Some(RED)), emitter(0.5, Some(GREEN))];
+        scene.simulation.allow_overlap = true;
+        scene.emitters = vec![emitter(0.25, Some(RED))];
         let mut world = scene.world().unwrap();
-        (0..6).for_each(|_| drop(world.step(0.1).unwrap().clone()));
         let mut palette = Palette::new(&scene).unwrap();
-        palette.set_emitters(&[emitter(0.25, Some(WHITE))], world.time(), world.spheres().ids());
-        palette.follow(10.0);
-        let own = [0, 1, 2, 3, 4, 5, 6].map(|number| palette.own(number));
-        assert_eq!(own, [RED, GREEN, RED, RED, GREEN, WHITE, WHITE].map(Some));
+        // At 0 and 0.25 red; at 0.4 green; white in the place of red at 0.5 and 0.75; at 0.8 green;
+        // then white alone, at 1 and 1.25.
+        let mut other = Scene::new("others");
+        other.emitters = vec![emitter(0.4, Some(GREEN)), emitter(0.25, Some(WHITE))];
+        let made = other.world().unwrap();
+        let made: Vec<_> = made.emitters().map(|(_, emitter)| *emitter).collect();
+        let red = world.emitters().next().unwrap().0;
+        // Frames of another length than the scene's.
+        world.step(0.4).unwrap();
+        let green = world.add_emitter(made[0]).unwrap();
+        palette.add_emitter(&other.emitters[0], world.time());
+        world.step(0.07).unwrap();
+        world.set_emitter(red, made[1]).unwrap();
+        palette.set_emitter(0, &other.emitters[1], world.time());
+        world.step(0.4).unwrap();
+        world.remove_emitter(green).unwrap();
+        palette.remove_emitter(1, world.time());
+        world.step(0.4).unwrap();
+        palette.follow(world.time());
+        let own: Vec<_> = world.spheres().ids().iter().map(|id| palette.own(id.number())).collect();
+        let expected = [RED, RED, GREEN, WHITE, WHITE, GREEN, WHITE, WHITE];
+        assert_eq!(own, expected.map(Some));
     }
 
     #[test]

@@ -73,9 +73,6 @@ impl Colliders {
 
     /// Moves on by `h` \[s\] what moves.
     pub fn advance(&mut self, h: f64) {
-        if !self.any_moving() {
-            return;
-        }
         for collider in self.list.values_mut() {
             collider.pose = collider.pose.moved(collider.velocity, collider.angular_velocity, h);
         }

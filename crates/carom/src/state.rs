@@ -23,7 +23,8 @@ use crate::validate;
 pub(crate) struct State {
     pub settings: Settings,
     pub forces: Numbered<Arc<dyn Force>>,
-    pub colliders: Colliders,
+    /// Shared by worlds that were copied, until one changes its own.
+    pub colliders: Arc<Colliders>,
     pub emitters: Numbered<EmitterState>,
     pub clock: Clock,
     pub spheres: Spheres,
@@ -54,6 +55,18 @@ impl State {
     pub fn changed(&mut self) -> &mut Self {
         self.timeline = None;
         self
+    }
+
+    /// The colliders, to be changed from outside.
+    pub fn colliders_mut(&mut self) -> &mut Colliders {
+        Arc::make_mut(&mut self.changed().colliders)
+    }
+
+    /// Moves on by `h` \[s\] the colliders that move.
+    pub fn advance_colliders(&mut self, h: f64) {
+        if self.colliders.any_moving() {
+            Arc::make_mut(&mut self.colliders).advance(h);
+        }
     }
 
     /// Puts a sphere elsewhere. Where flights are renewed in every frame, those of the others stay good.

@@ -117,7 +117,7 @@ impl World {
             return Err(error);
         }
         self.state.clock = clock;
-        self.state.colliders.advance(dt);
+        self.state.advance_colliders(dt);
         if is_exact {
             let now = self.state.now();
             contacts::of_triggers(&now, 0.0, &mut self.search, |contact| {
@@ -374,7 +374,7 @@ impl World {
     pub fn add_collider(&mut self, collider: Collider) -> Result<ColliderId, Error> {
         let id = ColliderId(self.state.colliders.list().next_number());
         collider.validate().map_err(|invalid| invalid.about(Subject::Collider(id)))?;
-        self.state.changed().colliders.push(collider);
+        self.state.colliders_mut().push(collider);
         Ok(id)
     }
 
@@ -411,7 +411,7 @@ impl World {
             self.collider(*id)?;
             collider.validate().map_err(|invalid| invalid.about(Subject::Collider(*id)))?;
         }
-        self.state.changed().colliders.set(changes);
+        self.state.colliders_mut().set(changes);
         Ok(())
     }
 
@@ -428,7 +428,7 @@ impl World {
     /// # Errors
     /// [`Error::Unknown`] if there is no such collider.
     pub fn remove_collider(&mut self, id: ColliderId) -> Result<Collider, Error> {
-        self.state.changed().colliders.remove(id).ok_or(Error::Unknown(Subject::Collider(id)))
+        self.state.colliders_mut().remove(id).ok_or(Error::Unknown(Subject::Collider(id)))
     }
 
     /// Adds an emitter; its first sphere is due now.

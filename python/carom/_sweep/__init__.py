@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -113,9 +114,12 @@ def sweep(
             kept = stack.enter_context(Store(store, measure, version))
         line = stack.enter_context(_progress_line(len(plan), progress))
         book = _Book(plan, experiment, kept, on_error, line)
-        batches = performing(client, experiment, book.missing(), len(plan))
-        for outcomes in stack.enter_context(batches):
-            book.enter(outcomes)
+        missing = book.missing()
+        if (run := next(missing, None)) is not None:
+            todo = itertools.chain([run], missing)
+            batches = performing(client, experiment, todo, len(plan))
+            for outcomes in stack.enter_context(batches):
+                book.enter(outcomes)
     return book.runs()
 
 

@@ -173,6 +173,9 @@ def _local_client() -> Iterator[Any]:
         LocalCluster(processes=True, threads_per_worker=1, dashboard_address=_ANY_PORT) as cluster,
         Client(cluster) as client,
     ):
+        # A process that dies while it starts is not started again, unless the number is kept up.
+        count = len(cluster.workers)
+        cluster.adapt(minimum=count, maximum=count)
         yield client
 
 

@@ -6,7 +6,7 @@ import inspect
 import time
 import traceback
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -23,8 +23,6 @@ Measured: TypeAlias = dict[str, NDArray[Any]]
 
 SEED = "seed"
 """What a function calls the parameter that takes the seed of a run."""
-_SEEDS = 2**32
-"""Seeds of scenes are less."""
 
 
 class Run(NamedTuple):
@@ -80,15 +78,15 @@ class Experiment:
                 raise TypeError(f"scene: the function returned a {kind}, not a carom.Scene")
         if self.paths:
             made = made.with_changes({name: run.parameters[name] for name in sorted(self.paths)})
-        if run.seed is None or SEED in self.to_scene:
+        if run.seed is None or SEED in self.to_scene or not _is_random(made):
             return made
-        return _reseeded(made, run.seed)
+        return made.with_seed(run.seed)
 
     def takes_seeds(self, run: Run) -> bool:
         """Whether runs with other seeds are other runs."""
         if SEED in self.to_scene or SEED in self.to_measure:
             return True
-        return any(isinstance(it, RandomFill) for it in self.scene_of(run).generators)
+        return _is_random(self.scene_of(run))
 
     def perform(self, run: Run) -> Measured:
         """Makes the world of a run, and measures it."""
@@ -163,14 +161,9 @@ def _chosen(run: Run, names: frozenset[str]) -> dict[str, Any]:
     return {name: value for name, value in values.items() if name in names}
 
 
-def _reseeded(scene: Scene, seed: int) -> Scene:
-    """The scene with another seed for its first random filling, the next for the second..."""
-    generators, next_seed = [], seed
-    for generator in scene.generators:
-        if isinstance(generator, RandomFill):
-            generator, next_seed = replace(generator, seed=next_seed), (next_seed + 1) % _SEEDS
-        generators.append(generator)
-    return replace(scene, generators=generators)
+def _is_random(scene: Scene) -> bool:
+    """Whether a seed makes another scene of it."""
+    return any(isinstance(generator, RandomFill) for generator in scene.generators)
 
 
 def _numbers(value: object, name: str, taken: set[str]) -> NDArray[Any]:

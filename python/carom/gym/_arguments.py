@@ -19,8 +19,8 @@ class MazeArguments(TypedDict, total=False):
     """Arguments of `MazeEnv` and `MazeVectorEnv`, by name; all may be left out.
 
     Attributes:
-        maze: ``"course"`` (default), ``"spiral"``, ``"random"``, a drawing (several lines), or the path
-            of a file with one.
+        maze: ``"course"`` (default), ``"spiral"``, ``"random"``, a drawing (several lines), or the
+            path of a file with one.
         maze_seed: Of a random maze, 0.
         maze_size: Columns and rows of a random maze, (5, 4).
         rule: ``"exact"`` (default), or ``"discrete"``, which is faster: `docs/physics.md`.
@@ -34,9 +34,10 @@ class MazeArguments(TypedDict, total=False):
         end_wall_reward: For the end wall, 1.
         fall_reward: For falling out of the maze, -1.
         step_reward: For each step, 0.
-        shaping: For each metre of the way to the nearest collectible that is left, or to the end wall
-            if none is, 0. It shows the way, and leaves the best way to play the best: Φ = -shaping ·
-            way, and each step adds discount · Φ(after) - Φ(before) (Ng, Harada, Russell, ICML 1999).
+        shaping: For each metre of the way to the nearest collectible that is left, or to the end
+            wall if none is, 0. It shows the way, and leaves the best way to play the best: with
+            Φ = -shaping · way, each step adds discount · Φ(after) - Φ(before) (A. Y. Ng, D. Harada,
+            S. Russell, ICML 1999).
         discount: Discount of the agent that is shaped, 0.99.
     """
 
@@ -112,7 +113,9 @@ def checked_mode(render_mode: str | None) -> str | None:
         CaromError: For any other.
     """
     if render_mode is not None and render_mode not in METADATA["render_modes"]:
-        raise CaromError(f'render_mode: must be None or "rgb_array", not {render_mode}', "render_mode")
+        raise CaromError(
+            f'render_mode: must be None or "rgb_array", not {render_mode}', "render_mode"
+        )
     return render_mode
 
 

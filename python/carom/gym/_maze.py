@@ -28,13 +28,13 @@ class MazeEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     The ball starts at rest, the maze level. Touching a collectible takes it; touching the end wall
     wins, falling out of the maze loses, and both terminate the episode.
 
-    - Action, float32 (2,): the slope that is wanted, downward towards +x (right) and towards +z (to the
-      viewer), in parts of the steepest, each in [-1, 1]. The maze follows as fast as it may.
+    - Action, float32 (2,): the slope that is wanted, downward towards +x (right) and towards +z (to
+      the viewer), in parts of the steepest, each in [-1, 1]; more is cut off. The maze follows as
+      fast as it may.
     - Observation, float32 (6 + c,), in the maze's own frame: x and z of the ball's centre [m]; its
-      velocity along x and z [m/s]; the slope downward towards +x and +z [rad]; and for each of the c
-      collectibles 1 if it is still there, else 0. The bounds of the space hold: what is beyond is cut
-      off, and only speeds can be, above the most a ball gains from rest along the maze's diagonal,
-      and places of a ball that falls.
+      velocity along x and z [m/s]; the slope downward towards +x and +z [rad]; and for each of the
+      c collectibles 1 if it is still there, else 0. What is beyond the bounds of the space is cut
+      off: places off the maze, and speeds above what a ball gains from rest along the diagonal.
     - Info: ``collected``, how many collectibles are taken; ``is_success``, whether the end wall was
       touched.
 
@@ -95,8 +95,8 @@ class MazeEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
             action: The slopes that are wanted, (2,), in [-1, 1]; what is beyond is cut off.
 
         Returns:
-            Observation, reward, whether the episode terminated, false (time is limited by Gymnasium's
-            own wrapper), and the info.
+            Observation, reward, whether the episode terminated, false (Gymnasium's own wrapper
+            limits the time), and the info.
 
         Raises:
             CaromError: For an action that is not finite, or not of shape (2,).
@@ -105,7 +105,7 @@ class MazeEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         observations, rewards, terminated, _, states, *_ = self._engine.step(actions)
         return observations[0], float(rewards[0]), bool(terminated[0]), False, _info(states)
 
-    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+    def render(self) -> NDArray[np.uint8] | None:
         """The tilted maze with the ball and the collectibles that are left, (480, 640, 3), sRGB.
 
         Raises:

@@ -79,7 +79,7 @@ class MazeVectorEnv(_Base):
         self._drawing = Drawing(self._engine)
         self._is_seeded = False
 
-    def reset(  # type: ignore[override]
+    def reset(
         self,
         *,
         seed: int | Sequence[int | None] | None = None,
@@ -90,8 +90,8 @@ class MazeVectorEnv(_Base):
         Args:
             seed: Of the random places to start from: one for each environment, or s for s, s + 1,
                 s + 2, ...; as they go on, unless given.
-            options: ``"start"``: ``"maze"`` or ``"random"``, for these episodes; ``"reset_mask"``, bool
-                (num_envs,): which environments start anew, the others go on.
+            options: ``"start"``: ``"maze"`` or ``"random"``, for these episodes; ``"reset_mask"``,
+                bool (num_envs,): which environments start anew, the others go on.
 
         Returns:
             Observations (num_envs, 6 + c), and infos.
@@ -119,25 +119,26 @@ class MazeVectorEnv(_Base):
         """Takes a step of every environment.
 
         Args:
-            actions: The slopes that are wanted, (num_envs, 2), in [-1, 1]; what is beyond is cut off.
+            actions: The slopes that are wanted, (num_envs, 2), in [-1, 1]; more is cut off.
 
         Returns:
             Observations (num_envs, 6 + c); rewards, whether episodes terminated, whether they were
-            truncated, (num_envs,) each; infos: those of `MazeEnv` as arrays, and where the step that ends an
-            episode starts a new one, ``final_obs`` and ``final_info`` of the one that ended.
+            truncated, (num_envs,) each; infos: those of `MazeEnv` as arrays, and where the step
+            that ends an episode starts a new one, ``final_obs`` and ``final_info`` of the one that
+            ended.
 
         Raises:
             CaromError: For actions that are not finite, or of another shape.
         """
-        observations, rewards, terminated, truncated, states, ended, *last = self._engine.step(
-            actions
+        observations, rewards, terminated, truncated, states, ended, seen_last, states_last = (
+            self._engine.step(actions)
         )
         infos = _infos(states, np.ones(self.num_envs, np.bool_))
         if len(ended):
-            self._add_final(infos, ended, *last)
+            self._add_final(infos, ended, seen_last, states_last)
         return observations, rewards, terminated, truncated, infos
 
-    def render(self) -> tuple[NDArray[np.uint8], ...] | None:  # type: ignore[override]
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """A picture of each environment: the tilted maze, (480, 640, 3), sRGB.
 
         Raises:
@@ -188,9 +189,7 @@ class MazeVectorEnv(_Base):
         return [engine_seed(seed + place) for place in range(self.num_envs)]
 
 
-def _infos(
-    states: tuple[NDArray[Any], NDArray[Any]], mask: NDArray[np.bool_]
-) -> dict[str, Any]:
+def _infos(states: tuple[NDArray[Any], NDArray[Any]], mask: NDArray[np.bool_]) -> dict[str, Any]:
     """Infos as Gymnasium wants them: each with a mask of the environments that it is of."""
     collected, won = states
     return {

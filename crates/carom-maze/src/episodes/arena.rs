@@ -51,7 +51,7 @@ impl Arena {
             return Err(EpisodeError::Collectibles { count, most });
         }
         let mut scene = maze.scene().clone();
-        scene.forces.retain(|force| matches!(force, Force::ViscousDrag { .. }));
+        scene.forces.retain(is_drag);
         let mut world = scene.world().map_err(MazeError::from)?;
         world.set_settings(Settings {
             rule: limited(options.rule),
@@ -127,8 +127,13 @@ impl Arena {
     /// What a collider is in the game.
     pub(super) fn role(&self, id: ColliderId) -> Role {
         // In a world made of a scene, colliders are numbered as in the scene.
-        self.roles.get(id.number() as usize).copied().unwrap_or(Role::Wall)
+        self.roles.get(id.number()).copied().unwrap_or(Role::Wall)
     }
+}
+
+/// Whether a force slows balls down.
+fn is_drag(force: &Force) -> bool {
+    matches!(force, Force::ViscousDrag { coefficient } if *coefficient > 0.0)
 }
 
 /// The rule, with a bound that keeps frames short.

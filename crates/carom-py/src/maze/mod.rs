@@ -8,7 +8,6 @@ mod results;
 mod team;
 
 use std::sync::{Mutex, MutexGuard};
-use std::time::Instant;
 
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
@@ -18,6 +17,7 @@ use pyo3::types::PyDict;
 
 use crate::arguments;
 use crate::failure::Failure;
+use crate::threads;
 use given::Given;
 use results::{Results, States};
 use team::Team;
@@ -31,12 +31,13 @@ pub struct MazeEpisodes(Mutex<Inner>);
 struct Inner {
     team: Team,
     actions: Vec<[f64; 2]>,
-    /// Time that steps took, but for what Python does before and after \[s\].
-    seconds: f64,
 }
 
 /// How many collectibles each ball has, and whether it won.
 type StateArrays<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<bool>>);
+
+/// The least and the most of each number of an observation.
+type Bounds<'py> = (Bound<'py, PyArray1<f32>>, Bound<'py, PyArray1<f32>>);
 
 /// Observations, rewards, terminated, truncated, states; then which episodes ended and were started
 /// anew, their last observations, and their last states.
@@ -63,28 +64,20 @@ impl MazeEpisodes {
         given: Bound<'_, PyDict>,
     ) -> PyResult<Self> {
         let count = arguments::count("num_envs", num_envs)? as usize;
-        let threads = threads.map(|threads| arguments::count("threads", threads)).transpose()?;
-        if threads == Some(0) {
-            return Err(Failure::value("threads", "must be at least 1, not 0").into());
-        }
+        let threads = threads::wanted(threads)?;
         let manner = (given::autoreset(autoreset_mode)?, given::start(start)?);
         let arena = Given(given).arena()?;
-        let team = Team::new(arena, count, threads.map(|threads| threads as usize), manner)?;
-        Ok(Self(Mutex::new(Inner { team, actions: Vec::new(), seconds: 0.0 })))
+        let team = Team::new(arena, count, threads, manner)?;
+        Ok(Self(Mutex::new(Inner { team, actions: Vec::new() })))
     }
 
     /// Takes a step: `actions` are the tilts wanted, (n, 2). Other threads run meanwhile.
     fn step<'py>(&self, py: Python<'py>, actions: &Bound<'py, PyAny>) -> PyResult<Step<'py>> {
         let mut guard = self.lock(py)?;
-        let Inner { team, actions: wanted, seconds } = &mut *guard;
+        let Inner { team, actions: wanted } = &mut *guard;
         read_actions(actions, team.len(), wanted)?;
         let length = team.arena().observation_length();
-        let results = py.detach(|| {
-            let began = Instant::now();
-            let results = team.step(wanted);
-            *seconds += began.elapsed().as_secs_f64();
-            results
-        })?;
+        let results = py.detach(|| team.step(wanted))?;
         arrays(py, results, length)
     }
 
@@ -111,10 +104,7 @@ impl MazeEpisodes {
 
     /// The least and the most that each number of an observation can be.
     #[getter]
-    fn bounds<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyArray1<f32>>, Bound<'py, PyArray1<f32>>)> {
+    fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Bounds<'py>> {
         let guard = self.lock(py)?;
         let [low, high] = guard.team.arena().observation_bounds();
         Ok((PyArray1::from_slice(py, low), PyArray1::from_slice(py, high)))
@@ -136,10 +126,10 @@ impl MazeEpisodes {
         Ok(self.lock(py)?.team.rough_frames())
     }
 
-    /// Time that all steps took in the engine, without the conversion of arguments and arrays [s].
+    /// Time that all steps took in the engine, without conversions from and to NumPy [s].
     #[getter(_seconds_in_engine)]
     fn seconds_in_engine(&self, py: Python<'_>) -> PyResult<f64> {
-        Ok(self.lock(py)?.seconds)
+        Ok(self.lock(py)?.team.seconds())
     }
 }
 

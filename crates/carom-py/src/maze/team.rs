@@ -1,16 +1,16 @@
 //! Many episodes, on several threads.
 
-use std::num::NonZero;
 use std::ops::Range;
 use std::sync::Arc;
-use std::thread;
+use std::time::Instant;
 
 use carom_maze::{Arena, EpisodeError, Episodes, Outcome, Start};
+use rayon::ThreadPool;
 use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::results::Results;
 use crate::failure::Failure;
+use crate::threads;
 
 /// Balls that one thread takes at a time: few enough to stay in its cache, with what belongs to them.
 const BALLS_IN_A_BLOCK: usize = 512;
@@ -36,6 +36,8 @@ pub struct Team {
     autoreset: Autoreset,
     /// Where episodes start that nobody says it of.
     start: Start,
+    /// Time that steps took, but for gathering what came of them \[s\].
+    seconds: f64,
 }
 
 /// Episodes that one thread steps.
@@ -69,9 +71,8 @@ impl Team {
         };
         let blocks: Vec<Block> =
             (0..count).step_by(BALLS_IN_A_BLOCK).map(block).collect::<Result<_, EpisodeError>>()?;
-        let processors = || thread::available_parallelism().map_or(1, NonZero::get);
-        let pool = pool(threads.unwrap_or_else(processors).min(blocks.len()))?;
-        Ok(Self { arena, blocks, pool, autoreset, start })
+        let pool = threads::pool(threads, blocks.len())?;
+        Ok(Self { arena, blocks, pool, autoreset, start, seconds: 0.0 })
     }
 
     pub fn arena(&self) -> &Arena {
@@ -98,7 +99,7 @@ impl Team {
         let (autoreset, start) = (self.autoreset, self.start);
         let step =
             |(block, actions): (&mut Block, &[[f64; 2]])| block.step(actions, autoreset, start);
-        let blocks = &mut self.blocks;
+        let (blocks, began) = (&mut self.blocks, Instant::now());
         match &self.pool {
             None => blocks.iter_mut().zip(actions.chunks(BALLS_IN_A_BLOCK)).try_for_each(step)?,
             Some(pool) => pool.install(|| {
@@ -106,6 +107,7 @@ impl Team {
                 blocks.par_iter_mut().zip(actions).try_for_each(step)
             })?,
         }
+        self.seconds += began.elapsed().as_secs_f64();
         Ok(self.results())
     }
 
@@ -135,6 +137,11 @@ impl Team {
             all.append(&block.results, number * BALLS_IN_A_BLOCK);
         }
         all
+    }
+
+    /// Time that all steps took, but for gathering what came of them \[s\].
+    pub fn seconds(&self) -> f64 {
+        self.seconds
     }
 
     /// Frames of single balls that the rule `exact` refused.
@@ -205,12 +212,4 @@ impl Block {
 fn find_over(episodes: &Episodes, over: &mut Vec<usize>) {
     over.clear();
     over.extend((0..episodes.len()).filter(|&it| episodes.outcome(it) != Outcome::Rolling));
-}
-
-fn pool(threads: usize) -> Result<Option<ThreadPool>, Failure> {
-    if threads <= 1 {
-        return Ok(None);
-    }
-    let built = ThreadPoolBuilder::new().num_threads(threads).build();
-    built.map(Some).map_err(|error| Failure::value("threads", error))
 }

@@ -65,7 +65,7 @@ fn meet_surfaces(
         let Some(impact) = respond::answer(&contact, system, motion, time) else { continue };
         report.impacts.push(impact);
         if respond::put_on_surface(&contact, system, motion)
-            && !((place(motion) - found_at).abs().max_element() < room)
+            && (place(motion) - found_at).abs().max_element() >= room
         {
             // The sphere moved far: other surfaces may be near now. Go on with those that follow.
             found_at = find_near(motion, near);

@@ -1,0 +1,260 @@
+//! Many worlds that step together, as Python holds them.
+
+// What is said of methods here is read in Python, where units stand in plain brackets.
+#![allow(rustdoc::broken_intra_doc_links)]
+
+mod arrays;
+mod members;
+
+use std::sync::{Mutex, MutexGuard};
+
+use numpy::PyArray1;
+use pyo3::exceptions::{PyIndexError, PyRuntimeError};
+use pyo3::prelude::*;
+use pyo3::sync::MutexExt;
+
+use crate::arguments;
+use crate::arrays::Quantity;
+use crate::failure::Failure;
+use crate::snapshot::Snapshot;
+use crate::tables::Table;
+use crate::threads;
+use arrays::BatchArrays;
+use members::Members;
+
+/// What `carom.Batch` stands on: worlds, and the arrays that Python sees of all of them.
+///
+/// Several threads may use one: their calls wait for each other.
+#[pyclass(frozen, subclass, module = "carom._carom")]
+#[derive(Debug)]
+pub struct BatchEngine(Mutex<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    members: Members,
+    arrays: BatchArrays,
+}
+
+impl BatchEngine {
+    fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
+        let broken = |_| PyRuntimeError::new_err("the engine of this batch has failed before");
+        self.0.lock_py_attached(py).map_err(broken)
+    }
+
+    /// Changes worlds, and brings the arrays up to date.
+    fn change<T>(
+        &self,
+        py: Python<'_>,
+        change: impl FnOnce(&mut Members) -> Result<T, Failure>,
+    ) -> PyResult<T> {
+        let mut guard = self.lock(py)?;
+        let Inner { members, arrays } = &mut *guard;
+        let result = change(members)?;
+        arrays.write_all(py, members);
+        Ok(result)
+    }
+
+    fn quantity(&self, py: Python<'_>, quantity: Quantity) -> PyResult<Py<PyAny>> {
+        let Inner { members, arrays } = &mut *self.lock(py)?;
+        arrays.get(py, quantity, members)
+    }
+
+    fn set_quantity(&self, quantity: Quantity, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        let py = values.py();
+        // To read what Python gives can run any code of Python: not under the lock.
+        let shape = self.lock(py)?.members.shape_of(quantity);
+        let values = arguments::array(quantity.name(), values, &shape)?;
+        self.change(py, |members| members.set(quantity, &values))
+    }
+}
+
+/// Making a batch, and moving it.
+#[pymethods]
+impl BatchEngine {
+    /// Worlds in the states of `snapshots`: one for all `count`, or one for each.
+    #[new]
+    fn new(
+        snapshots: Vec<PyRef<'_, Snapshot>>,
+        count: usize,
+        threads: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let pool = threads::pool(threads::wanted(threads)?, count)?;
+        let starts = snapshots.iter().map(|snapshot| (**snapshot).clone()).collect();
+        let members = Members::new(starts, count, pool)?;
+        Ok(Self(Mutex::new(Inner { members, arrays: BatchArrays::default() })))
+    }
+
+    /// Takes frames in every world; returns the worlds that refused one, and why.
+    #[pyo3(name = "_step")]
+    fn step(
+        &self,
+        py: Python<'_>,
+        dt: Option<&Bound<'_, PyAny>>,
+        frames: &Bound<'_, PyAny>,
+    ) -> PyResult<Vec<(usize, PyErr)>> {
+        let dt = arguments::optional_number("dt", dt)?;
+        let frames = arguments::count("frames", frames)?;
+        let mut guard = self.lock(py)?;
+        let Inner { members, arrays } = &mut *guard;
+        let refused = py.detach(|| members.step(dt, frames));
+        arrays.write_motion(py, members);
+        Ok(refused.into_iter().map(|(world, failure)| (world, failure.into())).collect())
+    }
+
+    /// Has worlds return to where they started: those of these numbers, or all.
+    #[pyo3(name = "_reset")]
+    fn reset(&self, py: Python<'_>, worlds: Option<Vec<usize>>) -> PyResult<()> {
+        self.change(py, |members| {
+            members.reset(worlds.as_deref());
+            Ok(())
+        })
+    }
+
+    /// The state of one world.
+    #[pyo3(name = "_snapshot")]
+    fn snapshot(&self, py: Python<'_>, world: usize) -> PyResult<Snapshot> {
+        let snapshot = self.lock(py)?.members.snapshot(world);
+        snapshot.ok_or_else(|| PyIndexError::new_err("world: out of range"))
+    }
+
+    /// Puts one world into another state, from which it starts from now on.
+    #[pyo3(name = "_restore")]
+    fn restore(&self, py: Python<'_>, world: usize, snapshot: &Snapshot) -> PyResult<()> {
+        self.change(py, |members| members.restore(world, snapshot))
+    }
+
+    /// The number of worlds.
+    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+        Ok(self.lock(py)?.members.len())
+    }
+
+    /// Length of a frame of the first world's scene [s].
+    #[getter]
+    fn frame_time(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.lock(py)?.members.frame_time())
+    }
+
+    /// Time of each world since its beginning [s], shape (n,). A copy.
+    #[getter]
+    fn times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let guard = self.lock(py)?;
+        Ok(PyArray1::from_iter(py, guard.members.worlds().map(|world| world.time())))
+    }
+
+    /// State hash of each world as a number, shape (n,), uint64: `int(world.state_hash, 16)` of the
+    /// world alone. A copy.
+    #[getter]
+    fn state_hashes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        let guard = self.lock(py)?;
+        Ok(PyArray1::from_iter(py, guard.members.worlds().map(|world| world.state_hash().0)))
+    }
+
+    /// Kinetic energy of each world [J], shape (n,). A copy.
+    #[getter]
+    fn kinetic_energies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let guard = self.lock(py)?;
+        Ok(PyArray1::from_iter(py, guard.members.worlds().map(|world| world.kinetic_energy())))
+    }
+
+    /// The impacts of the last frame of all worlds, as words, and how many each world has.
+    fn _impact_words<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyArray1<u64>>, Vec<usize>)> {
+        let guard = self.lock(py)?;
+        let mut table = Table::default();
+        let mut counts = Vec::with_capacity(guard.members.len());
+        for (start, report) in guard.members.reports() {
+            table.push_impacts(start, &report.impacts);
+            counts.push(report.impacts.len());
+        }
+        Ok((PyArray1::from_vec(py, table.into_words()), counts))
+    }
+
+    /// Likewise the spheres inside triggers.
+    fn _trigger_words<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyArray1<u64>>, Vec<usize>)> {
+        let guard = self.lock(py)?;
+        let mut table = Table::default();
+        let mut counts = Vec::with_capacity(guard.members.len());
+        for (_, report) in guard.members.reports() {
+            table.push_triggers(&report.triggers);
+            counts.push(report.triggers.len());
+        }
+        Ok((PyArray1::from_vec(py, table.into_words()), counts))
+    }
+}
+
+/// Arrays of all spheres of all worlds, n worlds of s spheres in ascending order of id. Each is made
+/// when it is first asked for, and stays the same object: every frame writes into it. It cannot be
+/// written to; to set a quantity, assign to the attribute.
+#[pymethods]
+impl BatchEngine {
+    /// Centres [m], shape (n, s, 3).
+    #[getter]
+    fn positions(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::Positions)
+    }
+
+    #[setter]
+    fn set_positions(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::Positions, values)
+    }
+
+    /// Velocities [m/s], shape (n, s, 3).
+    #[getter]
+    fn velocities(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::Velocities)
+    }
+
+    #[setter]
+    fn set_velocities(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::Velocities, values)
+    }
+
+    /// Radii [m], shape (n, s).
+    #[getter]
+    fn radii(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::Radii)
+    }
+
+    #[setter]
+    fn set_radii(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::Radii, values)
+    }
+
+    /// Masses [kg], shape (n, s).
+    #[getter]
+    fn masses(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::Masses)
+    }
+
+    #[setter]
+    fn set_masses(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::Masses, values)
+    }
+
+    /// Coefficients of restitution in [0, 1], shape (n, s).
+    #[getter]
+    fn restitutions(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::Restitutions)
+    }
+
+    #[setter]
+    fn set_restitutions(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::Restitutions, values)
+    }
+
+    /// Forces applied to single spheres [N], shape (n, s, 3); held until they are set again.
+    #[getter]
+    fn applied_forces(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.quantity(py, Quantity::AppliedForces)
+    }
+
+    #[setter]
+    fn set_applied_forces(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.set_quantity(Quantity::AppliedForces, values)
+    }
+}

@@ -1,0 +1,207 @@
+"""Batches: many worlds that step together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from operator import index as as_index
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom import _tables as tables
+from carom._carom import BatchEngine
+from carom._library import load
+from carom._scene import Scene
+from carom._world import World
+from carom.errors import CaromError, StepError
+
+
+class Batch(BatchEngine):
+    """Worlds with the same number of spheres that step together, on all cores.
+
+    Each world is, to the bit, what it would be alone, however many there are and on however many
+    threads. Arrays have a row for each world: ``positions``, ``velocities`` and ``applied_forces``
+    (n, spheres, 3); ``radii``, ``masses`` and ``restitutions`` (n, spheres). They are kept as those
+    of a `World` are: made when they are first asked for, written anew by every step, read without
+    copying. To set one, assign to it: ``batch.velocities = 0``.
+
+    Args:
+        scene: The scene of all worlds, or its name; or a sequence of scenes, one for each world.
+        n: How many worlds, for one scene.
+        changes: Values that differ from world to world, n for each path (`Scene.with_changes`).
+        seeds: A seed for each world: `Scene.with_seed`.
+        threads: How many threads step them; one for each processor unless given.
+
+    Raises:
+        CaromError: For values that make no sense, worlds with different numbers of spheres, and
+            scenes with emitters, whose spheres come and go.
+
+    >>> import carom
+    >>> drops = carom.Batch("tutorial1", 3, changes={"spheres.0.position.1": [5.0, 6.0, 7.0]})
+    >>> drops.step(frames=30)
+    >>> drops.positions.shape
+    (3, 1, 3)
+    >>> drops.reset([0, 2])
+    >>> [round(time, 3) for time in drops.times.tolist()]
+    [0.0, 0.5, 0.0]
+    """
+
+    def __new__(
+        cls,
+        scene: Scene | str | Sequence[Scene],
+        n: int | None = None,
+        *,
+        changes: Mapping[str, Iterable[Any]] | None = None,
+        seeds: Iterable[int] | None = None,
+        threads: int | None = None,
+    ) -> Batch:
+        """Makes the worlds."""
+        scenes = _scenes(scene, n, changes or {}, seeds)
+        starts = [scene.world().snapshot() for scene in scenes]
+        return super().__new__(cls, starts, len(starts) if n is None else n, threads)
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        """Everything is made by then."""
+
+    def __repr__(self) -> str:
+        return f"<carom.Batch of {len(self)} worlds, {self.radii.shape[1]} spheres each>"
+
+    def step(self, dt: float | None = None, *, frames: int = 1) -> None:
+        """Advances every world by ``frames`` frames of ``dt`` [s], or of its scene's own length.
+
+        Other threads run meanwhile.
+
+        Raises:
+            CaromError: If ``dt`` is not positive and finite. No world was moved.
+            StepError: If worlds refuse a frame; ``worlds`` of the exception has their numbers. Each
+                of them stays as it was before that frame, the others have gone on.
+        """
+        refused = self._step(dt, frames)
+        if not refused:
+            return
+        number, error = refused[0]
+        if not isinstance(error, StepError):
+            raise error
+        others = f" (and {len(refused) - 1} others)" if len(refused) > 1 else ""
+        failure = StepError(f"world {number}{others}: {error}")
+        failure.worlds = [number for number, _ in refused]
+        raise failure from None
+
+    def reset(self, worlds: ArrayLike | None = None) -> None:
+        """Has worlds return to where they started, in microseconds each.
+
+        Args:
+            worlds: Their numbers, or n truth values; all of them unless given.
+
+        Raises:
+            CaromError: For numbers that name no world.
+        """
+        self._reset(None if worlds is None else self._numbers(worlds))
+
+    def world(self, index: int) -> World:
+        """A copy of one world, which goes on as that one does, bit for bit."""
+        twin = World.__new__(World)
+        twin.restore(self._snapshot(self._number(index)))
+        return twin
+
+    def set_world(self, index: int, world: World) -> None:
+        """Puts a copy of a world in the place of one; reset returns to it from now on.
+
+        Whatever a `World` can be changed in, one of a batch can be changed in so: take it by
+        `world`, change it, and put it back.
+
+        Raises:
+            CaromError: If it has another number of spheres than the others, or emitters.
+        """
+        self._restore(self._number(index), world.snapshot())
+
+    @property
+    def impacts(self) -> NDArray[np.void]:
+        """The impacts of the last frame: records of `carom.IMPACT`, after a field ``world``.
+
+        A copy, in the order of worlds.
+        """
+        return _of_worlds(*self._impact_words(), tables.IMPACT)
+
+    @property
+    def triggers(self) -> NDArray[np.void]:
+        """The spheres inside triggers: records of `carom.TRIGGER`, after a field ``world``."""
+        return _of_worlds(*self._trigger_words(), tables.TRIGGER)
+
+    def _number(self, index: int) -> int:
+        count = len(self)
+        number = as_index(index)
+        if not -count <= number < count:
+            raise CaromError(f"index: must be in [{-count}, {count}), not {number}", "index")
+        return number % count
+
+    def _numbers(self, worlds: ArrayLike) -> list[int]:
+        given = np.asarray(worlds)
+        if given.dtype == bool:
+            if given.shape != (len(self),):
+                raise CaromError(
+                    f"worlds: must be {len(self)} truth values, not of shape {given.shape}",
+                    "worlds",
+                )
+            return [int(number) for number in np.flatnonzero(given)]
+        if given.size and given.dtype.kind not in "iu":
+            raise TypeError(f"worlds: must be whole numbers or truth values, not {given.dtype}")
+        numbers = [int(number) for number in given.reshape(-1)]
+        for number in numbers:
+            if not 0 <= number < len(self):
+                raise CaromError(f"worlds: must be below {len(self)}, not {number}", "worlds")
+        return numbers
+
+
+def _scenes(
+    scene: Scene | str | Sequence[Scene],
+    n: int | None,
+    changes: Mapping[str, Iterable[Any]],
+    seeds: Iterable[int] | None,
+) -> list[Scene]:
+    """One scene for all worlds, or one for each."""
+    if not isinstance(scene, str | Scene):
+        scenes = list(scene)
+        if n is not None or changes or seeds is not None:
+            raise TypeError("scene: a sequence of scenes goes without n, changes and seeds")
+        for one in scenes:
+            if not isinstance(one, Scene):
+                raise TypeError(f"scene: must be a carom.Scene, not {type(one).__name__}")
+        if not scenes:
+            raise CaromError("scene: must be at least one", "scene")
+        return scenes
+    if n is None:
+        raise TypeError("n: must be given with one scene")
+    if as_index(n) < 1:
+        raise CaromError(f"n: must be at least 1, not {n}", "n")
+    first = load(scene) if isinstance(scene, str) else scene
+    columns = {path: _column(values, n, f"changes[{path!r}]") for path, values in changes.items()}
+    scenes = [
+        first.with_changes({path: column[row] for path, column in columns.items()})
+        for row in range(n if columns else 1)
+    ]
+    if seeds is not None:
+        column = _column(seeds, n, "seeds")
+        scenes = [scenes[row % len(scenes)].with_seed(seed) for row, seed in enumerate(column)]
+    return scenes
+
+
+def _column(values: Iterable[Any], n: int, name: str) -> list[Any]:
+    """A value for each world, as Python's own: those of NumPy are not written in scenes."""
+    column = [value.tolist() if isinstance(value, np.generic) else value for value in values]
+    if len(column) != n:
+        raise CaromError(f"{name}: must have {n} values, not {len(column)}", name)
+    return column
+
+
+def _of_worlds(
+    words: NDArray[np.uint64], counts: list[int], kind: np.dtype[np.void]
+) -> NDArray[np.void]:
+    """Records of all worlds, each with the number of its world first."""
+    plain = tables.records(words, kind)
+    told = np.empty(len(plain), [("world", "i8"), *kind.descr])
+    told["world"] = np.repeat(np.arange(len(counts)), counts)
+    for name in kind.names or ():
+        told[name] = plain[name]
+    return told
