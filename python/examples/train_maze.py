@@ -183,7 +183,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--seeds", type=int, default=5, help="how many agents")
     parser.add_argument("--steps", type=int, default=256_000, help="of the environment, for each")
-    parser.add_argument("--picture", type=Path, default=Path("learning-curve.png"))
+    parser.add_argument("--picture", type=Path, default=Path("learning_curve.png"))
     parser.add_argument("--json", type=Path, help="write the curves there, too")
     arguments = parser.parse_args()
     # The networks are small: more threads wait for each other.
