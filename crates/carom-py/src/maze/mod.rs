@@ -19,7 +19,7 @@ use crate::arguments;
 use crate::failure::Failure;
 use crate::threads;
 use given::Given;
-use results::{Results, States};
+use results::{Ended, Results};
 use team::Team;
 
 /// Episodes of many balls in one maze: what the environments of `carom.gym` stand on.
@@ -171,18 +171,16 @@ fn arrays(py: Python<'_>, results: Results, length: usize) -> PyResult<Step<'_>>
         let count = numbers.len() / length;
         PyArray1::from_vec(py, numbers).reshape([count, length])
     };
-    let states = |states: States| {
-        let won = PyArray1::from_vec(py, states.won);
-        (PyArray1::from_vec(py, states.collected), won)
-    };
+    let states = |collected, won| (PyArray1::from_vec(py, collected), PyArray1::from_vec(py, won));
+    let Ended { balls, observations, collected, won } = results.ended;
     Ok((
         rows(results.observations)?,
         PyArray1::from_vec(py, results.rewards),
         PyArray1::from_vec(py, results.terminated),
         PyArray1::from_vec(py, results.truncated),
-        states(results.states),
-        PyArray1::from_vec(py, results.ended),
-        rows(results.ended_observations)?,
-        states(results.ended_states),
+        states(results.collected, results.won),
+        PyArray1::from_vec(py, balls),
+        rows(observations)?,
+        states(collected, won),
     ))
 }

@@ -8,7 +8,7 @@ use carom_maze::{Arena, EpisodeError, Episodes, Outcome, Start};
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::results::Results;
+use super::results::{Ended, Results, Rows};
 use crate::failure::Failure;
 use crate::threads;
 
@@ -36,7 +36,7 @@ pub struct Team {
     autoreset: Autoreset,
     /// Where episodes start that nobody says it of.
     start: Start,
-    /// Time that steps took, but for gathering what came of them \[s\].
+    /// Time that steps took \[s\].
     seconds: f64,
 }
 
@@ -44,7 +44,8 @@ pub struct Team {
 #[derive(Debug)]
 struct Block {
     episodes: Episodes,
-    results: Results,
+    /// Where the step that ends an episode starts a new one, what ended in the last.
+    ended: Ended,
     /// Balls to be reset; working memory.
     over: Vec<usize>,
 }
@@ -67,7 +68,7 @@ impl Team {
         let block = |first: usize| {
             let balls = BALLS_IN_A_BLOCK.min(count - first);
             let episodes = Episodes::new(Arc::clone(&arena), balls)?;
-            Ok(Block { episodes, results: Results::default(), over: Vec::new() })
+            Ok(Block { episodes, ended: Ended::default(), over: Vec::new() })
         };
         let blocks: Vec<Block> =
             (0..count).step_by(BALLS_IN_A_BLOCK).map(block).collect::<Result<_, EpisodeError>>()?;
@@ -96,19 +97,33 @@ impl Team {
     /// # Errors
     /// [`Failure`] if a number would overflow.
     pub fn step(&mut self, actions: &[[f64; 2]]) -> Result<Results, Failure> {
+        let (mut results, length) = self.empty_results();
         let (autoreset, start) = (self.autoreset, self.start);
-        let step =
-            |(block, actions): (&mut Block, &[[f64; 2]])| block.step(actions, autoreset, start);
+        let step = |((block, actions), rows): ((&mut Block, &[[f64; 2]]), Rows<'_>)| {
+            block.step(actions, autoreset, start, rows)
+        };
+        let rows = results.split(BALLS_IN_A_BLOCK, length);
         let (blocks, began) = (&mut self.blocks, Instant::now());
         match &self.pool {
-            None => blocks.iter_mut().zip(actions.chunks(BALLS_IN_A_BLOCK)).try_for_each(step)?,
+            None => {
+                let actions = actions.chunks(BALLS_IN_A_BLOCK);
+                blocks.iter_mut().zip(actions).zip(rows).try_for_each(step)?;
+            }
             Some(pool) => pool.install(|| {
                 let actions = actions.par_chunks(BALLS_IN_A_BLOCK);
-                blocks.par_iter_mut().zip(actions).try_for_each(step)
+                blocks.par_iter_mut().zip(actions).zip(rows).try_for_each(step)
             })?,
         }
         self.seconds += began.elapsed().as_secs_f64();
-        Ok(self.results())
+        for (number, block) in self.blocks.iter().enumerate() {
+            results.ended.append(&block.ended, number * BALLS_IN_A_BLOCK);
+        }
+        Ok(results)
+    }
+
+    fn empty_results(&self) -> (Results, usize) {
+        let length = self.arena.observation_length();
+        (Results::new(self.len(), length), length)
     }
 
     /// Starts new episodes of the balls that are marked, with new random numbers where there is a
@@ -123,23 +138,16 @@ impl Team {
         start: Option<Start>,
     ) -> Result<Results, Failure> {
         let start = start.unwrap_or(self.start);
-        for (number, block) in self.blocks.iter_mut().enumerate() {
+        let (mut results, length) = self.empty_results();
+        let rows = results.split(BALLS_IN_A_BLOCK, length);
+        for ((number, block), rows) in self.blocks.iter_mut().enumerate().zip(rows) {
             let balls = block.balls(number);
-            block.reset(&marked[balls.clone()], &seeds[balls], start)?;
+            block.reset(&marked[balls.clone()], &seeds[balls], start, rows)?;
         }
-        Ok(self.results())
+        Ok(results)
     }
 
-    /// The results of all blocks.
-    fn results(&self) -> Results {
-        let mut all = Results::with_capacity(self.len(), self.arena.observation_length());
-        for (number, block) in self.blocks.iter().enumerate() {
-            all.append(&block.results, number * BALLS_IN_A_BLOCK);
-        }
-        all
-    }
-
-    /// Time that all steps took, but for gathering what came of them \[s\].
+    /// Time that all steps took \[s\].
     pub fn seconds(&self) -> f64 {
         self.seconds
     }
@@ -162,27 +170,28 @@ impl Block {
         actions: &[[f64; 2]],
         autoreset: Autoreset,
         start: Start,
+        mut rows: Rows<'_>,
     ) -> Result<(), EpisodeError> {
-        let Self { episodes, results, over } = self;
-        results.clear();
+        let Self { episodes, ended, over } = self;
+        ended.clear();
         if autoreset == Autoreset::NextStep {
             find_over(episodes, over);
         }
         episodes.step(actions)?;
         match autoreset {
-            Autoreset::Disabled => results.push_outcomes(episodes),
+            Autoreset::Disabled => rows.write_outcomes(episodes),
             Autoreset::NextStep => {
                 episodes.reset(over, start)?;
-                results.push_outcomes(episodes);
+                rows.write_outcomes(episodes);
             }
             Autoreset::SameStep => {
                 find_over(episodes, over);
-                results.push_ended(episodes, over);
-                results.push_outcomes(episodes);
+                ended.push(episodes, over);
+                rows.write_outcomes(episodes);
                 episodes.reset(over, start)?;
             }
         }
-        results.push_states(episodes);
+        rows.write_states(episodes);
         Ok(())
     }
 
@@ -191,8 +200,9 @@ impl Block {
         marked: &[bool],
         seeds: &[Option<u64>],
         start: Start,
+        mut rows: Rows<'_>,
     ) -> Result<(), EpisodeError> {
-        let Self { episodes, results, over } = self;
+        let Self { episodes, over, .. } = self;
         over.clear();
         over.extend((0..marked.len()).filter(|&ball| marked[ball]));
         for &ball in over.iter() {
@@ -201,9 +211,8 @@ impl Block {
             }
         }
         episodes.reset(over, start)?;
-        results.clear();
-        results.push_outcomes(episodes);
-        results.push_states(episodes);
+        rows.write_outcomes(episodes);
+        rows.write_states(episodes);
         Ok(())
     }
 }
