@@ -1,5 +1,8 @@
 """Batches are, to the bit, the worlds that they are made of."""
 
+from collections.abc import Callable
+from typing import Literal
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -7,10 +10,11 @@ from numpy.typing import NDArray
 import carom
 
 N = 6
-RULES = ["exact", "bisect", "discrete"]
+Rule = Literal["exact", "bisect", "discrete"]
+RULES: list[Rule] = ["exact", "bisect", "discrete"]
 
 
-def gas(rule: str = "exact") -> carom.Scene:
+def gas(rule: Rule = "exact") -> carom.Scene:
     """Spheres between walls, placed by a seed."""
     walls = [
         carom.Collider(carom.HalfSpace(), position=(0, -2, 0)),
@@ -34,7 +38,7 @@ def hashes(worlds: list[carom.World]) -> list[int]:
 
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("threads", [1, 2, 5])
-def test_a_batch_has_the_bits_of_single_worlds(rule: str, threads: int) -> None:
+def test_a_batch_has_the_bits_of_single_worlds(rule: Rule, threads: int) -> None:
     seeds = range(3, 3 + N)
     batch = carom.Batch(gas(rule), N, seeds=seeds, threads=threads)
     worlds = [gas(rule).with_seed(seed).world() for seed in seeds]
@@ -150,7 +154,7 @@ def test_a_world_can_be_taken_changed_and_put_back() -> None:
 def test_impacts_and_triggers_tell_their_world() -> None:
     batch = carom.Batch("maze", 3, changes={"simulation.rule": ["exact"] * 3})
     world = batch.world(1)
-    batch.positions = [[(2.23, 0.3, 0.7)], [(-2.62, 0.4, 0.79)], [(2.23, 3.0, 0.7)]]
+    batch.positions = np.array([[(2.23, 0.3, 0.7)], [(-2.62, 0.4, 0.79)], [(2.23, 3.0, 0.7)]])
     world.positions = (-2.62, 0.4, 0.79)
     batch.step()
     world.step()
@@ -165,7 +169,7 @@ def test_impacts_and_triggers_tell_their_world() -> None:
 def test_worlds_that_refuse_a_frame_stay_and_the_others_go_on() -> None:
     scene = carom.Scene(name="one", spheres=[carom.Sphere(radius=1)])
     batch = carom.Batch(scene, 4)
-    batch.velocities = [[(1, 0, 0)], [(1e308, 0, 0)], [(2, 0, 0)], [(-1e308, 0, 0)]]
+    batch.velocities = np.array([[(1, 0, 0)], [(1e308, 0, 0)], [(2, 0, 0)], [(-1e308, 0, 0)]])
     with pytest.raises(carom.StepError, match=r"world 1 \(and 1 others\): sphere 0") as caught:
         batch.step(10.0)
     assert caught.value.worlds == [1, 3]
@@ -207,7 +211,7 @@ def test_a_value_refused_in_one_world_is_set_in_none() -> None:
 
 
 def test_arguments_are_named_when_they_make_no_sense() -> None:
-    refusals = [
+    refusals: list[tuple[Callable[[], object], str]] = [
         (lambda: carom.Batch(gas(), 0), "n: must be at least 1"),
         (lambda: carom.Batch([]), "scene: must be at least one"),
         (lambda: carom.Batch(gas(), 2, seeds=[1]), "seeds: must have 2 values, not 1"),

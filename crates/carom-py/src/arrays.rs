@@ -32,6 +32,10 @@ impl Quantity {
         Self::AppliedForces,
     ];
 
+    /// Those that make a sphere.
+    pub const OF_A_SPHERE: [Self; 5] =
+        [Self::Positions, Self::Velocities, Self::Radii, Self::Masses, Self::Restitutions];
+
     /// As Python calls it.
     pub fn name(self) -> &'static str {
         match self {

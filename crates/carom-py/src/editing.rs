@@ -35,20 +35,20 @@ impl Engine {
         Ok(ids.iter().map(|id| id.number()).collect())
     }
 
-    /// Adds `count` spheres by their quantities, in the order of [`Quantity::ALL`], each spread over
+    /// Adds `count` spheres by their quantities, in the order of [`Quantity::OF_A_SPHERE`], each spread over
     /// all of them, and answers with their ids.
     #[pyo3(name = "_add_spheres")]
     fn add_spheres_by_arrays<'py>(
         &self,
         py: Python<'py>,
         count: usize,
-        quantities: [Bound<'py, PyAny>; Quantity::ALL.len()],
+        quantities: [Bound<'py, PyAny>; Quantity::OF_A_SPHERE.len()],
     ) -> PyResult<Bound<'py, PyArray1<u64>>> {
         let read = |(quantity, values): (Quantity, _)| {
             arguments::array(quantity.name(), &values, &quantity.shape(count))
         };
         let columns: Vec<Vec<f64>> =
-            Quantity::ALL.into_iter().zip(quantities).map(read).collect::<PyResult<_>>()?;
+            Quantity::OF_A_SPHERE.into_iter().zip(quantities).map(read).collect::<PyResult<_>>()?;
         let spheres: Vec<Sphere> = (0..count).map(|index| sphere_at(&columns, index)).collect();
         let ids = self.change(py, |inner| {
             let ids = add_all(&mut inner.world, &spheres)?;
@@ -247,7 +247,7 @@ fn add_all(world: &mut World, spheres: &[Sphere]) -> Result<Vec<SphereId>, Failu
     Ok(added?)
 }
 
-/// The sphere at an index of columns in the order of [`Quantity::ALL`].
+/// The sphere at an index of columns in the order of [`Quantity::OF_A_SPHERE`].
 fn sphere_at(columns: &[Vec<f64>], index: usize) -> Sphere {
     let vector = |quantity| DVec3::from_slice(&columns[quantity as usize][3 * index..]);
     let number = |quantity| columns[quantity as usize][index];

@@ -3,6 +3,7 @@
 use carom::{ColliderId, DVec3, Exact, Rule, Settings, World};
 use carom_scene::scene::Force;
 
+use super::ground::Ground;
 use super::observation;
 use super::options::EpisodeOptions;
 use super::ways::Ways;
@@ -28,6 +29,7 @@ pub struct Arena {
     world: World,
     /// By number of collider.
     roles: Vec<Role>,
+    ground: Ground,
     collectibles: usize,
     /// Where balls may start: the maze's own start, and others.
     starts: Vec<DVec3>,
@@ -63,6 +65,7 @@ impl Arena {
         let ways = (options.rewards.shaping > 0.0).then(|| Ways::new(&maze, floor));
         Ok(Self {
             roles: maze.roles().to_vec(),
+            ground: Ground::new(&maze),
             observation_bounds: observation::bounds(&maze, &options),
             maze,
             options,
@@ -105,6 +108,11 @@ impl Arena {
     pub fn observation_bounds(&self) -> [&[f32]; 2] {
         let [low, high] = &self.observation_bounds;
         [low, high]
+    }
+
+    /// Whether a ball at a place \[m\] has ground under it, and does not fall.
+    pub(super) fn has_ground_at(&self, place: DVec3) -> bool {
+        self.ground.reaches(place)
     }
 
     /// Weight of a ball \[N\].

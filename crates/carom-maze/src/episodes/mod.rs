@@ -2,6 +2,7 @@
 
 mod arena;
 mod ball;
+mod ground;
 mod observation;
 mod options;
 mod rescue;
@@ -38,7 +39,7 @@ pub enum Start {
 /// turning maze would have on the ball are left out. An action is the tilt that is wanted, in parts
 /// of the steepest; the tilt follows as fast as [`EpisodeOptions::tilt_speed_degrees_per_second`] lets
 /// it. A ball that touches a collectible has it, and goes on; touching an end wall wins, and falling
-/// out of the maze ends the episode, too. After that the ball rolls on, and earns nothing, until it
+/// out of the maze ends the episode, too, as soon as the centre is past the rim of the ground. After that the ball rolls on, and earns nothing, until it
 /// is [reset](Self::reset).
 ///
 /// What an episode becomes depends, to the bit, on its start and its actions alone, not on how many
@@ -135,7 +136,7 @@ impl Episodes {
         self.step_world()?;
         let lowest = self.arena.options().reset_height;
         for (ball, place) in self.balls.iter_mut().zip(self.world.spheres().positions()) {
-            if place.y < lowest {
+            if place.y < lowest || !self.arena.has_ground_at(*place) {
                 ball.fall(&self.arena);
             }
         }

@@ -17,7 +17,8 @@ pub struct EpisodeOptions {
     pub max_tilt_degrees: f64,
     /// How fast the maze turns about each axis \[°/s\], > 0; infinite: at once.
     pub tilt_speed_degrees_per_second: f64,
-    /// An episode ends when its ball is below this, along the maze's own up \[m\].
+    /// An episode ends when its ball is below this, along the maze's own up \[m\], as it does when the
+    /// centre of the ball is past the rim of the ground.
     pub reset_height: f64,
     /// Steps after which an episode is over; `None`: it goes on until it is won or the ball falls.
     pub max_steps: Option<u32>,
