@@ -41,7 +41,7 @@ class Batch(BatchEngine):
     >>> drops = carom.Batch("tutorial1", 3, changes={"spheres.0.position.1": [5.0, 6.0, 7.0]})
     >>> drops.step(frames=30)
     >>> drops.positions.shape
-    (3, 1, 3)
+    (3, 5, 3)
     >>> drops.reset([0, 2])
     >>> [round(time, 3) for time in drops.times.tolist()]
     [0.0, 0.5, 0.0]
