@@ -32,6 +32,8 @@ impl Quantity {
         Self::AppliedForces,
     ];
 
+    /// Those that a frame changes.
+    pub const MOTION: [Self; 2] = [Self::Positions, Self::Velocities];
     /// Those that make a sphere.
     pub const OF_A_SPHERE: [Self; 5] =
         [Self::Positions, Self::Velocities, Self::Radii, Self::Masses, Self::Restitutions];
@@ -92,14 +94,53 @@ pub fn flat(vectors: &[DVec3]) -> Vec<f64> {
 pub struct Arrays {
     /// Whose rows they have.
     members: Vec<SphereId>,
-    /// By [`Quantity`].
-    shown: [Option<Shown>; Quantity::ALL.len()],
+    quantities: Quantities,
     ids: Option<Py<PyArray1<u64>>>,
+}
+
+/// Arrays of quantities that were asked for, by [`Quantity`].
+#[derive(Debug, Default)]
+pub struct Quantities([Option<Shown>; Quantity::ALL.len()]);
+
+impl Quantities {
+    /// What Python gets to see of a quantity: an array of this shape that is there, or made with
+    /// what `fill` writes.
+    pub fn get(
+        &mut self,
+        py: Python<'_>,
+        quantity: Quantity,
+        shape: Vec<usize>,
+        fill: impl FnOnce(&mut [f64]),
+    ) -> PyResult<Py<PyAny>> {
+        let place = &mut self.0[quantity as usize];
+        if let Some(shown) = place {
+            return Ok(shown.view(py));
+        }
+        let mut values = vec![0.0; shape.iter().product()];
+        fill(&mut values);
+        Ok(place.insert(Shown::new(py, values, shape)?).view(py))
+    }
+
+    /// Has `fill` write into the arrays of these quantities that are there.
+    pub fn write(
+        &mut self,
+        py: Python<'_>,
+        quantities: &[Quantity],
+        fill: impl Fn(Quantity, &mut [f64]),
+    ) {
+        for &quantity in quantities {
+            let place = &mut self.0[quantity as usize];
+            let Some(shown) = place else { continue };
+            if !shown.write(py, |values| fill(quantity, values)) {
+                *place = None;
+            }
+        }
+    }
 }
 
 /// An array, and what Python gets to see of it.
 #[derive(Debug)]
-pub struct Shown {
+struct Shown {
     own: Py<PyArrayDyn<f64>>,
     /// The same memory, not to be written to.
     view: Py<PyAny>,
@@ -107,20 +148,20 @@ pub struct Shown {
 
 impl Shown {
     /// An array of these values.
-    pub fn new(py: Python<'_>, values: Vec<f64>, shape: Vec<usize>) -> PyResult<Self> {
+    fn new(py: Python<'_>, values: Vec<f64>, shape: Vec<usize>) -> PyResult<Self> {
         let own = PyArray1::from_vec(py, values).reshape(shape)?;
         let view = read_only(&own)?;
         Ok(Self { own: own.unbind(), view })
     }
 
     /// What Python gets to see.
-    pub fn view(&self, py: Python<'_>) -> Py<PyAny> {
+    fn view(&self, py: Python<'_>) -> Py<PyAny> {
         self.view.clone_ref(py)
     }
 
     /// Writes into the array; `false` if somebody in another language is reading it: theirs stays
     /// as it is.
-    pub fn write(&self, py: Python<'_>, write: impl FnOnce(&mut [f64])) -> bool {
+    fn write(&self, py: Python<'_>, write: impl FnOnce(&mut [f64])) -> bool {
         let array = self.own.bind(py);
         let mut borrowed = array.try_readwrite();
         match borrowed.as_mut().map(|array| array.as_slice_mut()) {
@@ -142,16 +183,8 @@ impl Arrays {
         spheres: &Spheres,
     ) -> PyResult<Py<PyAny>> {
         self.follow(spheres);
-        if let Some(shown) = &self.shown[quantity as usize] {
-            return Ok(shown.view(py));
-        }
         let shape = quantity.shape(spheres.len());
-        let mut values = vec![0.0; shape.iter().product()];
-        quantity.write(spheres, &mut values);
-        let shown = Shown::new(py, values, shape)?;
-        let view = shown.view(py);
-        self.shown[quantity as usize] = Some(shown);
-        Ok(view)
+        self.quantities.get(py, quantity, shape, |values| quantity.write(spheres, values))
     }
 
     /// Ids, ascending.
@@ -169,7 +202,7 @@ impl Arrays {
 
     /// Writes what a frame changes into the arrays that are there.
     pub fn write_motion(&mut self, py: Python<'_>, spheres: &Spheres) {
-        self.write(py, spheres, &[Quantity::Positions, Quantity::Velocities]);
+        self.write(py, spheres, &Quantity::MOTION);
     }
 
     /// Writes everything into the arrays that are there.
@@ -179,13 +212,7 @@ impl Arrays {
 
     fn write(&mut self, py: Python<'_>, spheres: &Spheres, quantities: &[Quantity]) {
         self.follow(spheres);
-        for &quantity in quantities {
-            let place = &mut self.shown[quantity as usize];
-            let Some(shown) = place else { continue };
-            if !shown.write(py, |values| quantity.write(spheres, values)) {
-                *place = None;
-            }
-        }
+        self.quantities.write(py, quantities, |quantity, values| quantity.write(spheres, values));
     }
 
     /// Lets go of the arrays if their spheres are others.

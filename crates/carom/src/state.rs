@@ -72,8 +72,7 @@ impl State {
     /// Puts a sphere elsewhere. Where flights are renewed in every frame, those of the others stay good.
     pub fn place(&mut self, index: usize, position: DVec3, velocity: DVec3) {
         let time = self.clock.seconds();
-        self.timeline = self.timeline.take().filter(Timeline::is_renewed_each_frame);
-        if let Some(timeline) = &mut self.timeline {
+        if let Some(timeline) = self.renewed_flights() {
             timeline.place(index, position, velocity, time);
         }
         (self.spheres.motion.position[index], self.spheres.motion.velocity[index]) =
@@ -83,11 +82,17 @@ impl State {
     /// Sets the clock to a time \[s\].
     pub fn set_time(&mut self, seconds: f64) {
         let now = self.clock.seconds();
-        self.timeline = self.timeline.take().filter(Timeline::is_renewed_each_frame);
-        if let Some(timeline) = &mut self.timeline {
+        if let Some(timeline) = self.renewed_flights() {
             timeline.set_time(now, seconds);
         }
         self.clock = Clock::at(seconds);
+    }
+
+    /// The flights, if all begin anew in each frame: then a change from outside to some of them leaves
+    /// the others good. Any others are dropped.
+    fn renewed_flights(&mut self) -> Option<&mut Timeline> {
+        self.timeline = self.timeline.take().filter(Timeline::is_renewed_each_frame);
+        self.timeline.as_mut()
     }
 
     /// Emits the spheres that are due at `time` \[s\]; those that are there fly on.

@@ -3,14 +3,11 @@
 use pyo3::prelude::*;
 
 use super::members::Members;
-use crate::arrays::{Quantity, Shown};
+use crate::arrays::{Quantities, Quantity};
 
 /// The arrays that were asked for. Worlds of a batch keep their spheres, so each stays the same.
 #[derive(Debug, Default)]
-pub struct BatchArrays {
-    /// By [`Quantity`].
-    shown: [Option<Shown>; Quantity::ALL.len()],
-}
+pub struct BatchArrays(Quantities);
 
 impl BatchArrays {
     /// The array of a quantity, with the values of now.
@@ -20,21 +17,13 @@ impl BatchArrays {
         quantity: Quantity,
         members: &Members,
     ) -> PyResult<Py<PyAny>> {
-        if let Some(shown) = &self.shown[quantity as usize] {
-            return Ok(shown.view(py));
-        }
         let shape = members.shape_of(quantity);
-        let mut values = vec![0.0; shape.iter().product()];
-        write(quantity, members, &mut values);
-        let shown = Shown::new(py, values, shape)?;
-        let view = shown.view(py);
-        self.shown[quantity as usize] = Some(shown);
-        Ok(view)
+        self.0.get(py, quantity, shape, |values| write(quantity, members, values))
     }
 
     /// Writes what a frame changes into the arrays that are there.
     pub fn write_motion(&mut self, py: Python<'_>, members: &Members) {
-        self.write(py, members, &[Quantity::Positions, Quantity::Velocities]);
+        self.write(py, members, &Quantity::MOTION);
     }
 
     /// Writes everything into the arrays that are there.
@@ -43,13 +32,7 @@ impl BatchArrays {
     }
 
     fn write(&mut self, py: Python<'_>, members: &Members, quantities: &[Quantity]) {
-        for &quantity in quantities {
-            let place = &mut self.shown[quantity as usize];
-            let Some(shown) = place else { continue };
-            if !shown.write(py, |values| write(quantity, members, values)) {
-                *place = None;
-            }
-        }
+        self.0.write(py, quantities, |quantity, values| write(quantity, members, values));
     }
 }
 

@@ -8,6 +8,7 @@ mod members;
 
 use std::sync::{Mutex, MutexGuard};
 
+use carom::StepReport;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyRuntimeError};
 use pyo3::prelude::*;
@@ -34,6 +35,9 @@ struct Inner {
     members: Members,
     arrays: BatchArrays,
 }
+
+/// Rows of all worlds as words, and how many each world has.
+type Words<'py> = (Bound<'py, PyArray1<u64>>, Vec<usize>);
 
 impl BatchEngine {
     fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
@@ -65,6 +69,22 @@ impl BatchEngine {
         let shape = self.lock(py)?.members.shape_of(quantity);
         let values = arguments::array(quantity.name(), values, &shape)?;
         self.change(py, |members| members.set(quantity, &values))
+    }
+}
+
+impl BatchEngine {
+    /// What the last frame of each world, which began at a time \[s\], has `push` write: it tells how
+    /// many rows.
+    fn words<'py>(
+        &self,
+        py: Python<'py>,
+        push: impl Fn(&mut Table, f64, &StepReport) -> usize,
+    ) -> PyResult<Words<'py>> {
+        let guard = self.lock(py)?;
+        let mut table = Table::default();
+        let reports = guard.members.reports();
+        let counts = reports.map(|(start, report)| push(&mut table, start, report)).collect();
+        Ok((PyArray1::from_vec(py, table.into_words()), counts))
     }
 }
 
@@ -157,33 +177,19 @@ impl BatchEngine {
     }
 
     /// The impacts of the last frame of all worlds, as words, and how many each world has.
-    fn _impact_words<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyArray1<u64>>, Vec<usize>)> {
-        let guard = self.lock(py)?;
-        let mut table = Table::default();
-        let mut counts = Vec::with_capacity(guard.members.len());
-        for (start, report) in guard.members.reports() {
+    fn _impact_words<'py>(&self, py: Python<'py>) -> PyResult<Words<'py>> {
+        self.words(py, |table, start, report| {
             table.push_impacts(start, &report.impacts);
-            counts.push(report.impacts.len());
-        }
-        Ok((PyArray1::from_vec(py, table.into_words()), counts))
+            report.impacts.len()
+        })
     }
 
     /// Likewise the spheres inside triggers.
-    fn _trigger_words<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyArray1<u64>>, Vec<usize>)> {
-        let guard = self.lock(py)?;
-        let mut table = Table::default();
-        let mut counts = Vec::with_capacity(guard.members.len());
-        for (_, report) in guard.members.reports() {
+    fn _trigger_words<'py>(&self, py: Python<'py>) -> PyResult<Words<'py>> {
+        self.words(py, |table, _, report| {
             table.push_triggers(&report.triggers);
-            counts.push(report.triggers.len());
-        }
-        Ok((PyArray1::from_vec(py, table.into_words()), counts))
+            report.triggers.len()
+        })
     }
 }
 
