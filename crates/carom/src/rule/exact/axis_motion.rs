@@ -35,7 +35,13 @@ impl AxisMotion {
         }
         let fastest = velocity.max(acceleration / self.drag_rate);
         let at_fastest = if fastest > 0.0 { distance / fastest } else { f64::INFINITY };
-        if velocity >= 0.0 { without_drag.max(at_fastest) } else { at_fastest }
+        let bound = if velocity >= 0.0 {
+            without_drag
+        } else {
+            // On its way back drag pulls, too, never more than now.
+            first_passage(distance, velocity, acceleration - self.drag_rate * velocity)
+        };
+        bound.max(at_fastest)
     }
 }
 
@@ -54,5 +60,44 @@ fn first_passage(distance: f64, v: f64, a: f64) -> f64 {
         if v + root > 0.0 { 2.0 * distance / (v + root) } else { 0.0 }
     } else {
         (root - v) / a
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::flight::Flight;
+
+    /// When a motion really gets to a distance \[m\], by small steps \[s\]; none before the `end` \[s\].
+    fn arrival(motion: &AxisMotion, distance: f64, step: f64, end: f64) -> Option<f64> {
+        let flight = Flight {
+            position: DVec3::ZERO,
+            velocity: motion.velocity * DVec3::X,
+            acceleration: motion.acceleration * DVec3::X,
+            drag_rate: motion.drag_rate,
+        };
+        let steps = (end / step) as u32;
+        let mut times = (0..steps).map(|count| step * f64::from(count));
+        times.find(|&time| flight.position_at(time).x >= distance)
+    }
+
+    #[test]
+    fn a_motion_leaves_no_later_than_it_does_and_hardly_earlier_under_weak_drag() {
+        let (distance, step) = (0.5, 1e-3);
+        for drag_rate in [0.0, 1e-6, 1e-4, 1e-2, 1.0] {
+            for velocity in [-30.0, -5.0, -0.1, 0.0, 0.1, 5.0] {
+                for acceleration in [-9.81, 0.0, 9.81] {
+                    let motion = AxisMotion { velocity, acceleration, drag_rate };
+                    let bound = motion.leaves(f64::NEG_INFINITY, distance);
+                    let Some(arrival) = arrival(&motion, distance, step, 10.0) else { continue };
+                    assert!(bound <= arrival, "{bound} {arrival} {velocity} {acceleration}");
+                    // Found to one step; drag changes times by parts of about γ t.
+                    let least = (arrival - step) * (1.0 - drag_rate * arrival);
+                    assert!(bound >= least, "{bound} {arrival} {velocity} {acceleration}");
+                }
+            }
+        }
     }
 }
