@@ -30,6 +30,6 @@ mod sphere_surface;
 mod turning;
 
 pub use bisection::{Bisection, Probe, bisect};
-pub(crate) use reach::is_out_of_reach;
+pub(crate) use reach::Reach;
 pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};
 pub(crate) use sphere_surface::sphere_surface;

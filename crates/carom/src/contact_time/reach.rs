@@ -10,63 +10,78 @@ use crate::surface::{Form, Rectangle};
 /// far less than what the comparison saves.
 const MARGIN: f64 = 1e-9;
 
-/// Whether a sphere in flight certainly meets no surface of this `form`, at rest, within `horizon`
-/// \[s\].
-///
-/// `radius` of the sphere \[m\], > 0.
-#[inline]
-pub(crate) fn is_out_of_reach(flight: &Flight, radius: f64, form: &Form, horizon: f64) -> bool {
-    match *form {
-        Form::HalfSpace { point, normal } => {
-            let offset = flight.position - point;
-            let margin = MARGIN * (offset.abs().element_sum() + radius);
-            offset.dot(normal) - approach(flight, normal, horizon) > radius + margin
-        }
-        Form::Sphere { center, radius: own } => {
-            let offset = flight.position - center;
-            let margin = MARGIN * (offset.abs().element_sum() + radius + own);
-            let way =
-                horizon * (flight.velocity.norm() + 0.5 * horizon * flight.acceleration.norm());
-            offset.norm() > own + radius + way * (1.0 + MARGIN) + margin
-        }
-        Form::Rectangle(ref rectangle) => {
-            is_rectangle_out_of_reach(flight, radius, rectangle, horizon)
-        }
-        Form::Box(_) => true,
-    }
-}
-
-/// A rectangle meets only centres in front of its plane.
-#[inline]
-fn is_rectangle_out_of_reach(
-    flight: &Flight,
+/// How far a sphere comes within some time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reach {
+    flight: Flight,
+    /// Of the sphere \[m\].
     radius: f64,
-    rectangle: &Rectangle,
+    /// \[s\]
     horizon: f64,
-) -> bool {
-    let Rectangle { center, axis_x, axis_z, normal, half_x, half_z } = *rectangle;
-    let offset = flight.position - center;
-    let margin = MARGIN * (offset.abs().element_sum() + half_x + half_z + radius);
-    let height = offset.dot(normal);
-    let stays_above = || height - approach(flight, normal, horizon) > radius + margin;
-    let stays_behind = || height + approach(flight, -normal, horizon) < -margin;
-    let stays_beside = |axis: DVec3, half: f64| {
-        let place = offset.dot(axis);
-        let outward = if place < 0.0 { -axis } else { axis };
-        place.abs() - approach(flight, outward, horizon) > half + radius + margin
-    };
-    (if height < 0.0 { stays_behind() } else { stays_above() })
-        || stays_beside(axis_x, half_x)
-        || stays_beside(axis_z, half_z)
+    /// How far it goes at most, whichever way \[m\].
+    way: f64,
 }
 
-/// How far a sphere goes at most against a direction within `horizon` \[s\] \[m\]: each part of
-/// `v t + a t²/2` that leads there, for all of that time. Drag makes both smaller.
-#[inline]
-fn approach(flight: &Flight, direction: DVec3, horizon: f64) -> f64 {
-    let velocity = (-flight.velocity.dot(direction)).max(0.0);
-    let acceleration = (-flight.acceleration.dot(direction)).max(0.0);
-    horizon * (velocity + 0.5 * horizon * acceleration) * (1.0 + MARGIN)
+impl Reach {
+    /// That of a sphere of this `radius` \[m\], > 0, within `horizon` \[s\].
+    #[inline]
+    pub fn of(flight: Flight, radius: f64, horizon: f64) -> Self {
+        let way = flight.farthest(horizon).norm() * (1.0 + MARGIN);
+        Self { flight, radius, horizon, way }
+    }
+
+    /// Whether the sphere certainly meets no surface of this `form`, at rest, with all of it shifted by
+    /// this \[m\].
+    #[inline]
+    pub fn misses(&self, form: &Form, shift: DVec3) -> bool {
+        let position = self.flight.position - shift;
+        match *form {
+            Form::HalfSpace { point, normal } => {
+                let offset = position - point;
+                let margin = MARGIN * (offset.abs().element_sum() + self.radius);
+                offset.dot(normal) - self.approach(normal) > self.radius + margin
+            }
+            Form::Sphere { center, radius } => {
+                let offset = position - center;
+                let size = radius + self.radius;
+                let margin = MARGIN * (offset.abs().element_sum() + size);
+                offset.norm() > size + self.way + margin
+            }
+            Form::Rectangle(ref rectangle) => self.misses_rectangle(position, rectangle),
+            Form::Box(_) => true,
+        }
+    }
+
+    /// A rectangle meets only centres in front of its plane.
+    #[inline]
+    fn misses_rectangle(&self, position: DVec3, rectangle: &Rectangle) -> bool {
+        let Rectangle { center, axis_x, axis_z, normal, half_x, half_z } = *rectangle;
+        let offset = position - center;
+        let margin = MARGIN * (offset.abs().element_sum() + half_x + half_z + self.radius);
+        let height = offset.dot(normal);
+        if height.abs() > self.radius + self.way + margin {
+            return true;
+        }
+        let stays_above = || height - self.approach(normal) > self.radius + margin;
+        let stays_behind = || height + self.approach(-normal) < -margin;
+        let stays_beside = |axis: DVec3, half: f64| {
+            let place = offset.dot(axis);
+            let outward = if place < 0.0 { -axis } else { axis };
+            place.abs() - self.approach(outward) > half + self.radius + margin
+        };
+        (if height < 0.0 { stays_behind() } else { stays_above() })
+            || stays_beside(axis_x, half_x)
+            || stays_beside(axis_z, half_z)
+    }
+
+    /// How far the sphere goes at most against a direction \[m\]: each part of `v t + a t²/2` that leads
+    /// there, for all of the time. Drag makes both smaller.
+    #[inline]
+    fn approach(&self, direction: DVec3) -> f64 {
+        let velocity = (-self.flight.velocity.dot(direction)).max(0.0);
+        let acceleration = (-self.flight.acceleration.dot(direction)).max(0.0);
+        self.horizon * (velocity + 0.5 * self.horizon * acceleration) * (1.0 + MARGIN)
+    }
 }
 
 #[cfg(test)]
@@ -117,7 +132,7 @@ mod tests {
             let (radius, horizon) = (0.3, 0.05);
             for form in forms {
                 let contact = sphere_surface(&flight, radius, &form, &SurfaceMotion::REST, horizon);
-                let is_out = is_out_of_reach(&flight, radius, &form, horizon);
+                let is_out = Reach::of(flight, radius, horizon).misses(&form, DVec3::ZERO);
                 assert!(contact.is_none() || !is_out, "{flight:?} {form:?}");
                 met += usize::from(contact.is_some());
                 passed_over += usize::from(is_out);

@@ -35,7 +35,7 @@ impl Bounds {
 }
 
 /// Bounds of a surface; `None` where it has none.
-fn bounds(form: &Form) -> Option<Bounds> {
+pub(crate) fn bounds(form: &Form) -> Option<Bounds> {
     let (center, half) = match *form {
         Form::Sphere { center, radius } => (center, DVec3::splat(radius)),
         Form::Rectangle(r) => (r.center, r.half_x * r.axis_x.abs() + r.half_z * r.axis_z.abs()),

@@ -162,3 +162,9 @@ pub(super) fn speed_scale(velocities: impl Iterator<Item = DVec3>) -> f64 {
 pub(super) fn tolerance(speed: f64) -> Tolerance {
     Tolerance { fine: FINE * speed, coarse: COARSE * speed }
 }
+
+/// Closing speed \[m/s\] below which a contact of a sphere with this velocity \[m/s\] may close by
+/// rounding alone.
+pub(crate) fn rounding_of(velocity: DVec3) -> f64 {
+    COARSE * velocity.abs().max_element()
+}

@@ -17,6 +17,7 @@ mod simultaneous;
 mod touching;
 
 pub use contact_force::{ContactForces, contact_forces};
+pub(crate) use group::rounding_of;
 pub use line_of_centres::line_of_centres;
 pub use reflection::reflection;
 pub use resolve::resolve;

@@ -1,17 +1,15 @@
-//! Lasting contacts that go on while the forces change: those of a sphere with planes at rest.
+//! Lasting contacts of a sphere in a corner: which ones stay, with which forces, and for how long.
 
 use glam::DVec3;
 
 use super::axis_motion::AxisMotion;
+use super::corner::{Corner, MOST_PLANES};
 use super::group::Member;
 use super::support::{self, IDLE};
 use super::touch::beyond;
 use crate::flight::Flight;
 use crate::norm::Norm;
-use crate::surface::{Form, Surface};
-
-/// Planes at right angles to each other, at most.
-const MOST_PLANES: usize = 3;
+use crate::surface::Form;
 
 /// How a sphere goes on in its lasting contacts.
 pub(super) struct Carried {
@@ -21,42 +19,38 @@ pub(super) struct Carried {
     pub acceleration: DVec3,
     /// How long that holds \[s\]; infinite if it is for longer than was asked.
     pub hold: f64,
-    /// Which contacts go on; the others part.
+    /// Which contacts last, in the order of the planes; the others part.
     pub lasts: [bool; MOST_PLANES],
 }
 
-/// How a sphere in lasting contact with surfaces goes on under another acceleration, that of
-/// `member`: where it is pressed on a plane, without the part along the normal; elsewhere the contact
-/// parts. `None` where no contact is left, or where they are not with planes at rest that stand at
-/// right angles: then lasting contacts have to be found anew.
+/// How a sphere that touches the planes of a corner goes on: where it is pressed on one, without the
+/// part along the normal; elsewhere the contact parts. `None` where no contact is left.
 ///
-/// All of that is asked for a `duration` \[s\].
+/// All of that is asked for a `duration` \[s\]. Contacts that part for less than a contact's duration
+/// \[s\] last, and what holds for less is in doubt only by rounding.
 ///
 /// Forces at right angles do not depend on each other, so each follows from its own plane, as it
 /// would from [`contact_forces`](crate::respond::contact_forces).
-pub(super) fn carry<'a>(
+pub(super) fn carry(
     member: &Member,
-    surfaces: impl Iterator<Item = &'a Surface>,
+    corner: &Corner,
+    contact_duration: f64,
     duration: f64,
 ) -> Option<Carried> {
-    let free = support::free_acceleration(member);
     let Member { position, mut velocity, kind, .. } = *member;
     let (mut acceleration, mut largest) = (kind.acceleration, 0.0f64);
-    let (mut planes, mut lasts) = ([None; MOST_PLANES], [false; MOST_PLANES]);
-    for (place, surface) in surfaces.enumerate() {
-        let normal = plane_under(surface, position)?;
-        if place == MOST_PLANES
-            || planes.iter().flatten().any(|&(known, _)| normal.dot(known) != 0.0)
-        {
-            return None;
-        }
-        planes[place] = Some((normal, &surface.form));
-        let pressing = -free.dot(normal);
-        lasts[place] = pressing >= -IDLE * free.norm();
-        if lasts[place] {
+    let mut lasts = [false; MOST_PLANES];
+    let pull = support::free_acceleration(member).norm();
+    for (plane, lasts) in corner.planes().zip(&mut lasts) {
+        // Along the plane, drag has no part in what presses on it.
+        let pressing = -kind.acceleration.dot(plane.normal);
+        let parting = velocity.dot(plane.normal);
+        let is_slow = support::is_back_within(contact_duration, parting, pull);
+        *lasts = is_slow && pressing >= -IDLE * pull;
+        if *lasts {
             let pressing = pressing.max(0.0);
-            acceleration += pressing * normal;
-            velocity -= velocity.dot(normal) * normal;
+            acceleration += pressing * plane.normal;
+            velocity -= parting * plane.normal;
             largest = largest.max(pressing);
         }
     }
@@ -74,26 +68,16 @@ pub(super) fn carry<'a>(
     let flight = Flight { position, velocity, acceleration, drag_rate: kind.drag_rate };
     let way = flight.farthest(duration).element_sum();
     let mut hold = f64::INFINITY;
-    for (plane, lasts) in planes.iter().zip(lasts) {
-        if let Some((_, Form::Rectangle(face))) = plane
+    for (plane, lasts) in corner.planes().zip(lasts) {
+        // Nothing may be known of how far that is in endless time.
+        let is_within = |beyond: f64| beyond + way < 0.0;
+        if let Form::Rectangle(face) = plane.form
             && lasts
-            && beyond(face, position).into_iter().any(|beyond| beyond + way >= 0.0)
+            && !beyond(face, position).into_iter().all(is_within)
         {
             hold = hold.min(support::time_on_face(face, position, motion));
         }
     }
+    let hold = hold.max(contact_duration);
     Some(Carried { velocity, acceleration, hold, lasts })
-}
-
-/// The normal of a plane at rest on which a sphere about `center` \[m\] lies; not over an edge.
-fn plane_under(surface: &Surface, center: DVec3) -> Option<DVec3> {
-    match &surface.form {
-        _ if !surface.motion.is_at_rest() => None,
-        Form::HalfSpace { normal, .. } => Some(*normal),
-        Form::Rectangle(rectangle) => {
-            let is_over = beyond(rectangle, center).into_iter().all(|beyond| beyond < 0.0);
-            is_over.then_some(rectangle.normal)
-        }
-        Form::Sphere { .. } | Form::Box(_) => None,
-    }
 }

@@ -14,6 +14,12 @@ pub(super) struct Cluster {
     pub renewal: f64,
 }
 
+impl Cluster {
+    pub fn has(&self, contact: Bodies) -> bool {
+        self.contacts.binary_search(&contact).is_ok()
+    }
+}
+
 /// All clusters, by number; numbers are used again.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Clusters {
@@ -60,7 +66,7 @@ impl Clusters {
     }
 
     pub fn contains(&self, number: u32, bodies: Bodies) -> bool {
-        self.get(number).contacts.binary_search(&bodies).is_ok()
+        self.get(number).has(bodies)
     }
 
     /// When a cluster is renewed, for the member that bears the event; never for the others.

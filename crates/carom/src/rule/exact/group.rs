@@ -137,7 +137,7 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
         });
     }
     if !impacts.is_empty() {
-        stage.record(&impacts, account);
+        stage.record(impacts, account);
     }
     struck
 }
@@ -164,7 +164,7 @@ fn contacts_of(timeline: &Timeline, stage: &Stage, group: &Group) -> Vec<Touchin
 }
 
 /// Momentum and energy of the spheres before and after.
-fn account_of([before, after]: [&[DVec3]; 2], masses: &[f64]) -> ImpactGroup {
+pub(super) fn account_of([before, after]: [&[DVec3]; 2], masses: &[f64]) -> ImpactGroup {
     let momentum = |velocities: &[DVec3]| {
         let part = |axis: usize| {
             masses.iter().zip(velocities).map(|(m, v)| m * v[axis]).collect::<Sum>().value()

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::carry::{self, Carried};
+use super::corner::{Corner, Plane};
 use super::group::Member;
 use super::timeline::Timeline;
 use crate::detect::contact::Bodies;
@@ -23,6 +24,7 @@ pub(super) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64
         let uniform = linear.acceleration + applied;
         if is_all {
             begin_under(timeline, system, slot, uniform, [start, end]);
+            timeline.find_room(system, slot);
         } else {
             timeline.set_free(slot);
             begin_under_varying(timeline, system, slot, uniform, [start, end]);
@@ -52,8 +54,11 @@ fn begin_under(
     timeline.set_acceleration(slot, acceleration);
     let cluster = timeline.clusters.get_mut(cluster);
     cluster.renewal = start + hold;
-    let mut lasts = lasts.into_iter();
+    let (before, mut lasts) = (cluster.contacts.len(), lasts.into_iter());
     cluster.contacts.retain(|_| lasts.next().unwrap_or(false));
+    if cluster.contacts.len() < before {
+        timeline.leave_room(slot);
+    }
     timeline.begin_flight(slot, position, velocity, start);
 }
 
@@ -72,15 +77,16 @@ fn carried(
     if cluster.members.len() != 1 || system.settings.boundary.period() != DVec3::INFINITY {
         return None;
     }
-    let surface_of = |bodies: &Bodies| match *bodies {
-        Bodies::Surface { surface, .. } => Some(&system.surfaces[surface as usize]),
+    let plane_of = |bodies: &Bodies| match *bodies {
+        Bodies::Surface { surface, .. } => Plane::under(member.position, surface, system.surfaces),
         Bodies::Pair(..) => None,
     };
-    let surfaces = cluster.contacts.iter().filter_map(surface_of);
-    let carried = carry::carry(member, surfaces, duration)?;
-    // As where contacts are found: what holds for less is in doubt only by rounding.
-    let hold = carried.hold.max(parameters.contact_duration);
-    Some((number, Carried { hold, ..carried }))
+    let mut corner = Corner::default();
+    for contact in &cluster.contacts {
+        corner.add(plane_of(contact)?)?;
+    }
+    let carried = carry::carry(member, &corner, parameters.contact_duration, duration)?;
+    Some((number, carried))
 }
 
 /// Begins the flight of a sphere under forces that depend on where it is and how it moves, besides

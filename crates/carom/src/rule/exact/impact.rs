@@ -12,7 +12,7 @@ use crate::respond;
 
 /// Whatever is nearer to a sphere than this part of the distance of centres may take part in the
 /// impact, and is looked at closely. Generous: it only decides which way is taken to one result.
-const NEARBY: f64 = 1e-6;
+pub(super) const NEARBY: f64 = 1e-6;
 
 /// Answers the impact of two spheres at `time` \[s\], and of whatever touches them there.
 pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32; 2], time: f64) {
@@ -135,7 +135,7 @@ impl PairImpact {
             self.approach_speed,
             self.restitution,
         );
-        stage.record(&[impact], account);
+        stage.record([impact], account);
     }
 }
 

@@ -6,10 +6,13 @@
 //!
 //! until the frame ends. What was predicted stays good from frame to frame.
 
+mod alone;
 mod axis_motion;
 mod body;
+mod bounce;
 mod carry;
 mod cluster;
+mod corner;
 mod grid;
 mod group;
 mod hold;
@@ -22,6 +25,7 @@ mod outlook;
 mod periodic;
 mod predict;
 mod queue;
+mod room;
 mod stage;
 mod support;
 mod surroundings;
@@ -88,9 +92,9 @@ pub(crate) fn advance(
                 impact::of_spheres(timeline, &mut stage, [slot, other], event.time);
             }
             Target::Surface(surface) => {
-                group::answer(timeline, &mut stage, &[slot], Some(surface), event.time);
+                bounce::answer(timeline, &mut stage, slot, Some(surface), event.time);
             }
-            Target::Cluster => group::answer(timeline, &mut stage, &[slot], None, event.time),
+            Target::Cluster => bounce::answer(timeline, &mut stage, slot, None, event.time),
         }
         if timeline.flights_in_frame(slot) > parameters.max_impacts {
             let limit = parameters.max_impacts;

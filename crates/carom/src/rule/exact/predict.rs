@@ -7,9 +7,8 @@ use super::outlook::{Event, Outlook, Target};
 use super::stage::Stage;
 use super::surroundings::Surroundings;
 use super::timeline::Timeline;
-use crate::contact_time;
+use crate::contact_time::{self, Reach};
 use crate::detect::contact::Bodies;
-use crate::flight::Flight;
 use crate::system::System;
 
 /// Predicts what a sphere meets next as of `now` \[s\], and notes it.
@@ -61,19 +60,18 @@ fn outlook_after(
 ) -> Outlook {
     let body = &timeline.bodies[slot as usize];
     let kind = &timeline.kinds[body.kind as usize];
-    meet_surfaces(timeline, system, slot, body, kind, &mut first);
+    let (neighbours, horizon) = (&timeline.neighbours, timeline.horizon());
+    let stays = horizon < f64::INFINITY && neighbours.stays(slot, body, kind, horizon);
+    if !(stays && timeline.has_room(slot)) {
+        meet_surfaces(timeline, system, slot, body, kind, &mut first);
+    }
     if let Some(cluster) = kind.cluster {
         let renewal = timeline.clusters.renewal_by(cluster, slot);
         if renewal < first.time {
             first = Event { time: renewal, target: Target::Cluster, flights: 0 };
         }
     }
-    let (neighbours, horizon) = (&timeline.neighbours, timeline.horizon());
-    let departure = if horizon < f64::INFINITY && neighbours.stays(slot, body, kind, horizon) {
-        f64::INFINITY
-    } else {
-        neighbours.departure(slot, body, kind, now)
-    };
+    let departure = if stays { f64::INFINITY } else { neighbours.departure(slot, body, kind, now) };
     Outlook::new(first, departure)
 }
 
@@ -105,9 +103,8 @@ pub(super) fn restart(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now
 /// meet there.
 pub(super) fn relocate(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now: f64) {
     let state = timeline.state_of(slot, now);
-    let level = timeline.kind_of(slot).level;
     let around = &mut stage.around[0];
-    timeline.neighbours.relocate(slot, level, state.into(), &mut around.near);
+    timeline.relocate(slot, state.into(), &mut around.near);
     let mut first = timeline.outlooks[slot as usize].event();
     let start_with = start_with_later(timeline, slot);
     around.look_at_found(timeline, slot, &start_with, (slot, 0.0));
@@ -137,22 +134,14 @@ fn meet_surfaces(
         return;
     }
     let horizon = timeline.horizon();
+    let reach = Reach::of(body.flight(kind), kind.radius, horizon - body.time);
     for (number, shift) in timeline.surfaces_near(slot) {
         let surface = &system.surfaces[number as usize];
         let is_at_rest = surface.motion.is_at_rest();
-        if is_at_rest && horizon < f64::INFINITY {
-            let flight = Flight { position: body.position - shift, ..body.flight(kind) };
-            let time = horizon - body.time;
-            if contact_time::is_out_of_reach(&flight, kind.radius, &surface.form, time) {
-                continue;
-            }
+        if is_at_rest && horizon < f64::INFINITY && reach.misses(&surface.form, shift) {
+            continue;
         }
-        let lasts = kind.cluster.is_some_and(|cluster| {
-            let sphere = timeline.index_of[slot as usize];
-            let bodies = Bodies::Surface { sphere, surface: number };
-            timeline.clusters.contains(cluster, bodies)
-        });
-        if lasts {
+        if timeline.is_held_by(slot, number) {
             continue;
         }
         // A surface that moves is given as it is at the start of the frame.

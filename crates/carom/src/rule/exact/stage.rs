@@ -62,9 +62,10 @@ impl Stage<'_> {
 
     /// Writes down impacts that were answered together.
     #[inline(always)]
-    pub fn record(&mut self, impacts: &[Impact], account: ImpactGroup) {
-        let (first, count) = (self.report.impacts.len(), impacts.len());
-        self.report.impacts.extend_from_slice(impacts);
+    pub fn record(&mut self, impacts: impl IntoIterator<Item = Impact>, account: ImpactGroup) {
+        let first = self.report.impacts.len();
+        self.report.impacts.extend(impacts);
+        let count = self.report.impacts.len() - first;
         let law = self.system.settings.impact_law;
         self.report.groups.push(ImpactGroup { first, count, law, ..account });
     }

@@ -19,7 +19,7 @@ use crate::surface::{Form, Rectangle};
 pub(super) const IDLE: f64 = 1e-12;
 /// Spheres in lasting contact whose speed is below this part of the speeds they came with are at
 /// rest, but for rounding.
-const REST: f64 = 1e-12;
+pub(super) const REST: f64 = 1e-12;
 /// How far the normal of a lasting contact turns before its force is found anew \[rad\]. The path
 /// between is a parabola through the middle of the turn; its gap to the true one is of the third
 /// order, below 1e-10 of the radius of the curve.
@@ -79,10 +79,9 @@ fn staying(stage: &Stage, group: &Group) -> Vec<Touch> {
     let is_slow = |touch: &&Touch| {
         let free = touch.first.map_or(DVec3::ZERO, |first| free_acceleration(&members[first]));
         let free = free.norm() + free_acceleration(&members[touch.second]).norm();
-        // Thrown up with speed u against an acceleration a, a body is back after 2 u / a.
         let acceleration = free + bias(touch, members).abs();
-        let back_within = 0.5 * acceleration * stage.parameters.contact_duration;
-        acceleration > 0.0 && touch.normal_velocity(members) <= back_within
+        let duration = stage.parameters.contact_duration;
+        is_back_within(duration, touch.normal_velocity(members), acceleration)
     };
     let slow: Vec<Touch> = group.touches.iter().filter(is_slow).copied().collect();
     if slow.is_empty() {
@@ -103,6 +102,12 @@ fn staying(stage: &Stage, group: &Group) -> Vec<Touch> {
         (force > 0.0 || (all_borne && is_idle)).then_some(touch)
     };
     slow.into_iter().zip(forces).filter_map(stays).collect()
+}
+
+/// Whether what parts with a speed \[m/s\] against an acceleration \[m/s²\] is back within a `duration`
+/// \[s\]: thrown up with u against a, a body is back after 2 u / a.
+pub(super) fn is_back_within(duration: f64, speed: f64, acceleration: f64) -> bool {
+    acceleration > 0.0 && speed <= 0.5 * acceleration * duration
 }
 
 /// Acceleration of a sphere without contact forces \[m/s²\].

@@ -187,16 +187,25 @@ impl Surroundings {
     ) -> bool {
         let (body, kind) = (&timeline.bodies[slot as usize], timeline.kind_of(slot));
         let mut near = timeline.neighbours.found(slot, &self.near).iter();
-        near.any(|neighbour| {
-            let near = timeline.kind_of(neighbour.slot());
-            if neighbour.slot() == other || near.flies_like(kind) {
-                return false;
-            }
-            let shift = timeline.neighbours.shift_of(slot, neighbour);
-            let place = timeline.state_of(neighbour.slot(), body.time).0 + shift;
-            let reach = (kind.radius + near.radius) * (1.0 + part);
-            (place - body.position).length_squared() <= reach * reach
+        near.any(|near| {
+            near.slot() != other
+                && !timeline.kind_of(near.slot()).flies_like(kind)
+                && is_near(timeline, slot, near, (body.position, body.time), part)
         })
+    }
+
+    /// Looks for those near a sphere that is at `place` \[m\] at `time` \[s\]. Tells whether one of them
+    /// is nearer to it than the sum of their radii and `part` of it.
+    pub fn touches_any(
+        &mut self,
+        timeline: &Timeline,
+        slot: u32,
+        place: (DVec3, f64),
+        part: f64,
+    ) -> bool {
+        timeline.neighbours.find(slot, timeline.kind_of(slot).level, &mut self.near);
+        let mut near = timeline.neighbours.found(slot, &self.near).iter();
+        near.any(|near| is_near(timeline, slot, near, place, part))
     }
 
     /// Puts the first meeting with one of those in the place of `first`, if it comes first.
@@ -257,6 +266,22 @@ impl Surroundings {
             *first = Event { time, target, flights: other.flights };
         }
     }
+}
+
+/// Whether a neighbour is nearer to a sphere than the sum of their radii and `part` of it, where that
+/// is at `place` \[m\] at `time` \[s\].
+fn is_near(
+    timeline: &Timeline,
+    slot: u32,
+    neighbour: Neighbour,
+    (place, time): (DVec3, f64),
+    part: f64,
+) -> bool {
+    let shift = timeline.neighbours.shift_of(slot, neighbour);
+    let offset = timeline.state_of(neighbour.slot(), time).0 + shift - place;
+    let radius_sum = timeline.kind_of(slot).radius + timeline.kind_of(neighbour.slot()).radius;
+    let reach = radius_sum * (1.0 + part);
+    offset.length_squared() <= reach * reach
 }
 
 /// What a look has shown.

@@ -10,11 +10,13 @@ use super::neighbours::{self, Contents, Neighbours};
 use super::outlook::{Event, Next, Outlook, Target};
 use super::periodic;
 use super::queue::{Entry, EventQueue};
+use super::room::Room;
 use super::support::Support;
 use super::surroundings::Surroundings;
 use super::vicinity::Vicinity;
 use super::{hold, predict};
 use crate::bodies::{Motion, SphereId};
+use crate::detect::contact::Bodies;
 use crate::forces;
 use crate::parallel;
 use crate::surface::Role;
@@ -60,6 +62,8 @@ pub(crate) struct Timeline {
     pub(super) frame: [f64; 2],
     /// Whether spheres are under forces that are held constant over a frame.
     holds_forces: bool,
+    /// By slot, where flights begin anew in each frame, near surfaces none of which moves; else empty.
+    rooms: Vec<Room>,
     /// Since the spheres were put in order of place.
     events: u64,
     departures: u64,
@@ -194,6 +198,10 @@ impl Timeline {
             self.clusters.renumber(|slot| new_slots[slot as usize]);
         }
         self.neighbours = Neighbours::new(self.contents(system, time));
+        self.rooms.clear();
+        if self.holds_forces && self.moving_surfaces.is_empty() && !system.surfaces.is_empty() {
+            self.rooms.resize(self.bodies.len(), Room::NONE);
+        }
         (self.events, self.departures) = (0, 0);
         self.count_flights();
     }
@@ -362,9 +370,42 @@ impl Timeline {
     pub fn set_free(&mut self, slot: u32) {
         let kind = *self.kind_of(slot);
         if let Some(cluster) = kind.cluster {
+            self.leave_room(slot);
             self.clusters.remove(cluster);
             self.spare_kinds.push(self.bodies[slot as usize].kind);
             self.bodies[slot as usize].kind = kind.free;
+        }
+    }
+
+    /// Whether a surface is one of those that hold a sphere in lasting contact.
+    #[inline]
+    pub fn is_held_by(&self, slot: u32, surface: u32) -> bool {
+        self.kind_of(slot).cluster.is_some_and(|cluster| {
+            let bodies = Bodies::Surface { sphere: self.index_of[slot as usize], surface };
+            self.clusters.get(cluster).has(bodies)
+        })
+    }
+
+    /// Whether a sphere is certain to meet no surface in this frame, but those that hold it.
+    #[inline]
+    pub fn has_room(&self, slot: u32) -> bool {
+        self.rooms.get(slot as usize).is_some_and(|room| {
+            let body = &self.bodies[slot as usize];
+            room.holds(&body.flight(self.kind_of(slot)), self.frame[1] - body.time)
+        })
+    }
+
+    /// Finds out how much room a sphere has, if it leaves what it had.
+    pub fn find_room(&mut self, system: &System, slot: u32) {
+        if !self.rooms.is_empty() && !self.has_room(slot) {
+            self.rooms[slot as usize] = Room::about(self, system, slot);
+        }
+    }
+
+    /// Notes that a sphere may meet surfaces that it could not meet before.
+    pub fn leave_room(&mut self, slot: u32) {
+        if let Some(room) = self.rooms.get_mut(slot as usize) {
+            *room = Room::NONE;
         }
     }
 
@@ -428,9 +469,16 @@ impl Timeline {
         let slot = self.slot_of[index];
         self.set_free(slot);
         self.bodies[slot as usize].begin_flight(position, velocity, time);
-        let level = self.kind_of(slot).level;
-        self.neighbours.relocate(slot, level, [position, velocity], &mut Vicinity::default());
+        self.relocate(slot, [position, velocity], &mut Vicinity::default());
         self.fold(slot);
+    }
+
+    /// Gives a sphere that is at a place \[m\] with a velocity \[m/s\] another neighbourhood, and finds
+    /// those near it there.
+    pub(super) fn relocate(&mut self, slot: u32, state: [DVec3; 2], near: &mut Vicinity) {
+        let level = self.kind_of(slot).level;
+        self.neighbours.relocate(slot, level, state, near);
+        self.leave_room(slot);
     }
 
     /// Begins the flights that are at `now` \[s\] anew at another time \[s\]. What was predicted is not

@@ -13,7 +13,7 @@ use crate::detect::contact::Bodies;
 use crate::detect::{Separation, sphere_rectangle_known_in_front, sphere_sphere, sphere_surface};
 use crate::norm::Norm;
 use crate::respond::TouchingContact;
-use crate::surface::{Form, Rectangle, SurfaceMotion};
+use crate::surface::{Form, Rectangle, Surface, SurfaceMotion};
 
 /// Bodies touch when the gap between them is below this many roundings of their coordinates: what
 /// the time of an impact and the way to it leave uncertain.
@@ -112,12 +112,7 @@ impl Touch {
             Bodies::Surface { surface, .. } => {
                 let (form, motion) = stage.surface_at(surface, time);
                 let center = second.position + self.shift;
-                let separation = match &form {
-                    Form::Rectangle(rectangle) if self.is_given => {
-                        sphere_rectangle_known_in_front(rectangle, center, second.kind.radius)
-                    }
-                    form => sphere_surface(form, center, second.kind.radius)?,
-                };
+                let separation = separation(&form, center, second.kind.radius, self.is_given)?;
                 let bend = bend_of(&form, center, &separation);
                 Some(Self { bend, ..self.with(separation).with_motion(&motion, center) })
             }
@@ -162,6 +157,21 @@ impl Touch {
     }
 }
 
+/// How a sphere stands to a surface; to be in front may be given, whatever rounding says.
+pub(super) fn separation(
+    form: &Form,
+    center: DVec3,
+    radius: f64,
+    is_given: bool,
+) -> Option<Separation> {
+    match form {
+        Form::Rectangle(rectangle) if is_given => {
+            Some(sphere_rectangle_known_in_front(rectangle, center, radius))
+        }
+        form => sphere_surface(form, center, radius),
+    }
+}
+
 /// How the normal turns where a sphere about `center` \[m\] touches a surface.
 fn bend_of(form: &Form, center: DVec3, separation: &Separation) -> Bend {
     let distance = (center - separation.point).norm();
@@ -187,6 +197,45 @@ pub(super) fn beyond(rectangle: &Rectangle, point: DVec3) -> [f64; 2] {
     let slack = TOUCHING * (offset.norm() + rectangle.half_x + rectangle.half_z);
     [(rectangle.axis_x, rectangle.half_x), (rectangle.axis_z, rectangle.half_z)]
         .map(|(axis, half)| offset.dot(axis).abs() - half + slack)
+}
+
+/// Gap \[m\] up to which two bodies touch: rounding of their coordinates \[m\], and how far they move,
+/// at a `speed` \[m/s\] to each other, in the rounding of the clock.
+fn touching_gap(coordinates: f64, speed: f64, time: f64) -> f64 {
+    TOUCHING * coordinates + CLOCK_ROUNDING * time.abs() * speed
+}
+
+/// Whether a sphere, by its centre \[m\], velocity \[m/s\] and radius \[m\], touches a surface or its
+/// image, where a shift \[m\] brings it, at `time` \[s\].
+pub(super) fn touches_surface(
+    stage: &Stage,
+    ((center, velocity), radius): ((DVec3, DVec3), f64),
+    (surface, shift): (u32, DVec3),
+    time: f64,
+) -> bool {
+    let Surface { form, motion, .. } = &stage.system.surfaces[surface as usize];
+    if motion.is_at_rest() {
+        // Where they touch, the point of the surface is no farther from the origin than that.
+        let coordinates = 2.0 * (center.norm() + shift.norm() + radius);
+        let gap = 2.0 * touching_gap(coordinates, velocity.norm(), time);
+        if is_above(form, center - shift, radius + gap) {
+            return false;
+        }
+    }
+    let (form, motion) = stage.surface_at(surface, time);
+    let Some(separation) = sphere_surface(&form, center - shift, radius) else { return false };
+    let speed = (velocity - motion.velocity_at(separation.point)).norm();
+    let coordinates = center.norm() + separation.point.norm() + radius;
+    separation.distance <= touching_gap(coordinates, speed, time)
+}
+
+/// Whether a point is higher than that above the plane of a surface, or far behind it \[m\].
+fn is_above(form: &Form, point: DVec3, height: f64) -> bool {
+    match form {
+        Form::HalfSpace { point: origin, normal } => (point - *origin).dot(*normal) > height,
+        Form::Rectangle(face) => (point - face.center).dot(face.normal).abs() > height,
+        Form::Sphere { .. } | Form::Box(_) => false,
+    }
 }
 
 /// Gathers the spheres at `seeds`, whatever touches them at `time` \[s\], what touches that, and so
@@ -304,7 +353,7 @@ impl<'a> Gathering<'a> {
             let gap = (near_place + shift - place).norm() - radius_sum;
             let coordinates = place.norm() + near_place.norm() + radius_sum;
             let speed = (near_velocity - velocity).norm();
-            if gap <= self.touching_gap(coordinates, speed) {
+            if gap <= touching_gap(coordinates, speed, self.time) {
                 found.push((near, shift));
             }
         }
@@ -317,25 +366,15 @@ impl<'a> Gathering<'a> {
     fn touch_surfaces(&mut self, slot: u32) {
         let timeline = self.timeline;
         let sphere = timeline.index_of[slot as usize];
-        let (place, velocity) = timeline.state_of(slot, self.time);
+        let state = timeline.state_of(slot, self.time);
         let radius = timeline.kind_of(slot).radius;
         for (surface, shift) in timeline.surfaces_near(slot) {
-            let (form, motion) = self.stage.surface_at(surface, self.time);
-            let Some(separation) = sphere_surface(&form, place - shift, radius) else { continue };
-            let speed = (velocity - motion.velocity_at(separation.point)).norm();
-            let coordinates = place.norm() + separation.point.norm() + radius;
-            if separation.distance <= self.touching_gap(coordinates, speed) {
+            if touches_surface(self.stage, (state, radius), (surface, shift), self.time) {
                 let bodies = Bodies::Surface { sphere, surface };
                 let found = Found { shift: -shift, is_given: false };
                 self.touches.entry(bodies).or_insert(found);
             }
         }
-    }
-
-    /// Gap \[m\] up to which two bodies touch: rounding of their coordinates, and how far they
-    /// move in the rounding of the clock.
-    fn touching_gap(&self, coordinates: f64, speed: f64) -> f64 {
-        TOUCHING * coordinates + CLOCK_ROUNDING * self.time.abs() * speed
     }
 
     /// A cluster is in a group as a whole.
