@@ -54,9 +54,12 @@ impl<T: Copy + Default, const SIZE: usize> Page<T, SIZE> {
 }
 
 impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
-    /// So many empty lists.
+    /// So many empty lists, with room for a page more for every other one: what is not used of it is
+    /// no memory yet, where to grow would be twice all for a moment.
     pub fn new(count: usize) -> Self {
-        Self { pages: vec![Page::empty(); count], spare: Vec::new() }
+        let mut pages = Vec::with_capacity(count + count / 2);
+        pages.resize(count, Page::empty());
+        Self { pages, spare: Vec::new() }
     }
 
     /// For how many members there has to be room to copy the first pages of so many lists.
