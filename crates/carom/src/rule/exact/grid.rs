@@ -49,9 +49,15 @@ impl Block<'_> {
     /// Visits the cells, in rows one after another.
     #[inline(always)]
     pub fn for_each_row(&self, mut visit: impl FnMut(Range<usize>)) {
+        // As a rule it is a cube, whose loops need not be counted.
+        let lens = self.lens.map(usize::from);
+        if lens == [3; 3] { self.rows([3; 3], &mut visit) } else { self.rows(lens, &mut visit) }
+    }
+
+    #[inline(always)]
+    fn rows(&self, [x, y, z]: [usize; 3], visit: &mut impl FnMut(Range<usize>)) {
         let [row, layer] = [self.grid.counts[0], self.grid.counts[1]].map(usize::from);
         let mut first_of_layer = self.grid.index(self.first);
-        let [x, y, z] = self.lens.map(usize::from);
         for _ in 0..z {
             let mut first = first_of_layer;
             for _ in 0..y {
