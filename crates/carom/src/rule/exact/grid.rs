@@ -272,11 +272,12 @@ impl Grid {
         let mut next = 0;
         for step in steps[0]..=steps[1] {
             let number = i32::from(cell) + i32::from(step);
-            let turns = number.div_euclid(count);
+            // At most one turn: a division would take as long as all the rest.
+            let turns = i32::from(number >= count) - i32::from(number < 0);
             if turns != 0 && !self.periodic[axis] {
                 continue;
             }
-            let number = number.rem_euclid(count);
+            let number = number - turns * count;
             let is_open = !self.periodic[axis];
             let is_endless = is_open && (is_outermost(number) || is_outermost(i32::from(cell)));
             let run = Run { first: number as u16, len: 1, turns: turns as i8, is_endless };
