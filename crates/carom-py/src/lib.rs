@@ -46,6 +46,11 @@ pub use maze::MazeEpisodes;
 pub use painter::Painter;
 pub use snapshot::Snapshot;
 
+/// As in the program `carom`; arrays that NumPy makes are not from here.
+#[cfg(target_os = "linux")]
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// The compiled part of the package `carom`. Its interface is that of the package, not this one.
 #[pyo3::pymodule(gil_used = true)]
 mod _carom {

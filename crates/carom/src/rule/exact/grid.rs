@@ -25,6 +25,8 @@ pub(super) struct Grid {
     per_metre: DVec3,
     counts: [u16; 3],
     periodic: [bool; 3],
+    /// By axis and coordinate: a cell and those next to it.
+    runs: [Vec<[Run; 3]>; 3],
 }
 
 /// Cells about one that lie side by side and are seen from there alike.
@@ -49,9 +51,15 @@ impl Block<'_> {
     /// Visits the cells, in rows one after another.
     #[inline(always)]
     pub fn for_each_row(&self, mut visit: impl FnMut(Range<usize>)) {
+        // As a rule it is a cube, whose loops need not be counted.
+        let lens = self.lens.map(usize::from);
+        if lens == [3; 3] { self.rows([3; 3], &mut visit) } else { self.rows(lens, &mut visit) }
+    }
+
+    #[inline(always)]
+    fn rows(&self, [x, y, z]: [usize; 3], visit: &mut impl FnMut(Range<usize>)) {
         let [row, layer] = [self.grid.counts[0], self.grid.counts[1]].map(usize::from);
         let mut first_of_layer = self.grid.index(self.first);
-        let [x, y, z] = self.lens.map(usize::from);
         for _ in 0..z {
             let mut first = first_of_layer;
             for _ in 0..y {
@@ -106,7 +114,8 @@ impl Grid {
             let width = extent[axis] / f64::from(counts[axis]);
             if periodic[axis] { width } else { width.max(min_width) }
         }));
-        Self { origin: low, width, per_metre: width.recip(), counts, periodic }
+        let runs = Default::default();
+        Self { origin: low, width, per_metre: width.recip(), counts, periodic, runs }.with_runs()
     }
 
     /// A grid whose cells are parts of the cells of this one, likewise.
@@ -114,7 +123,15 @@ impl Grid {
         let counts = cell_counts(self.counts, self.width, min_width, seek);
         let parts = [0, 1, 2].map(|axis| f64::from(counts[axis] / self.counts[axis]));
         let width = self.width / DVec3::from_array(parts);
-        Self { width, per_metre: width.recip(), counts, ..self.clone() }
+        Self { width, per_metre: width.recip(), counts, ..self.clone() }.with_runs()
+    }
+
+    fn with_runs(self) -> Self {
+        let runs = |axis| {
+            let cells = 0..self.counts[axis];
+            cells.map(|cell| self.runs_of(cell, axis, [-1, 1])).collect()
+        };
+        Self { runs: [0, 1, 2].map(runs), ..self }
     }
 
     /// How many cells there are.
@@ -209,10 +226,11 @@ impl Grid {
             visit(Block { grid: self, first, lens, turns: [0; 3], is_endless: [false; 3] });
             return;
         }
-        let [x, y, z] = [0, 1, 2].map(|axis| match side {
-            Some(side) if side.axis == axis => self.runs(cell[axis], axis, [side.step; 2]),
-            _ => self.runs(cell[axis], axis, [-1, 1]),
-        });
+        let runs = |axis| match side {
+            Some(side) if side.axis == axis => self.runs_of(cell[axis], axis, [side.step; 2]),
+            _ => self.runs[axis][usize::from(cell[axis])],
+        };
+        let [x, y, z] = [runs(0), runs(1), runs(2)];
         for z in z.into_iter().take_while(|run| run.len > 0) {
             for y in y.into_iter().take_while(|run| run.len > 0) {
                 for x in x.into_iter().take_while(|run| run.len > 0) {
@@ -253,7 +271,7 @@ impl Grid {
     }
 
     /// A cell and those next to it along an axis, of these steps: runs in order, then empty ones.
-    fn runs(&self, cell: u16, axis: usize, steps: [i16; 2]) -> [Run; 3] {
+    fn runs_of(&self, cell: u16, axis: usize, steps: [i16; 2]) -> [Run; 3] {
         let rim = self.rim(axis);
         if cell >= rim && cell + rim < self.counts[axis] {
             let (first, len) = (cell.wrapping_add_signed(steps[0]), steps[1] - steps[0] + 1);
@@ -266,11 +284,12 @@ impl Grid {
         let mut next = 0;
         for step in steps[0]..=steps[1] {
             let number = i32::from(cell) + i32::from(step);
-            let turns = number.div_euclid(count);
+            // At most one turn: a division would take as long as all the rest.
+            let turns = i32::from(number >= count) - i32::from(number < 0);
             if turns != 0 && !self.periodic[axis] {
                 continue;
             }
-            let number = number.rem_euclid(count);
+            let number = number - turns * count;
             let is_open = !self.periodic[axis];
             let is_endless = is_open && (is_outermost(number) || is_outermost(i32::from(cell)));
             let run = Run { first: number as u16, len: 1, turns: turns as i8, is_endless };

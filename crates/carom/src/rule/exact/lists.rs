@@ -54,9 +54,12 @@ impl<T: Copy + Default, const SIZE: usize> Page<T, SIZE> {
 }
 
 impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
-    /// So many empty lists.
+    /// So many empty lists, with room for a page more for every other one: what is not used of it is
+    /// no memory yet, where to grow would be twice all for a moment.
     pub fn new(count: usize) -> Self {
-        Self { pages: vec![Page::empty(); count], spare: Vec::new() }
+        let mut pages = Vec::with_capacity(count + count / 2);
+        pages.resize(count, Page::empty());
+        Self { pages, spare: Vec::new() }
     }
 
     /// For how many members there has to be room to copy the first pages of so many lists.
@@ -65,19 +68,23 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
         lists * SIZE
     }
 
-    /// Copies the members on the first pages of lists into `members`, from `len` on, and counts them.
-    /// What is there behind them has no meaning. Tells whether there are no further pages.
+    /// Copies the members on the first pages of lists into `members`, from `end` on, and tells where
+    /// they end, and whether there are no further pages. What is behind the end has no meaning.
     #[inline(always)]
-    pub fn copy_first(&self, lists: Range<usize>, members: &mut [T], len: &mut usize) -> bool {
-        let (mut links, mut end) = (0, *len);
+    pub fn copy_first(
+        &self,
+        lists: Range<usize>,
+        members: &mut [T],
+        mut end: usize,
+    ) -> (usize, bool) {
+        let mut links = 0;
         for page in &self.pages[lists] {
             // Always a whole page: no processor can foresee how many there are.
             members[end..end + SIZE].copy_from_slice(&page.members);
             end += page.link.len();
             links |= page.link.0;
         }
-        *len = end;
-        Link(links).next().is_none()
+        (end, Link(links).next().is_none())
     }
 
     /// Likewise those on the further pages. Leaves `room` for so many more.
@@ -86,20 +93,21 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
         &self,
         lists: Range<usize>,
         members: &mut Vec<T>,
-        len: &mut usize,
+        mut end: usize,
         room: usize,
-    ) {
+    ) -> usize {
         for mut page in &self.pages[lists] {
             while let Some(next) = page.link.next() {
                 page = &self.pages[next];
-                let end = *len + SIZE;
-                if members.len() < end + room {
-                    members.resize(end + room, T::default());
+                let most = end + SIZE;
+                if members.len() < most + room {
+                    members.resize(most + room, T::default());
                 }
-                members[*len..end].copy_from_slice(&page.members);
-                *len += page.link.len();
+                members[end..most].copy_from_slice(&page.members);
+                end += page.link.len();
             }
         }
+        end
     }
 
     /// Puts the members of a list into `members`, from `len` on, and gives where they end. What is
@@ -109,11 +117,10 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
         if members.len() < len + SIZE {
             members.resize(len + SIZE, T::default());
         }
-        let mut end = len;
-        if !self.copy_first(list..list + 1, members, &mut end) {
-            self.copy_rest(list..list + 1, members, &mut end, 0);
+        match self.copy_first(list..list + 1, members, len) {
+            (end, true) => end,
+            (end, false) => self.copy_rest(list..list + 1, members, end, 0),
         }
-        end
     }
 
     /// The first members of a list.

@@ -89,11 +89,14 @@ impl Buffer {
         if buffer.len() < *len + most {
             buffer.resize(*len + most, Neighbour::default());
         }
+        let mut end = *len;
         block.for_each_row(|row| {
-            if !cells.copy_first(row.clone(), buffer, len) {
-                cells.copy_rest(row, buffer, len, most);
-            }
+            end = match cells.copy_first(row.clone(), buffer, end) {
+                (end, true) => end,
+                (end, false) => cells.copy_rest(row, buffer, end, most),
+            };
         });
+        *len = end;
     }
 
     /// Adds the neighbours of a sphere.
