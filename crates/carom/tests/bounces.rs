@@ -118,3 +118,34 @@ fn a_ball_steered_in_every_frame_meets_the_walls_that_a_falling_one_meets() {
     assert_eq!(impacts[0], impacts[1]);
     assert!(impacts[0] > 40, "{impacts:?}");
 }
+
+#[test]
+fn a_ball_rolls_over_an_edge_without_an_impact() {
+    let mut world = World::new(Settings::default()).unwrap();
+    world.add_force(Gravity::new(vec(0.0, -9.81, 0.0))).unwrap();
+    let plate = Shape::Rectangle { size_x: 10.0, size_z: 10.0 };
+    let plate = Collider::new(plate, Pose::at(DVec3::ZERO)).with_restitution(0.5);
+    world.add_collider(plate).unwrap();
+    let radius = 0.25;
+    let ball = Sphere::new(vec(0.0, radius, 4.99), radius).with_velocity(vec(0.3, 0.0, 0.4));
+    world.add_sphere(ball).unwrap();
+    let energy = |world: &World| {
+        let spheres = world.spheres();
+        0.5 * spheres.velocities()[0].length_squared() + 9.81 * spheres.positions()[0].y
+    };
+    let before = energy(&world);
+    let mut on_the_edge = 0;
+    for _ in 0..30 {
+        assert_eq!(world.step(1.0 / 120.0).unwrap().impacts, []);
+        let across = world.spheres().positions()[0] - vec(0.0, 0.0, 5.0);
+        let gap = vec(0.0, across.y, across.z).length() - radius;
+        // Pieces of a thousandth of a radian leave the edge by less than this part of the radius.
+        if across.z > 0.0 && gap < 1e-9 * radius {
+            assert!(gap > -1e-9 * radius, "{gap}");
+            on_the_edge += 1;
+        }
+        // And each changes the energy by about that part of it.
+        assert!((energy(&world) - before).abs() < 1e-6 * before, "{}", energy(&world) - before);
+    }
+    assert!(on_the_edge > 10, "{on_the_edge}");
+}

@@ -60,6 +60,7 @@ pub(super) fn answer(
     time: f64,
 ) {
     let mut group = touch::gather(timeline, stage, seeds, surface, time);
+    support::settle(&mut group);
     let struck = respond_to_impacts(timeline, stage, &mut group);
     let supports = support::find(stage, &mut group);
     let held = supports.iter().flat_map(|support| &support.contacts).copied();

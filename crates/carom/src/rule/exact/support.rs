@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::axis_motion::AxisMotion;
 use super::group::{Group, Member};
 use super::stage::Stage;
-use super::touch::{Bend, Touch, beyond};
+use super::touch::{Touch, beyond};
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::respond::contact_forces;
@@ -70,6 +70,20 @@ pub(super) fn find(stage: &Stage, group: &mut Group) -> Vec<Support> {
         return connected(group, &lasting, &accelerations, group.time + hold);
     }
     Vec::new()
+}
+
+/// Takes from contacts that have lasted what normal velocity the last piece of their path left: it is
+/// of the third order in the turn, and neither an impact nor a parting.
+pub(super) fn settle(group: &mut Group) {
+    let Group { members, touches, .. } = group;
+    let is_left_over = |touch: &&Touch| {
+        let most = TURN * TURN * touch.relative_velocity(members).norm();
+        touch.has_lasted && touch.bends() && touch.normal_velocity(members).abs() <= most
+    };
+    let left_over: Vec<Touch> = touches.iter().filter(is_left_over).copied().collect();
+    if !left_over.is_empty() {
+        stop_along_normals(members, &left_over);
+    }
 }
 
 /// The touches that stay closed: those whose bodies would be back in contact within a contact's
@@ -361,8 +375,7 @@ fn root_of(root: &[usize], mut place: usize) -> usize {
 
 /// Brings the gaps and the normal velocities of lasting contacts to zero, and measures them anew.
 fn correct(stage: &Stage, group: &mut Group, touches: &mut Vec<Touch>) {
-    let bends = |touch: &Touch| touch.bend != Bend::Flat || touch.surface_spin != DVec3::ZERO;
-    if touches.iter().any(bends) {
+    if touches.iter().any(Touch::bends) {
         let gaps: Vec<f64> = touches.iter().map(|touch| touch.gap).collect();
         let moves = corrections(&group.members, touches, &gaps);
         for (member, by) in group.members.iter_mut().zip(moves) {
@@ -371,10 +384,14 @@ fn correct(stage: &Stage, group: &mut Group, touches: &mut Vec<Touch>) {
         let (members, time) = (&group.members, group.time);
         *touches = touches.iter().filter_map(|it| it.measured_at(stage, members, time)).collect();
     }
-    let speeds: Vec<f64> =
-        touches.iter().map(|touch| touch.normal_velocity(&group.members)).collect();
-    let changes = corrections(&group.members, touches, &speeds);
-    for (member, by) in group.members.iter_mut().zip(changes) {
+    stop_along_normals(&mut group.members, touches);
+}
+
+/// Brings the normal velocities of contacts to zero.
+fn stop_along_normals(members: &mut [Member], touches: &[Touch]) {
+    let speeds: Vec<f64> = touches.iter().map(|touch| touch.normal_velocity(members)).collect();
+    let changes = corrections(members, touches, &speeds);
+    for (member, by) in members.iter_mut().zip(changes) {
         member.velocity += by;
     }
 }

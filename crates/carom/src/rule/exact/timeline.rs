@@ -377,13 +377,18 @@ impl Timeline {
         }
     }
 
+    /// Whether two bodies are in lasting contact up to now.
+    #[inline]
+    pub fn has_lasted(&self, bodies: Bodies) -> bool {
+        let (Bodies::Pair(sphere, _) | Bodies::Surface { sphere, .. }) = bodies;
+        let cluster = self.kind_of(self.slot_of[sphere as usize]).cluster;
+        cluster.is_some_and(|cluster| self.clusters.get(cluster).has(bodies))
+    }
+
     /// Whether a surface is one of those that hold a sphere in lasting contact.
     #[inline]
     pub fn is_held_by(&self, slot: u32, surface: u32) -> bool {
-        self.kind_of(slot).cluster.is_some_and(|cluster| {
-            let bodies = Bodies::Surface { sphere: self.index_of[slot as usize], surface };
-            self.clusters.get(cluster).has(bodies)
-        })
+        self.has_lasted(Bodies::Surface { sphere: self.index_of[slot as usize], surface })
     }
 
     /// Whether a sphere is certain to meet no surface in this frame, but those that hold it.

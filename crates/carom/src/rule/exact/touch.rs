@@ -49,6 +49,8 @@ pub(super) struct Touch {
     pub shift: DVec3,
     /// Predicted, so not in doubt.
     pub is_given: bool,
+    /// The contact has lasted up to now.
+    pub has_lasted: bool,
 }
 
 /// How the normal of a contact turns when the bodies slide along each other.
@@ -85,6 +87,11 @@ impl Touch {
     /// Its part along the normal: negative where the bodies close.
     pub fn normal_velocity(&self, members: &[Member]) -> f64 {
         self.relative_velocity(members).dot(self.normal)
+    }
+
+    /// Whether its normal turns, because bodies slide along each other or the surface turns.
+    pub fn bends(&self) -> bool {
+        self.bend != Bend::Flat || self.surface_spin != DVec3::ZERO
     }
 
     /// As the impact laws take it, restitution 0.
@@ -142,6 +149,7 @@ impl Touch {
     ) -> Self {
         Self {
             is_given,
+            has_lasted: false,
             bodies,
             first,
             second,
@@ -406,7 +414,9 @@ impl<'a> Gathering<'a> {
                 Bodies::Pair(first, second) => (Some(places[&first]), places[&second]),
                 Bodies::Surface { sphere, .. } => (None, places[&sphere]),
             };
-            Touch::between(bodies, first, second, found).measured_at(stage, &members, time)
+            let has_lasted = self.timeline.has_lasted(bodies);
+            let touch = Touch { has_lasted, ..Touch::between(bodies, first, second, found) };
+            touch.measured_at(stage, &members, time)
         });
         let touches = touches.collect();
         let fastest = members.iter().map(|member| member.velocity.norm()).fold(0.0, f64::max);
