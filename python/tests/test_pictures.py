@@ -3,7 +3,6 @@ software is enough."""
 
 import math
 import os
-import signal
 import struct
 import subprocess
 import sys
@@ -15,6 +14,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import pytest
 from command import carom_command
+from interrupts import ctrl_c
 from numpy.typing import NDArray
 
 import carom
@@ -186,7 +186,6 @@ def test_a_film_is_that_of_the_command_line_byte_for_byte(tmp_path: Path) -> Non
 
 def test_what_was_filmed_until_ctrl_c_is_a_film(tmp_path: Path) -> None:
     path = tmp_path / "a.mp4"
-    timer = threading.Timer(1.5, lambda: signal.raise_signal(signal.SIGINT))
     ticks: list[int] = []
     ended = threading.Event()
 
@@ -195,12 +194,10 @@ def test_what_was_filmed_until_ctrl_c_is_a_film(tmp_path: Path) -> None:
             ticks.append(1)
 
     thread = threading.Thread(target=work)
-    timer.start()
     thread.start()
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt), ctrl_c(after=1.5):
         carom.load("simtest1").record(path, seconds=1e6, size=(128, 72), quality="draft")
     ended.set()
-    timer.join()
     thread.join()
     frames, seconds, _ = film(path)
     assert frames >= 1 and seconds == pytest.approx(frames / 30)

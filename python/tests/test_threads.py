@@ -5,6 +5,7 @@ import threading
 import time
 
 import pytest
+from interrupts import ctrl_c
 
 import carom
 
@@ -58,11 +59,8 @@ def test_threads_that_use_one_world_wait_for_each_other() -> None:
 
 def test_a_run_is_stopped_by_ctrl_c() -> None:
     world = gas()
-    timer = threading.Timer(0.5, lambda: signal.raise_signal(signal.SIGINT))
-    timer.start()
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt), ctrl_c(after=0.5):
         world.run(seconds=1e6)
-    timer.join()
     stopped = world.time
     assert 0 < stopped < 1e6
     world.step()

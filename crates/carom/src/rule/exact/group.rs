@@ -69,11 +69,25 @@ pub(super) fn answer(
     for member in &group.members {
         predict::predict(timeline, stage, member.slot, group.time);
     }
-    if let Some(bodies) = met(timeline, seeds, surface)
-        && !answered.contains(&bodies)
-    {
-        let until = time + stage.parameters.contact_duration;
-        seeds.iter().for_each(|&seed| predict::pause(timeline, seed, bodies, until));
+    // Who met, and whoever else touches there and was predicted anew, perhaps to meet at once.
+    let touching = group.touches.iter().map(|touch| touch.bodies);
+    let until = time + stage.parameters.contact_duration;
+    for bodies in touching.chain(met(timeline, seeds, surface)) {
+        if !answered.contains(&bodies) {
+            pause(timeline, bodies, until);
+        }
+    }
+}
+
+/// Lets bodies that have nothing to answer pass over a meeting that is due before `until` \[s\].
+fn pause(timeline: &mut Timeline, bodies: Bodies, until: f64) {
+    let (sphere, other) = match bodies {
+        Bodies::Pair(first, second) => (first, Some(second)),
+        Bodies::Surface { sphere, .. } => (sphere, None),
+    };
+    for index in [sphere].into_iter().chain(other) {
+        let slot = timeline.slot_of[index as usize];
+        predict::pause(timeline, slot, bodies, until);
     }
 }
 

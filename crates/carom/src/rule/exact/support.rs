@@ -46,7 +46,8 @@ pub(super) struct Support {
 /// Finds the contacts of a group that stay closed and what they do; brings their gaps and normal
 /// velocities to zero.
 pub(super) fn find(stage: &Stage, group: &mut Group) -> Vec<Support> {
-    let mut lasting = staying(stage, group);
+    let slow = slow(stage, group);
+    let mut lasting = staying(&group.members, &slow);
     while !lasting.is_empty() {
         correct(stage, group, &mut lasting);
         let forces = forces(&group.members, &lasting);
@@ -64,6 +65,9 @@ pub(super) fn find(stage: &Stage, group: &mut Group) -> Vec<Support> {
                 },
             };
         let accelerations = rest(group, accelerations, hold);
+        if hold < f64::INFINITY {
+            lean(&group.members, &slow, &accelerations, &mut lasting);
+        }
         let hold = hold.min(sliding_time(stage, group, &lasting, &accelerations));
         // What holds for less than a contact's duration is in doubt only by rounding.
         let hold = hold.max(stage.parameters.contact_duration);
@@ -75,9 +79,9 @@ pub(super) fn find(stage: &Stage, group: &mut Group) -> Vec<Support> {
 /// Takes from contacts that have lasted what normal velocity the last piece of their path left: it is
 /// of the third order in the turn, and neither an impact nor a parting.
 pub(super) fn settle(group: &mut Group) {
-    let Group { members, touches, .. } = group;
+    let Group { members, touches, fastest, .. } = group;
+    let most = TURN * TURN * *fastest;
     let is_left_over = |touch: &&Touch| {
-        let most = TURN * TURN * touch.relative_velocity(members).norm();
         touch.has_lasted && touch.bends() && touch.normal_velocity(members).abs() <= most
     };
     let left_over: Vec<Touch> = touches.iter().filter(is_left_over).copied().collect();
@@ -86,9 +90,9 @@ pub(super) fn settle(group: &mut Group) {
     }
 }
 
-/// The touches that stay closed: those whose bodies would be back in contact within a contact's
-/// duration, and whose forces press.
-fn staying(stage: &Stage, group: &Group) -> Vec<Touch> {
+/// The touches that may stay closed: those whose bodies would be back in contact within a contact's
+/// duration.
+fn slow(stage: &Stage, group: &Group) -> Vec<Touch> {
     let members = &group.members;
     let is_slow = |touch: &&Touch| {
         let free = touch.first.map_or(DVec3::ZERO, |first| free_acceleration(&members[first]));
@@ -97,25 +101,50 @@ fn staying(stage: &Stage, group: &Group) -> Vec<Touch> {
         let duration = stage.parameters.contact_duration;
         is_back_within(duration, touch.normal_velocity(members), acceleration)
     };
-    let slow: Vec<Touch> = group.touches.iter().filter(is_slow).copied().collect();
+    group.touches.iter().filter(is_slow).copied().collect()
+}
+
+/// Of slow touches, those that stay closed: their forces press.
+fn staying(members: &[Member], slow: &[Touch]) -> Vec<Touch> {
     if slow.is_empty() {
-        return slow;
+        return Vec::new();
     }
-    let forces = forces(members, &slow);
+    let forces = forces(members, slow);
     let mut is_borne = vec![false; members.len()];
     for (touch, &force) in slow.iter().zip(&forces) {
         if force > 0.0 {
             touch.first.into_iter().chain([touch.second]).for_each(|place| is_borne[place] = true);
         }
     }
-    let accelerations = borne(members, &slow, &forces);
-    let stays = |(touch, force): (Touch, f64)| {
+    let accelerations = borne(members, slow, &forces);
+    let stays = |(&touch, force): (&Touch, f64)| {
         let all_borne = is_borne[touch.second] && touch.first.is_none_or(|first| is_borne[first]);
         let scale = free_acceleration(&members[touch.second]).norm() + accelerations.largest;
         let is_idle = accelerations.along(&touch, members) <= IDLE * scale;
         (force > 0.0 || (all_borne && is_idle)).then_some(touch)
     };
-    slow.into_iter().zip(forces).filter_map(stays).collect()
+    slow.iter().zip(forces).filter_map(stays).collect()
+}
+
+/// Adds slow touches that open now and would close under the accelerations of the middle of a turn:
+/// for this piece of the path their bodies lean on each other without a force, and the gap that is
+/// missing is of the third order in the turn, like that of the piece.
+fn lean(
+    members: &[Member],
+    slow: &[Touch],
+    accelerations: &Accelerations,
+    lasting: &mut Vec<Touch>,
+) {
+    let leans = |touch: &&Touch| {
+        let scale = free_acceleration(&members[touch.second]).norm() + accelerations.largest;
+        let closing = -accelerations.along(touch, members);
+        closing > 0.0
+            && closing <= TURN * scale
+            && !lasting.iter().any(|known| known.bodies == touch.bodies)
+    };
+    let leaning: Vec<Touch> = slow.iter().filter(leans).copied().collect();
+    lasting.extend(leaning);
+    lasting.sort_unstable_by_key(|touch| touch.bodies);
 }
 
 /// Whether what parts with a speed \[m/s\] against an acceleration \[m/s²\] is back within a `duration`

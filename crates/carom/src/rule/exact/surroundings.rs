@@ -89,14 +89,14 @@ impl<const FALLS: bool> Pair<'_, FALLS> {
         }
     }
 
-    /// Whether two spheres touch, and close by no more than the rounding of their speeds.
+    /// Whether two spheres touch or overlap, and close by no more than the rounding of their speeds.
     #[inline(never)]
     fn only_touch(&self, offset: DVec3, velocity: DVec3, gap: f64, radius_sum: f64) -> bool {
         let speed: f64 = self.bodies.iter().map(|body| body.velocity.norm()).sum();
         let place: f64 = self.bodies.iter().map(|body| body.position.norm()).sum();
         // How far they move in the rounding of the clock is in doubt, too.
         let size = radius_sum + place + speed * self.start.abs();
-        gap.abs() <= TOUCH_ROUNDING * radius_sum * size
+        gap <= TOUCH_ROUNDING * radius_sum * size
             && -offset.dot(velocity) <= TOUCH_ROUNDING * radius_sum * speed
     }
 }
