@@ -16,6 +16,15 @@ impl Bodies {
     pub fn pair([i, j]: [u32; 2]) -> Self {
         Self::Pair(i.min(j), i.max(j))
     }
+
+    /// The one or two spheres among them.
+    pub fn spheres(self) -> impl Iterator<Item = u32> {
+        let (first, second) = match self {
+            Self::Pair(i, j) => (i, Some(j)),
+            Self::Surface { sphere, .. } => (sphere, None),
+        };
+        std::iter::once(first).chain(second)
+    }
 }
 
 /// Two bodies and how they stand to each other.
@@ -29,10 +38,6 @@ pub(crate) struct Contact {
 impl Contact {
     /// The one or two spheres of the contact.
     pub fn spheres(&self) -> impl Iterator<Item = u32> + use<> {
-        let (first, second) = match self.bodies {
-            Bodies::Pair(i, j) => (i, Some(j)),
-            Bodies::Surface { sphere, .. } => (sphere, None),
-        };
-        std::iter::once(first).chain(second)
+        self.bodies.spheres()
     }
 }

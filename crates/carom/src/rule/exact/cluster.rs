@@ -65,10 +65,6 @@ impl Clusters {
         }
     }
 
-    pub fn contains(&self, number: u32, bodies: Bodies) -> bool {
-        self.get(number).has(bodies)
-    }
-
     /// When a cluster is renewed, for the member that bears the event; never for the others.
     pub fn renewal_by(&self, number: u32, slot: u32) -> f64 {
         let cluster = self.get(number);

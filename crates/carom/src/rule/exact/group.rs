@@ -74,20 +74,10 @@ pub(super) fn answer(
     let until = time + stage.parameters.contact_duration;
     for bodies in touching.chain(met(timeline, seeds, surface)) {
         if !answered.contains(&bodies) {
-            pause(timeline, bodies, until);
+            for index in bodies.spheres() {
+                predict::pause(timeline, timeline.slot_of[index as usize], bodies, until);
+            }
         }
-    }
-}
-
-/// Lets bodies that have nothing to answer pass over a meeting that is due before `until` \[s\].
-fn pause(timeline: &mut Timeline, bodies: Bodies, until: f64) {
-    let (sphere, other) = match bodies {
-        Bodies::Pair(first, second) => (first, Some(second)),
-        Bodies::Surface { sphere, .. } => (sphere, None),
-    };
-    for index in [sphere].into_iter().chain(other) {
-        let slot = timeline.slot_of[index as usize];
-        predict::pause(timeline, slot, bodies, until);
     }
 }
 
@@ -213,14 +203,8 @@ fn begin_flights(
         timeline.set_free(member.slot);
         timeline.begin_flight(member.slot, member.position, member.velocity, group.time);
     }
-    for &bodies in struck {
-        let (sphere, other) = match bodies {
-            Bodies::Pair(first, second) => (first, Some(second)),
-            Bodies::Surface { sphere, .. } => (sphere, None),
-        };
-        for index in [sphere].into_iter().chain(other) {
-            timeline.bodies[timeline.slot_of[index as usize] as usize].strike();
-        }
+    for index in struck.iter().flat_map(|bodies| bodies.spheres()) {
+        timeline.bodies[timeline.slot_of[index as usize] as usize].strike();
     }
     supports.into_iter().for_each(|support| timeline.set_supported(support));
 }

@@ -134,11 +134,13 @@ fn meet_surfaces(
         return;
     }
     let horizon = timeline.horizon();
-    let reach = Reach::of(body.flight(kind), kind.radius, horizon - body.time);
+    let is_limited = horizon < f64::INFINITY;
+    let reach = is_limited.then(|| Reach::of(body.flight(kind), kind.radius, horizon - body.time));
     for (number, shift) in timeline.surfaces_near(slot) {
         let surface = &system.surfaces[number as usize];
         let is_at_rest = surface.motion.is_at_rest();
-        if is_at_rest && horizon < f64::INFINITY && reach.misses(&surface.form, shift) {
+        let is_missed = |reach: Reach| reach.misses(&surface.form, shift);
+        if is_at_rest && reach.is_some_and(is_missed) {
             continue;
         }
         if timeline.is_held_by(slot, number) {

@@ -351,25 +351,18 @@ fn meeting_of_others(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f6
     let slots = [slot, neighbour.slot()];
     let bodies = slots.map(|slot| &timeline.bodies[slot as usize]);
     let kinds = slots.map(|slot| timeline.kind_of(slot));
-    if last_together(timeline, slots, kinds) {
+    let indices @ [index, other_index] = slots.map(|slot| timeline.index_of[slot as usize]);
+    if timeline.has_lasted(Bodies::pair(indices)) {
+        // No impact ends their flights.
         return f64::INFINITY;
     }
     let shift = timeline.neighbours.shift_of(slot, neighbour);
-    let [index, other_index] = slots.map(|slot| timeline.index_of[slot as usize]);
     if index < other_index {
         meeting(bodies, kinds, shift)
     } else {
         // In the order of ids: the other way round the same time might round differently.
         meeting([bodies[1], bodies[0]], [kinds[1], kinds[0]], -shift)
     }
-}
-
-/// Whether two spheres are in lasting contact with each other: then no impact ends their flights.
-fn last_together(timeline: &Timeline, slots: [u32; 2], kinds: [&Kind; 2]) -> bool {
-    kinds[0].cluster.is_some_and(|cluster| {
-        let pair = Bodies::pair(slots.map(|slot| timeline.index_of[slot as usize]));
-        kinds[1].cluster == Some(cluster) && timeline.clusters.contains(cluster, pair)
-    })
 }
 
 /// When two spheres meet that fly differently. Searched for without end: what is known already must
