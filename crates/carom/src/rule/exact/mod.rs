@@ -85,8 +85,8 @@ pub(crate) fn advance(
         };
         match event.target {
             Target::Restart => predict::restart(timeline, &mut stage, slot, event.time),
-            Target::Sphere(other) if timeline.bodies[other as usize].flights != event.flights => {
-                predict::predict(timeline, &mut stage, slot, event.time);
+            Target::Sphere(_) if timeline.is_void(&event) => {
+                predict::fall_back(timeline, &mut stage, slot, event.time);
             }
             Target::Sphere(other) => {
                 impact::of_spheres(timeline, &mut stage, [slot, other], event.time);

@@ -14,6 +14,39 @@ pub(super) struct Event {
 
 impl Event {
     pub const NEVER: Self = Self { time: f64::INFINITY, target: Target::Restart, flights: 0 };
+    /// One that would have to be looked for: it stands before all others.
+    const UNKNOWN: Self = Self { time: f64::NEG_INFINITY, ..Self::NEVER };
+}
+
+/// What a sphere meets next, and what else it would meet next if that did not come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Ahead {
+    pub first: Event,
+    pub second: Event,
+}
+
+impl Ahead {
+    pub const NOTHING: Self = Self { first: Event::NEVER, second: Event::NEVER };
+
+    /// One event, where it is not known what comes if it does not.
+    pub fn only(first: Event) -> Self {
+        Self { first, second: Event::UNKNOWN }
+    }
+
+    /// What is left if the first does not come, as far as it is known.
+    pub fn without_first(self) -> Option<Self> {
+        (self.second.time > f64::NEG_INFINITY).then(|| Self::only(self.second))
+    }
+
+    /// Takes in an event that may come, too.
+    #[inline(always)]
+    pub fn add(&mut self, event: Event) {
+        if event.time < self.first.time {
+            (self.first, self.second) = (event, self.first);
+        } else if event.time < self.second.time {
+            self.second = event;
+        }
+    }
 }
 
 /// What a sphere comes upon.
@@ -36,39 +69,63 @@ pub(super) enum Next {
     Departure(f64),
 }
 
-/// What lies ahead of a sphere: an event, in little memory, for each sphere has one, and a departure.
+/// What lies ahead of a sphere, in little memory, for each sphere has one: events, and a departure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Outlook {
-    /// Of the event, on the world's clock \[s\].
-    time: f64,
+    first: PackedEvent,
+    second: PackedEvent,
     /// When it leaves its neighbourhood, on the world's clock \[s\].
     pub departure: f64,
+}
+
+/// An event in 16 bytes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct PackedEvent {
+    /// On the world's clock \[s\].
+    time: f64,
     target: PackedTarget,
     flights: u32,
 }
 
-impl Outlook {
+impl PackedEvent {
     #[inline(always)]
-    pub fn new(event: Event, departure: f64) -> Self {
-        let Event { time, target, flights } = event;
-        Self { time, departure, target: PackedTarget::of(target), flights }
+    fn of(Event { time, target, flights }: Event) -> Self {
+        Self { time, target: PackedTarget::of(target), flights }
     }
 
     #[inline(always)]
-    pub fn event(&self) -> Event {
+    fn unpacked(self) -> Event {
         Event { time: self.time, target: self.target.unpacked(), flights: self.flights }
+    }
+}
+
+impl Outlook {
+    #[inline(always)]
+    pub fn new(Ahead { first, second }: Ahead, departure: f64) -> Self {
+        Self { first: PackedEvent::of(first), second: PackedEvent::of(second), departure }
+    }
+
+    #[inline(always)]
+    pub fn ahead(&self) -> Ahead {
+        Ahead { first: self.event(), second: self.second.unpacked() }
+    }
+
+    /// The first event.
+    #[inline(always)]
+    pub fn event(&self) -> Event {
+        self.first.unpacked()
     }
 
     /// When the first of it happens, on the world's clock \[s\].
     #[inline(always)]
     pub fn time(&self) -> f64 {
-        self.time.min(self.departure)
+        self.first.time.min(self.departure)
     }
 
     /// What happens first.
     #[inline(always)]
     pub fn next(&self) -> Next {
-        if self.departure < self.time {
+        if self.departure < self.first.time {
             Next::Departure(self.departure)
         } else {
             Next::Event(self.event())
@@ -121,9 +178,10 @@ mod tests {
         let others = [Target::Surface(0), Target::Surface(7), Target::Cluster, Target::Restart];
         for (number, target) in (0u32..).zip(spheres.into_iter().chain(others)) {
             let event = Event { time: f64::from(number), target, flights: number };
-            assert_eq!(Outlook::new(event, 2.0).event(), event);
-            let is_first = event.time <= 2.0;
-            assert_eq!(Outlook::new(event, 2.0).next() == Next::Event(event), is_first);
+            let ahead = Ahead { first: event, second: Event { time: 9.0, ..event } };
+            let outlook = Outlook::new(ahead, 2.0);
+            assert_eq!((outlook.ahead(), outlook.event()), (ahead, event));
+            assert_eq!(outlook.next() == Next::Event(event), event.time <= 2.0);
         }
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::body::{Body, Kind};
-use super::outlook::{Event, Outlook, Target};
+use super::outlook::{Ahead, Event, Outlook, Target};
 use super::stage::Stage;
 use super::surroundings::Surroundings;
 use super::timeline::Timeline;
@@ -17,6 +17,16 @@ pub(super) fn predict(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now
     timeline.schedule(slot, outlook);
 }
 
+/// Lets a sphere go on to what it meets next, where the other one of a meeting that is due `now` \[s\]
+/// began another flight before. Whoever does so looks at all around it, so that this one need not
+/// look at it again.
+pub(super) fn fall_back(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now: f64) {
+    match timeline.outlooks[slot as usize].ahead().without_first() {
+        Some(rest) if !timeline.is_void(&rest.first) => timeline.reschedule(slot, rest),
+        _ => predict(timeline, stage, slot, now),
+    }
+}
+
 /// What lies ahead of a sphere as of `now` \[s\].
 ///
 /// Times follow from the flights alone: whoever predicts a meeting, and whenever, finds the same
@@ -28,11 +38,11 @@ pub(super) fn outlook(
     around: &mut Surroundings,
     now: f64,
 ) -> Outlook {
-    let mut first = Event::NEVER;
+    let mut ahead = Ahead::NOTHING;
     let start_with = start_with_later(timeline, slot);
     around.look(timeline, slot, &start_with, (slot, 0.0));
-    around.first_meeting(timeline, slot, start_with, &mut first);
-    outlook_after(timeline, system, slot, first, now)
+    around.first_meetings(timeline, slot, start_with, &mut ahead);
+    outlook_after(timeline, system, slot, ahead, now)
 }
 
 /// Likewise for a sphere whose flight begins now, when it has looked around.
@@ -44,18 +54,18 @@ pub(super) fn outlook_from_here(
     around: &Surroundings,
     now: f64,
 ) -> Outlook {
-    let mut first = Event::NEVER;
-    around.first_meeting(timeline, slot, |_| now, &mut first);
-    outlook_after(timeline, system, slot, first, now)
+    let mut ahead = Ahead::NOTHING;
+    around.first_meetings(timeline, slot, |_| now, &mut ahead);
+    outlook_after(timeline, system, slot, ahead, now)
 }
 
-/// Likewise when it is known which sphere it meets first.
+/// Likewise when it is known which spheres it meets.
 #[inline(always)]
 fn outlook_after(
     timeline: &Timeline,
     system: &System,
     slot: u32,
-    mut first: Event,
+    mut ahead: Ahead,
     now: f64,
 ) -> Outlook {
     let body = &timeline.bodies[slot as usize];
@@ -63,16 +73,14 @@ fn outlook_after(
     let (neighbours, horizon) = (&timeline.neighbours, timeline.horizon());
     let stays = horizon < f64::INFINITY && neighbours.stays(slot, body, kind, horizon);
     if !(stays && timeline.has_room(slot)) {
-        meet_surfaces(timeline, system, slot, body, kind, &mut first);
+        meet_surfaces(timeline, system, slot, body, kind, &mut ahead);
     }
     if let Some(cluster) = kind.cluster {
-        let renewal = timeline.clusters.renewal_by(cluster, slot);
-        if renewal < first.time {
-            first = Event { time: renewal, target: Target::Cluster, flights: 0 };
-        }
+        let time = timeline.clusters.renewal_by(cluster, slot);
+        ahead.add(Event { time, target: Target::Cluster, flights: 0 });
     }
     let departure = if stays { f64::INFINITY } else { neighbours.departure(slot, body, kind, now) };
-    Outlook::new(first, departure)
+    Outlook::new(ahead, departure)
 }
 
 /// Lets a sphere pass over a meeting that is due before `until` \[s\], to begin another flight then.
@@ -88,7 +96,8 @@ pub(super) fn pause(timeline: &mut Timeline, slot: u32, bodies: Bodies, until: f
         Target::Cluster | Target::Restart => return,
     };
     if again == bodies && event.time < until {
-        timeline.reschedule(slot, Event { time: until, target: Target::Restart, flights: 0 });
+        let restart = Event { time: until, target: Target::Restart, flights: 0 };
+        timeline.reschedule(slot, Ahead::only(restart));
     }
 }
 
@@ -105,11 +114,11 @@ pub(super) fn relocate(timeline: &mut Timeline, stage: &mut Stage, slot: u32, no
     let state = timeline.state_of(slot, now);
     let around = &mut stage.around[0];
     timeline.relocate(slot, state.into(), &mut around.near);
-    let mut first = timeline.outlooks[slot as usize].event();
+    let mut ahead = timeline.outlooks[slot as usize].ahead();
     let start_with = start_with_later(timeline, slot);
     around.look_at_found(timeline, slot, &start_with, (slot, 0.0));
-    around.first_meeting(timeline, slot, start_with, &mut first);
-    let outlook = outlook_after(timeline, stage.system, slot, first, now);
+    around.first_meetings(timeline, slot, start_with, &mut ahead);
+    let outlook = outlook_after(timeline, stage.system, slot, ahead, now);
     timeline.schedule(slot, outlook);
 }
 
@@ -119,8 +128,7 @@ fn start_with_later(timeline: &Timeline, slot: u32) -> impl Fn(&Body) -> f64 {
     move |other| time.max(other.time)
 }
 
-/// Puts the first of the surfaces near it that a sphere meets in the place of `first`, if it comes
-/// first.
+/// Adds the surfaces near it that a sphere meets to what lies ahead of it.
 #[inline]
 fn meet_surfaces(
     timeline: &Timeline,
@@ -128,7 +136,7 @@ fn meet_surfaces(
     slot: u32,
     body: &Body,
     kind: &Kind,
-    first: &mut Event,
+    ahead: &mut Ahead,
 ) {
     if system.surfaces.is_empty() {
         return;
@@ -156,11 +164,9 @@ fn meet_surfaces(
         let until = if turns { timeline.frame[1] } else { horizon };
         let delay =
             contact_time::sphere_surface(&flight, kind.radius, &form, &motion, until - start);
-        if let Some(delay) = delay
-            && start + delay < first.time
-        {
+        if let Some(delay) = delay {
             let target = Target::Surface(number);
-            *first = Event { time: start + delay, target, flights: 0 };
+            ahead.add(Event { time: start + delay, target, flights: 0 });
         }
     }
 }

@@ -1,10 +1,12 @@
 //! What a sphere sees around it: how far its neighbours are, and which of them it meets first.
 
+use std::hint::select_unpredictable;
+
 use glam::DVec3;
 
 use super::body::{Body, Kind};
 use super::neighbour::Neighbour;
-use super::outlook::{Event, Target};
+use super::outlook::{Ahead, Event, Target};
 use super::timeline::Timeline;
 use super::vicinity::{Near, Vicinity};
 use crate::contact_time;
@@ -208,62 +210,68 @@ impl Surroundings {
         near.any(|near| is_near(timeline, slot, near, place, part))
     }
 
-    /// Puts the first meeting with one of those in the place of `first`, if it comes first.
+    /// Adds the first two meetings with those to what lies ahead of the sphere.
     #[inline(always)]
-    pub fn first_meeting(
+    pub fn first_meetings(
         &self,
         timeline: &Timeline,
         slot: u32,
         start_with: impl Fn(&Body) -> f64,
-        first: &mut Event,
+        ahead: &mut Ahead,
     ) {
         let falls = timeline.kind_of(slot).acceleration != DVec3::ZERO;
         match (timeline.all_fly_alike(), falls) {
             (true, false) => {
-                self.first_meeting_of::<true, false>(timeline, slot, start_with, first);
+                self.first_meetings_of::<true, false>(timeline, slot, start_with, ahead);
             }
             (true, true) => {
-                self.first_meeting_of::<true, true>(timeline, slot, start_with, first);
+                self.first_meetings_of::<true, true>(timeline, slot, start_with, ahead);
             }
             (false, false) => {
-                self.first_meeting_of::<false, false>(timeline, slot, start_with, first);
+                self.first_meetings_of::<false, false>(timeline, slot, start_with, ahead);
             }
             (false, true) => {
-                self.first_meeting_of::<false, true>(timeline, slot, start_with, first);
+                self.first_meetings_of::<false, true>(timeline, slot, start_with, ahead);
             }
         }
     }
 
     #[inline(always)]
-    fn first_meeting_of<const ALIKE: bool, const FALLS: bool>(
+    fn first_meetings_of<const ALIKE: bool, const FALLS: bool>(
         &self,
         timeline: &Timeline,
         slot: u32,
         start_with: impl Fn(&Body) -> f64,
-        first: &mut Event,
+        ahead: &mut Ahead,
     ) {
         let Timeline { bodies, kinds, .. } = timeline;
         let body = &bodies[slot as usize];
         let kind = &kinds[body.kind as usize];
         let Kind { acceleration, radius, .. } = *kind;
-        let (mut time, mut which) = (first.time, None);
-        for one in &self.closing[..self.count] {
+        let [mut first, mut second] = [(f64::INFINITY, 0); 2];
+        let closing = &self.closing[..self.count];
+        for (number, one) in closing.iter().enumerate() {
             let other = &bodies[one.neighbour.slot() as usize];
             let other_kind = if ALIKE { kind } else { &kinds[other.kind as usize] };
-            let meeting = if ALIKE || kind.flies_like(other_kind) {
+            let time = if ALIKE || kind.flies_like(other_kind) {
                 let start = start_with(other);
                 let pair = Pair::<FALLS> { bodies: [body, other], acceleration, start };
                 pair.meeting(one.offset, radius + other_kind.radius)
             } else {
                 meeting_of_others(timeline, slot, one.neighbour)
             };
-            let is_first = meeting < time;
-            time = if is_first { meeting } else { time };
-            which = if is_first { Some(one.neighbour) } else { which };
+            // Without branches, likewise.
+            let (is_first, is_second) = (time < first.0, time < second.0);
+            let later = select_unpredictable(is_first, first, (time, number));
+            second = select_unpredictable(is_second, later, second);
+            first = select_unpredictable(is_first, (time, number), first);
         }
-        if let Some(other) = which {
-            let (target, other) = (Target::Sphere(other.slot()), &bodies[other.slot() as usize]);
-            *first = Event { time, target, flights: other.flights };
+        for (time, number) in [first, second] {
+            if time < f64::INFINITY {
+                let other = closing[number].neighbour.slot();
+                let flights = bodies[other as usize].flights;
+                ahead.add(Event { time, target: Target::Sphere(other), flights });
+            }
         }
     }
 }

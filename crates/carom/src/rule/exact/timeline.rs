@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::body::{Body, Kind};
 use super::cluster::{Cluster, Clusters};
 use super::neighbours::{self, Contents, Neighbours};
-use super::outlook::{Event, Next, Outlook, Target};
+use super::outlook::{Ahead, Event, Next, Outlook, Target};
 use super::periodic;
 use super::queue::{Entry, EventQueue};
 use super::room::Room;
@@ -266,9 +266,9 @@ impl Timeline {
     }
 
     /// Notes what a sphere meets next.
-    pub(super) fn reschedule(&mut self, slot: u32, event: Event) {
+    pub(super) fn reschedule(&mut self, slot: u32, ahead: Ahead) {
         let departure = self.outlooks[slot as usize].departure;
-        self.schedule(slot, Outlook::new(event, departure));
+        self.schedule(slot, Outlook::new(ahead, departure));
     }
 
     /// Notes what lies ahead of a sphere.
@@ -277,6 +277,15 @@ impl Timeline {
         self.outlooks[slot as usize] = outlook;
         let index = self.index_of[slot as usize];
         self.queue.push(Entry { time: outlook.time(), slot, index });
+    }
+
+    /// Whether a meeting with another sphere will not be, for that one began another flight.
+    #[inline]
+    pub(super) fn is_void(&self, event: &Event) -> bool {
+        match event.target {
+            Target::Sphere(other) => self.bodies[other as usize].flights != event.flights,
+            _ => false,
+        }
     }
 
     /// What happens next, not later than `end` \[s\], and to which sphere.
