@@ -1,12 +1,18 @@
 //! A neighbour of a sphere.
 
+use glam::DVec3;
+
+use super::periodic::way_round;
+
 /// Bits of the slot in a [`Neighbour`].
 const SLOT_BITS: u32 = 27;
 /// The image 0 turns away, among those at -1, 0 or 1 turns about each axis.
 const MIDDLE_IMAGE: i32 = 13;
+/// How many images can be told apart, with the sphere in the same box, and some that are none.
+pub(super) const IMAGES: usize = 1 << (u32::BITS - SLOT_BITS);
 /// The turns of each image, by its number and one more: to look them up takes less than to count.
-const TURNS: [[i32; 3]; 1 << (u32::BITS - SLOT_BITS)] = {
-    let mut turns = [[0; 3]; 1 << (u32::BITS - SLOT_BITS)];
+const TURNS: [[i32; 3]; IMAGES] = {
+    let mut turns = [[0; 3]; IMAGES];
     let mut number = 0;
     while number <= 2 * MIDDLE_IMAGE {
         turns[number as usize + 1] = [number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1];
@@ -54,7 +60,18 @@ impl Neighbour {
 
     /// The turns of an image.
     pub fn image_turns(self) -> [i32; 3] {
-        TURNS[(self.0 >> SLOT_BITS) as usize]
+        TURNS[self.image_number()]
+    }
+
+    /// Which image it is.
+    #[inline(always)]
+    pub fn image_number(self) -> usize {
+        (self.0 >> SLOT_BITS) as usize
+    }
+
+    /// The way to each image in a periodic box with these edges \[m\], by its number.
+    pub fn ways_to_images(period: DVec3) -> [DVec3; IMAGES] {
+        TURNS.map(|turns| way_round(turns, period))
     }
 
     /// What the sphere at `slot`, of which this is a neighbour, is to it.

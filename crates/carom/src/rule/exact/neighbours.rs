@@ -27,7 +27,7 @@ use super::body::{Body, Kind};
 use super::grid::{Grid, Side};
 use super::lists::Lists;
 use super::near_surfaces::NearSurfaces;
-use super::neighbour::Neighbour;
+use super::neighbour::{IMAGES, Neighbour};
 use super::periodic::{folded, turns_of, way_round};
 use super::vicinity::{Buffer, CellLists, Near, NeighbourLists, Vicinity, are_in_same_box};
 use crate::detect::surface_tree::SurfaceTree;
@@ -65,6 +65,8 @@ pub(super) struct Neighbours {
     lists: Option<NeighbourLists>,
     /// Edges of the periodic box \[m\]; infinite along an open axis.
     period: DVec3,
+    /// The way to each image there \[m\], by its number.
+    ways_to_images: [DVec3; IMAGES],
     /// Whether spheres have to find each other at all.
     spheres_collide: bool,
     /// Working memory of a relocation: neighbours before and after.
@@ -244,6 +246,7 @@ impl Neighbours {
             neighbourhoods: bodies.iter().map(nowhere).collect(),
             lists,
             period,
+            ways_to_images: Neighbour::ways_to_images(period),
             spheres_collide,
             ..Self::default()
         };
@@ -314,11 +317,20 @@ impl Neighbours {
     /// Where to a neighbour of the sphere at `slot` has to be shifted to be near \[m\].
     #[inline(always)]
     pub fn shift_of(&self, slot: u32, neighbour: Neighbour) -> DVec3 {
-        if neighbour.is_in_same_box() { DVec3::ZERO } else { self.shift_of_image(slot, neighbour) }
+        if neighbour.is_in_same_box() {
+            return DVec3::ZERO;
+        }
+        let is_in_box = |slot: u32| self.neighbourhoods[slot as usize].turns == [0; 3];
+        if is_in_box(slot) & is_in_box(neighbour.slot()) {
+            self.ways_to_images[neighbour.image_number()]
+        } else {
+            self.shift_of_far_image(slot, neighbour)
+        }
     }
 
+    #[cold]
     #[inline(never)]
-    fn shift_of_image(&self, slot: u32, neighbour: Neighbour) -> DVec3 {
+    fn shift_of_far_image(&self, slot: u32, neighbour: Neighbour) -> DVec3 {
         let turns = self.turns_between(slot, neighbour.slot(), neighbour.image_turns());
         way_round(turns, self.period)
     }
@@ -519,9 +531,9 @@ impl Neighbours {
                 near.sort_from(start, slot);
             } else {
                 let others = &near.same_box.buffer[start..near.same_box.len];
-                let others = others.iter().filter(|other| other.slot() != slot);
-                let image = |other: &Neighbour| Neighbour::image(other.slot(), block.turns);
-                near.images.extend(others.map(image));
+                near.images.add(others, |other| {
+                    (Neighbour::image(other.slot(), block.turns), other.slot() != slot)
+                });
                 near.same_box.len = start;
             }
         });
@@ -540,7 +552,7 @@ impl Neighbours {
                 // What is left in the end is gone.
                 if !before.drop_from(0, come) {
                     lists.add(come.slot() as usize, come.mirrored(slot));
-                    new.images.push(come);
+                    new.images.add(&[come], |come| (come, true));
                 }
             }
             for gone in before.found() {

@@ -34,7 +34,7 @@ impl<'a> Near<'a> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Vicinity {
     pub same_box: Buffer,
-    pub images: Vec<Neighbour>,
+    pub images: Buffer,
     /// Whether they are all on the list of the sphere, in the same box: then they are not here.
     pub are_listed: bool,
 }
@@ -43,13 +43,13 @@ impl Vicinity {
     /// Those who were gathered.
     #[inline(always)]
     pub fn near(&self) -> Near<'_> {
-        Near { same_box: self.same_box.found(), images: &self.images }
+        Near { same_box: self.same_box.found(), images: self.images.found() }
     }
 
     #[inline(always)]
     pub fn clear(&mut self) {
         self.same_box.len = 0;
-        self.images.clear();
+        self.images.len = 0;
         self.are_listed = false;
     }
 
@@ -61,7 +61,7 @@ impl Vicinity {
         if are_in_same_box(added) {
             same_box.drop_from(start, Neighbour::in_same_box(slot));
         } else {
-            images.extend(added.iter().filter(|other| !other.is_in_same_box()));
+            images.add(added, |other| (other, !other.is_in_same_box()));
             same_box.retain_from(start, |other| other.is_in_same_box() & (other.slot() != slot));
         }
     }
@@ -79,6 +79,28 @@ impl Buffer {
     #[inline(always)]
     pub fn found(&self) -> &[Neighbour] {
         &self.buffer[..self.len]
+    }
+
+    /// Adds what some neighbours are turned into, if that is to be kept. Without branches on that,
+    /// which no processor can foresee.
+    #[inline(always)]
+    pub fn add(
+        &mut self,
+        neighbours: &[Neighbour],
+        turned: impl Fn(Neighbour) -> (Neighbour, bool),
+    ) {
+        let Self { buffer, len } = self;
+        if buffer.len() < *len + neighbours.len() {
+            buffer.resize(*len + neighbours.len(), Neighbour::default());
+        }
+        let free = &mut buffer[*len..][..neighbours.len()];
+        let mut count = 0;
+        for &neighbour in neighbours {
+            let (neighbour, is_kept) = turned(neighbour);
+            free[count] = neighbour;
+            count += usize::from(is_kept);
+        }
+        *len += count;
     }
 
     /// Adds the spheres of some cells.
@@ -121,8 +143,7 @@ impl Buffer {
         count > 0
     }
 
-    /// Of those from `start` on, keeps some. Without branches on that, which no processor can
-    /// foresee.
+    /// Of those from `start` on, keeps some, likewise without branches.
     #[inline(always)]
     pub fn retain_from(&mut self, start: usize, is_kept: impl Fn(Neighbour) -> bool) {
         let found = &mut self.buffer[start..self.len];
