@@ -14,7 +14,7 @@ const CELLS_PER_SPHERE: f64 = 4.0;
 const MAX_CELLS: f64 = 65_000.0;
 
 /// Cells of equal size. The outermost ones of an open axis reach to infinity; a periodic axis closes
-/// on itself.
+/// on itself: beyond its ends are ghosts, which are copies of the cells at the other end.
 #[derive(Debug, Clone)]
 pub(super) struct Grid {
     /// Corner of cell (0, 0, 0) \[m\].
@@ -25,18 +25,17 @@ pub(super) struct Grid {
     per_metre: DVec3,
     counts: [u16; 3],
     periodic: [bool; 3],
-    /// By axis and coordinate: a cell and those next to it.
+    /// By axis and coordinate: a cell and those next to it. For open axes only.
     runs: [Vec<[Run; 3]>; 3],
 }
 
-/// Cells about one that lie side by side and are seen from there alike.
+/// Cells about one, ghosts among them, that lie side by side and are seen from there alike.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Block<'a> {
     grid: &'a Grid,
+    /// Ghosts counted.
     first: [u16; 3],
     lens: [u16; 3],
-    /// How often the way there goes round each periodic axis.
-    pub turns: [i8; 3],
     /// Whether these cells, or the one they are seen from, reach to infinity along each axis.
     pub is_endless: [bool; 3],
 }
@@ -48,7 +47,7 @@ impl Block<'_> {
         self.lens.iter().map(|&len| usize::from(len)).product()
     }
 
-    /// Visits the cells, in rows one after another.
+    /// Visits the cells, in rows one after another, by their numbers with ghosts.
     #[inline(always)]
     pub fn for_each_row(&self, mut visit: impl FnMut(Range<usize>)) {
         // As a rule it is a cube, whose loops need not be counted.
@@ -58,15 +57,16 @@ impl Block<'_> {
 
     #[inline(always)]
     fn rows(&self, [x, y, z]: [usize; 3], visit: &mut impl FnMut(Range<usize>)) {
-        let [row, layer] = [self.grid.counts[0], self.grid.counts[1]].map(usize::from);
-        let mut first_of_layer = self.grid.index(self.first);
+        let [row, column, _] = self.grid.counts_with_ghosts();
+        let layer = row * column;
+        let mut first_of_layer = self.grid.number_with_ghosts(self.first);
         for _ in 0..z {
             let mut first = first_of_layer;
             for _ in 0..y {
                 visit(first..first + x);
                 first += row;
             }
-            first_of_layer += row * layer;
+            first_of_layer += layer;
         }
     }
 }
@@ -76,12 +76,11 @@ impl Block<'_> {
 struct Run {
     first: u16,
     len: u16,
-    turns: i8,
     is_endless: bool,
 }
 
 impl Run {
-    const NONE: Self = Self { first: 0, len: 0, turns: 0, is_endless: false };
+    const NONE: Self = Self { first: 0, len: 0, is_endless: false };
 }
 
 /// A side of a cell: downward or upward along an axis.
@@ -128,7 +127,7 @@ impl Grid {
 
     fn with_runs(self) -> Self {
         let runs = |axis| {
-            let cells = 0..self.counts[axis];
+            let cells = if self.periodic[axis] { 0..0 } else { 0..self.counts[axis] };
             cells.map(|cell| self.runs_of(cell, axis, [-1, 1])).collect()
         };
         Self { runs: [0, 1, 2].map(runs), ..self }
@@ -137,6 +136,52 @@ impl Grid {
     /// How many cells there are.
     pub fn len(&self) -> usize {
         self.counts.iter().map(|&count| usize::from(count)).product()
+    }
+
+    /// How many there are with ghosts.
+    pub fn len_with_ghosts(&self) -> usize {
+        self.counts_with_ghosts().into_iter().product()
+    }
+
+    /// Ghosts before the first cell of an axis, and behind the last.
+    #[inline(always)]
+    fn ghosts(&self, axis: usize) -> u16 {
+        u16::from(self.periodic[axis])
+    }
+
+    #[inline(always)]
+    fn counts_with_ghosts(&self) -> [usize; 3] {
+        [0, 1, 2].map(|axis| usize::from(self.counts[axis] + 2 * self.ghosts(axis)))
+    }
+
+    /// The number of a cell whose coordinates count ghosts.
+    #[inline(always)]
+    fn number_with_ghosts(&self, cell: [u16; 3]) -> usize {
+        let ([row, column, _], [x, y, z]) = (self.counts_with_ghosts(), cell.map(usize::from));
+        x + row * (y + column * z)
+    }
+
+    /// Visits a cell and its ghosts, with their numbers and the turns about each axis after which
+    /// what is in the cell is seen there.
+    #[inline(always)]
+    pub fn for_each_copy(&self, cell: [u16; 3], mut visit: impl FnMut(usize, [i32; 3])) {
+        let turns = |axis: usize| {
+            let [is_first, is_last] = [cell[axis] == 0, cell[axis] + 1 == self.counts[axis]];
+            let is_periodic = self.periodic[axis];
+            -i16::from(is_last & is_periodic)..=i16::from(is_first & is_periodic)
+        };
+        let place = |axis: usize, turns: i16| {
+            let place = cell[axis] + self.ghosts(axis);
+            place.wrapping_add_signed(turns.wrapping_mul(self.counts[axis] as i16))
+        };
+        for z in turns(2) {
+            for y in turns(1) {
+                for x in turns(0) {
+                    let copy = [place(0, x), place(1, y), place(2, z)];
+                    visit(self.number_with_ghosts(copy), [x, y, z].map(i32::from));
+                }
+            }
+        }
     }
 
     /// Whether every axis closes on itself.
@@ -214,20 +259,18 @@ impl Grid {
     /// Visits those of a cell and the cells next to it that lie on one side, if one is given.
     #[inline(always)]
     pub fn for_each_block(&self, cell: [u16; 3], side: Option<Side>, mut visit: impl FnMut(Block)) {
-        let is_inside = (0..3).all(|axis| {
-            let rim = self.rim(axis);
-            cell[axis] >= rim && cell[axis] + rim < self.counts[axis]
-        });
-        if is_inside {
-            let (mut first, mut lens) = (cell.map(|cell| cell - 1), [3; 3]);
+        if (0..3).all(|axis| self.is_inside(axis, cell[axis])) {
+            let mut first = [0, 1, 2].map(|axis| cell[axis] + self.ghosts(axis) - 1);
+            let mut lens = [3; 3];
             if let Some(Side { axis, step }) = side {
-                (first[axis], lens[axis]) = (cell[axis].wrapping_add_signed(step), 1);
+                (first[axis], lens[axis]) = ((first[axis] + 1).wrapping_add_signed(step), 1);
             }
-            visit(Block { grid: self, first, lens, turns: [0; 3], is_endless: [false; 3] });
+            visit(Block { grid: self, first, lens, is_endless: [false; 3] });
             return;
         }
         let runs = |axis| match side {
             Some(side) if side.axis == axis => self.runs_of(cell[axis], axis, [side.step; 2]),
+            _ if self.periodic[axis] => self.runs_of(cell[axis], axis, [-1, 1]),
             _ => self.runs[axis][usize::from(cell[axis])],
         };
         let [x, y, z] = [runs(0), runs(1), runs(2)];
@@ -238,7 +281,6 @@ impl Grid {
                         grid: self,
                         first: [x.first, y.first, z.first],
                         lens: [x.len, y.len, z.len],
-                        turns: [x.turns, y.turns, z.turns],
                         is_endless: [x.is_endless, y.is_endless, z.is_endless],
                     });
                 }
@@ -264,18 +306,18 @@ impl Grid {
         Some(Side { axis, step })
     }
 
-    /// How far from the outermost cells none of those next to a cell is seen otherwise.
+    /// Whether a cell has others next to it on both sides of an axis, and none of them, nor itself,
+    /// reaches to infinity.
     #[inline(always)]
-    fn rim(&self, axis: usize) -> u16 {
-        if self.periodic[axis] { 1 } else { 2 }
+    fn is_inside(&self, axis: usize, cell: u16) -> bool {
+        self.periodic[axis] || (cell >= 2 && cell + 2 < self.counts[axis])
     }
 
     /// A cell and those next to it along an axis, of these steps: runs in order, then empty ones.
     fn runs_of(&self, cell: u16, axis: usize, steps: [i16; 2]) -> [Run; 3] {
-        let rim = self.rim(axis);
-        if cell >= rim && cell + rim < self.counts[axis] {
-            let (first, len) = (cell.wrapping_add_signed(steps[0]), steps[1] - steps[0] + 1);
-            let run = Run { first, len: len as u16, ..Run::NONE };
+        if self.is_inside(axis, cell) {
+            let first = (cell + self.ghosts(axis)).wrapping_add_signed(steps[0]);
+            let run = Run { first, len: (steps[1] - steps[0] + 1) as u16, is_endless: false };
             return [run, Run::NONE, Run::NONE];
         }
         let count = i32::from(self.counts[axis]);
@@ -284,22 +326,15 @@ impl Grid {
         let mut next = 0;
         for step in steps[0]..=steps[1] {
             let number = i32::from(cell) + i32::from(step);
-            // At most one turn: a division would take as long as all the rest.
-            let turns = i32::from(number >= count) - i32::from(number < 0);
-            if turns != 0 && !self.periodic[axis] {
+            if !(0..count).contains(&number) {
                 continue;
             }
-            let number = number - turns * count;
-            let is_open = !self.periodic[axis];
-            let is_endless = is_open && (is_outermost(number) || is_outermost(i32::from(cell)));
-            let run = Run { first: number as u16, len: 1, turns: turns as i8, is_endless };
+            let is_endless = is_outermost(number) || is_outermost(i32::from(cell));
             let last: &mut Run = &mut runs[usize::max(next, 1) - 1];
-            let joins = last.first + last.len == run.first
-                && (last.turns, last.is_endless) == (run.turns, run.is_endless);
-            if next > 0 && joins {
+            if next > 0 && last.is_endless == is_endless {
                 last.len += 1;
             } else {
-                runs[next] = run;
+                runs[next] = Run { first: number as u16, len: 1, is_endless };
                 next += 1;
             }
         }

@@ -36,8 +36,7 @@ impl Neighbour {
     }
 
     /// One whose image is near, so many turns from itself in the box about the origin.
-    pub fn image(slot: u32, turns: [i8; 3]) -> Self {
-        let [x, y, z] = turns.map(i32::from);
+    pub fn image(slot: u32, [x, y, z]: [i32; 3]) -> Self {
         let number = x + 3 * y + 9 * z + MIDDLE_IMAGE;
         Self(slot | (number as u32 + 1) << SLOT_BITS)
     }
@@ -61,6 +60,12 @@ impl Neighbour {
     /// The turns of an image.
     pub fn image_turns(self) -> [i32; 3] {
         TURNS[self.image_number()]
+    }
+
+    /// The same, where no image is in the same box.
+    #[inline(always)]
+    pub fn as_image(self) -> Self {
+        if self.is_in_same_box() { Self::image(self.slot(), [0; 3]) } else { self }
     }
 
     /// Which image it is.
@@ -91,15 +96,16 @@ mod tests {
     #[test]
     fn image_tells_its_turns_and_mirrors_them() {
         let slot = MAX_SPHERES as u32 - 1;
-        for number in 0..27i8 {
+        for number in 0..27 {
             let turns = [number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1];
             let image = Neighbour::image(slot, turns);
             assert_eq!((image.slot(), image.is_in_same_box()), (slot, false));
-            assert_eq!(image.image_turns(), turns.map(i32::from));
+            assert_eq!((image.image_turns(), image.as_image()), (turns, image));
             assert_eq!(image.mirrored(7), Neighbour::image(7, turns.map(|turns| -turns)));
         }
         let plain = Neighbour::in_same_box(slot);
         assert!(plain.is_in_same_box() && plain.slot() == slot);
         assert_eq!(plain.mirrored(7), Neighbour::in_same_box(7));
+        assert_eq!(plain.as_image(), Neighbour::image(slot, [0; 3]));
     }
 }

@@ -228,8 +228,8 @@ impl Neighbours {
                 if lists.is_some() { half_edges } else { half_edges - 0.5 * grid.width() };
             let radius = contents.radius_of(number);
             Level {
-                own: Lists::new(grid.len()),
-                visitors: (number as usize + 1 < count).then(|| Lists::new(grid.len())),
+                own: Lists::new(grid.len_with_ghosts()),
+                visitors: (number as usize + 1 < count).then(|| Lists::new(grid.len_with_ghosts())),
                 surfaces: NearSurfaces::new(contents, &grid, overhang, radius),
                 half_edges,
                 grid,
@@ -476,7 +476,8 @@ impl Neighbours {
         self.for_its_cells(slot, level, |cells, cell, mark| cells.remove(cell, mark));
     }
 
-    /// Does something about a sphere in the cell that holds it on each level.
+    /// Does something about a sphere, or an image of it, in the cell that holds it on each level and
+    /// in the ghosts of that.
     #[inline]
     fn for_its_cells(
         &mut self,
@@ -484,15 +485,19 @@ impl Neighbours {
         own_level: u32,
         mut act: impl FnMut(&mut CellLists, usize, Neighbour),
     ) {
-        let mark = self.mark(slot);
+        let own_mark = self.mark(slot);
+        let mark = |turns| if turns == [0; 3] { own_mark } else { Neighbour::image(slot, turns) };
+        let mut act = |grid: &Grid, cells: &mut CellLists, cell| {
+            grid.for_each_copy(cell, |number, turns| act(cells, number, mark(turns)));
+        };
         let Neighbourhood { center, cell, .. } = self.neighbourhoods[slot as usize];
         for Level { grid, visitors, .. } in &mut self.levels[..own_level as usize] {
             if let Some(visitors) = visitors {
-                act(visitors, grid.index(grid.cell_of(center)), mark);
+                act(grid, visitors, grid.cell_of(center));
             }
         }
         let Level { grid, own, .. } = &mut self.levels[own_level as usize];
-        act(own, grid.index(cell), mark);
+        act(grid, own, cell);
     }
 
     /// Appends the spheres in the cells around a sphere; of its own level, and of smaller spheres, those
@@ -527,14 +532,13 @@ impl Neighbours {
         grid.for_each_block(cell, side, |block| {
             let start = near.same_box.len;
             near.same_box.add_block(spheres, &block);
-            if block.turns == [0; 3] && !is_turned {
-                near.sort_from(start, slot);
-            } else {
+            if is_turned {
+                // Even those in the box about the origin are images.
                 let others = &near.same_box.buffer[start..near.same_box.len];
-                near.images.add(others, |other| {
-                    (Neighbour::image(other.slot(), block.turns), other.slot() != slot)
-                });
+                near.images.add(others, |other| (other.as_image(), other.slot() != slot));
                 near.same_box.len = start;
+            } else {
+                near.sort_from(start, slot);
             }
         });
     }
@@ -570,13 +574,12 @@ impl Neighbours {
         grid.for_each_block(cell, None, |block| {
             let start = peers.len;
             peers.add_block(own, &block);
-            let image = block.turns;
-            let way = way_round(image.map(i32::from), self.period);
             let reach = block.is_endless.map(|is| if is { f64::INFINITY } else { 2.0 });
             let reach = DVec3::from_array(reach) * half_edges;
             peers.retain_from(start, |other| {
                 let neighbourhood = &self.neighbourhoods[other.slot() as usize];
                 // Seen from the other one it is the same to the last bit, but for the sign.
+                let way = self.ways_to_images[other.image_number()];
                 let offset = (neighbourhood.center - center) + way;
                 let gap = (offset.abs() - reach).max(DVec3::ZERO);
                 let radius_sum = radius + f64::from(neighbourhood.radius);
@@ -584,7 +587,7 @@ impl Neighbours {
                 is_near & (other.slot() != slot)
             });
             for other in &mut peers.buffer[start..peers.len] {
-                let found = other.slot();
+                let (found, image) = (other.slot(), other.image_turns());
                 let is_in_same_box =
                     image == [0; 3] && self.neighbourhoods[found as usize].turns == turns;
                 *other = if is_in_same_box {
@@ -597,8 +600,8 @@ impl Neighbours {
     }
 
     /// What a sphere is to that at `slot`, when its image so many turns away is near.
-    fn neighbour(&self, slot: u32, other: u32, turns: [i8; 3]) -> Neighbour {
-        if self.turns_between(slot, other, turns.map(i32::from)) == [0; 3] {
+    fn neighbour(&self, slot: u32, other: u32, turns: [i32; 3]) -> Neighbour {
+        if self.turns_between(slot, other, turns) == [0; 3] {
             Neighbour::in_same_box(other)
         } else {
             Neighbour::image(other, turns)
@@ -632,7 +635,7 @@ impl Neighbours {
         let counted = &mut self.neighbourhoods[slot as usize].turns;
         (0..3).for_each(|axis| counted[axis] -= turns[axis]);
         for (old, in_box) in near.into_iter().zip(in_box) {
-            let new = self.neighbour(slot, old.slot(), in_box.map(|turns| turns as i8));
+            let new = self.neighbour(slot, old.slot(), in_box);
             if let Some(lists) = &mut self.lists {
                 lists.replace(slot as usize, old, new);
                 lists.replace(old.slot() as usize, old.mirrored(slot), new.mirrored(slot));

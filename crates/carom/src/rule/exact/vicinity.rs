@@ -53,7 +53,8 @@ impl Vicinity {
         self.are_listed = false;
     }
 
-    /// Of those from `start` on, moves images to the others, and drops the sphere itself.
+    /// Of those from `start` on, moves images to the others, and drops the sphere itself, and images
+    /// of it.
     #[inline(always)]
     pub fn sort_from(&mut self, start: usize, slot: u32) {
         let Self { same_box, images, .. } = self;
@@ -61,7 +62,7 @@ impl Vicinity {
         if are_in_same_box(added) {
             same_box.drop_from(start, Neighbour::in_same_box(slot));
         } else {
-            images.add(added, |other| (other, !other.is_in_same_box()));
+            images.add(added, |other| (other, !other.is_in_same_box() & (other.slot() != slot)));
             same_box.retain_from(start, |other| other.is_in_same_box() & (other.slot() != slot));
         }
     }
