@@ -29,7 +29,7 @@ use super::lists::Lists;
 use super::near_surfaces::NearSurfaces;
 use super::neighbour::{IMAGES, Neighbour};
 use super::periodic::{folded, turns_of, way_round};
-use super::vicinity::{Buffer, CellLists, Near, NeighbourLists, Vicinity, are_in_same_box};
+use super::vicinity::{Buffer, CellLists, NeighbourLists, Vicinity};
 use crate::detect::surface_tree::SurfaceTree;
 use crate::norm::Norm;
 use crate::surface::Surface;
@@ -269,21 +269,18 @@ impl Neighbours {
     pub fn find(&self, slot: u32, level: u32, near: &mut Vicinity) {
         near.clear();
         let Some(lists) = &self.lists else { return self.gather(slot, level, None, near) };
-        near.are_listed = lists.whole(slot as usize).is_some_and(are_in_same_box);
+        near.are_listed = lists.whole(slot as usize).is_some();
         if !near.are_listed {
-            near.same_box.add_list(lists, slot);
-            near.sort_from(0, slot);
+            near.gathered.add_list(lists, slot);
         }
     }
 
     /// Those who were found near the sphere at `slot`.
     #[inline(always)]
-    pub fn found<'a>(&'a self, slot: u32, near: &'a Vicinity) -> Near<'a> {
+    pub fn found<'a>(&'a self, slot: u32, near: &'a Vicinity) -> &'a [Neighbour] {
         match &self.lists {
-            Some(lists) if near.are_listed => {
-                Near { same_box: lists.first(slot as usize), images: &[] }
-            }
-            _ => near.near(),
+            Some(lists) if near.are_listed => lists.first(slot as usize),
+            _ => near.gathered.found(),
         }
     }
 
@@ -317,9 +314,6 @@ impl Neighbours {
     /// Where to a neighbour of the sphere at `slot` has to be shifted to be near \[m\].
     #[inline(always)]
     pub fn shift_of(&self, slot: u32, neighbour: Neighbour) -> DVec3 {
-        if neighbour.is_in_same_box() {
-            return DVec3::ZERO;
-        }
         let is_in_box = |slot: u32| self.neighbourhoods[slot as usize].turns == [0; 3];
         if is_in_box(slot) & is_in_box(neighbour.slot()) {
             self.ways_to_images[neighbour.image_number()]
@@ -331,6 +325,9 @@ impl Neighbours {
     #[cold]
     #[inline(never)]
     fn shift_of_far_image(&self, slot: u32, neighbour: Neighbour) -> DVec3 {
+        if neighbour.is_in_same_box() {
+            return DVec3::ZERO;
+        }
         let turns = self.turns_between(slot, neighbour.slot(), neighbour.image_turns());
         way_round(turns, self.period)
     }
@@ -530,15 +527,13 @@ impl Neighbours {
     ) {
         let is_turned = self.neighbourhoods[slot as usize].turns != [0; 3];
         grid.for_each_block(cell, side, |block| {
-            let start = near.same_box.len;
-            near.same_box.add_block(spheres, &block);
+            let start = near.gathered.len;
+            near.gathered.add_block(spheres, &block);
+            near.gathered.retain_from(start, |other| other.slot() != slot);
             if is_turned {
                 // Even those in the box about the origin are images.
-                let others = &near.same_box.buffer[start..near.same_box.len];
-                near.images.add(others, |other| (other.as_image(), other.slot() != slot));
-                near.same_box.len = start;
-            } else {
-                near.sort_from(start, slot);
+                let gathered = &mut near.gathered.buffer[start..near.gathered.len];
+                gathered.iter_mut().for_each(|other| *other = other.as_image());
             }
         });
     }
@@ -556,7 +551,7 @@ impl Neighbours {
                 // What is left in the end is gone.
                 if !before.drop_from(0, come) {
                     lists.add(come.slot() as usize, come.mirrored(slot));
-                    new.images.add(&[come], |come| (come, true));
+                    new.gathered.push(come);
                 }
             }
             for gone in before.found() {

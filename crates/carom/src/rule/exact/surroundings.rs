@@ -8,7 +8,7 @@ use super::body::{Body, Kind};
 use super::neighbour::Neighbour;
 use super::outlook::{Ahead, Event, Target};
 use super::timeline::Timeline;
-use super::vicinity::{Near, Vicinity};
+use super::vicinity::{Vicinity, are_in_same_box};
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
@@ -154,26 +154,24 @@ impl Surroundings {
         besides: (u32, f64),
     ) -> bool {
         let Self { near, closing, count } = self;
-        let Near { same_box, images } = timeline.neighbours.found(slot, near);
+        let near = timeline.neighbours.found(slot, near);
         if timeline.are_many() {
             // All at once, so that none waits for another to come into the cache.
             let bodies = &timeline.bodies;
-            let times = same_box.iter().map(|near| bodies[near.slot() as usize].time);
+            let times = near.iter().map(|near| bodies[near.slot() as usize].time);
             std::hint::black_box(times.sum::<f64>());
         }
-        let most = same_box.len() + images.len();
-        if closing.len() < most {
+        if closing.len() < near.len() {
             let nobody = Neighbour::in_same_box(slot);
-            closing.resize(most, Closing { neighbour: nobody, offset: DVec3::ZERO });
+            closing.resize(near.len(), Closing { neighbour: nobody, offset: DVec3::ZERO });
         }
         let look = Look::<FALLS, _, _> { timeline, slot, start_with, is_alike, besides };
-        let closing = &mut closing[..most];
-        let seen = look.at(same_box, |_, offset| offset, closing, Seen::default());
-        let Seen { count: found, touches } = if images.is_empty() {
-            seen
+        let closing = &mut closing[..near.len()];
+        let Seen { count: found, touches } = if are_in_same_box(near) {
+            look.at(near, |_, offset| offset, closing)
         } else {
-            let shifted = |image, offset| offset + timeline.neighbours.shift_of(slot, image);
-            look.at(images, shifted, closing, seen)
+            let shifted = |other, offset| offset + timeline.neighbours.shift_of(slot, other);
+            look.at(near, shifted, closing)
         };
         *count = found;
         touches
@@ -189,7 +187,7 @@ impl Surroundings {
     ) -> bool {
         let (body, kind) = (&timeline.bodies[slot as usize], timeline.kind_of(slot));
         let mut near = timeline.neighbours.found(slot, &self.near).iter();
-        near.any(|near| {
+        near.any(|&near| {
             near.slot() != other
                 && !timeline.kind_of(near.slot()).flies_like(kind)
                 && is_near(timeline, slot, near, (body.position, body.time), part)
@@ -207,7 +205,7 @@ impl Surroundings {
     ) -> bool {
         timeline.neighbours.find(slot, timeline.kind_of(slot).level, &mut self.near);
         let mut near = timeline.neighbours.found(slot, &self.near).iter();
-        near.any(|near| is_near(timeline, slot, near, place, part))
+        near.any(|&near| is_near(timeline, slot, near, place, part))
     }
 
     /// Adds the first two meetings with those to what lies ahead of the sphere.
@@ -326,12 +324,12 @@ where
         near: &[Neighbour],
         shifted: impl Fn(Neighbour, DVec3) -> DVec3,
         found: &mut [Closing],
-        Seen { mut count, mut touches }: Seen,
     ) -> Seen {
         let bodies = &self.timeline.bodies[..];
         let body = bodies[self.slot as usize];
         let Kind { acceleration, radius, .. } = *self.timeline.kind_of(self.slot);
         let (besides, part) = self.besides;
+        let Seen { mut count, mut touches } = Seen::default();
         for &neighbour in near {
             let other = &bodies[neighbour.slot() as usize];
             let (is_alike, other_radius) = (self.is_alike)(other);

@@ -15,56 +15,19 @@ pub(super) fn are_in_same_box(neighbours: &[Neighbour]) -> bool {
     neighbours.iter().fold(Neighbour::default(), |all, &other| all.joined(other)).is_in_same_box()
 }
 
-/// Those who are near a sphere.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Near<'a> {
-    /// Those whose positions count in the same box as that of the sphere.
-    pub same_box: &'a [Neighbour],
-    /// Those of whom an image is near.
-    pub images: &'a [Neighbour],
-}
-
-impl<'a> Near<'a> {
-    pub fn iter(self) -> impl Iterator<Item = Neighbour> + use<'a> {
-        self.same_box.iter().chain(self.images).copied()
-    }
-}
-
 /// Memory in which those who are near a sphere are gathered.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Vicinity {
-    pub same_box: Buffer,
-    pub images: Buffer,
-    /// Whether they are all on the list of the sphere, in the same box: then they are not here.
+    pub gathered: Buffer,
+    /// Whether they are all on the list of the sphere: then they are not here.
     pub are_listed: bool,
 }
 
 impl Vicinity {
-    /// Those who were gathered.
-    #[inline(always)]
-    pub fn near(&self) -> Near<'_> {
-        Near { same_box: self.same_box.found(), images: self.images.found() }
-    }
-
     #[inline(always)]
     pub fn clear(&mut self) {
-        self.same_box.len = 0;
-        self.images.len = 0;
+        self.gathered.len = 0;
         self.are_listed = false;
-    }
-
-    /// Of those from `start` on, moves images to the others, and drops the sphere itself, and images
-    /// of it.
-    #[inline(always)]
-    pub fn sort_from(&mut self, start: usize, slot: u32) {
-        let Self { same_box, images, .. } = self;
-        let added = &same_box.buffer[start..same_box.len];
-        if are_in_same_box(added) {
-            same_box.drop_from(start, Neighbour::in_same_box(slot));
-        } else {
-            images.add(added, |other| (other, !other.is_in_same_box() & (other.slot() != slot)));
-            same_box.retain_from(start, |other| other.is_in_same_box() & (other.slot() != slot));
-        }
     }
 }
 
@@ -82,26 +45,11 @@ impl Buffer {
         &self.buffer[..self.len]
     }
 
-    /// Adds what some neighbours are turned into, if that is to be kept. Without branches on that,
-    /// which no processor can foresee.
-    #[inline(always)]
-    pub fn add(
-        &mut self,
-        neighbours: &[Neighbour],
-        turned: impl Fn(Neighbour) -> (Neighbour, bool),
-    ) {
+    pub fn push(&mut self, neighbour: Neighbour) {
         let Self { buffer, len } = self;
-        if buffer.len() < *len + neighbours.len() {
-            buffer.resize(*len + neighbours.len(), Neighbour::default());
-        }
-        let free = &mut buffer[*len..][..neighbours.len()];
-        let mut count = 0;
-        for &neighbour in neighbours {
-            let (neighbour, is_kept) = turned(neighbour);
-            free[count] = neighbour;
-            count += usize::from(is_kept);
-        }
-        *len += count;
+        buffer.truncate(*len);
+        buffer.push(neighbour);
+        *len += 1;
     }
 
     /// Adds the spheres of some cells.
@@ -144,7 +92,8 @@ impl Buffer {
         count > 0
     }
 
-    /// Of those from `start` on, keeps some, likewise without branches.
+    /// Of those from `start` on, keeps some. Without branches on that, which no processor can
+    /// foresee.
     #[inline(always)]
     pub fn retain_from(&mut self, start: usize, is_kept: impl Fn(Neighbour) -> bool) {
         let found = &mut self.buffer[start..self.len];
