@@ -190,8 +190,8 @@ impl Timeline {
             for (new, &old) in (0u32..).zip(&order) {
                 new_slots[old as usize] = new;
             }
-            self.bodies = order.iter().map(|&slot| self.bodies[slot as usize]).collect();
-            self.index_of = order.iter().map(|&slot| self.index_of[slot as usize]).collect();
+            put_in_order(&mut self.bodies, &order);
+            put_in_order(&mut self.index_of, &order);
             for (slot, &index) in (0u32..).zip(&self.index_of) {
                 self.slot_of[index as usize] = slot;
             }
@@ -551,6 +551,18 @@ impl Timeline {
             let (position, velocity) = self.state_of(self.slot_of[index], time);
             (periodic::folded(position, period), velocity)
         });
+    }
+}
+
+/// Puts at each place the item that the order says, without memory for all of them once more.
+fn put_in_order<T>(items: &mut [T], order: &[u32]) {
+    for place in 0..items.len() {
+        // What was at a place before went to where its new item was.
+        let mut from = order[place] as usize;
+        while from < place {
+            from = order[from] as usize;
+        }
+        items.swap(place, from);
     }
 }
 
