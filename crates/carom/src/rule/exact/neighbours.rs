@@ -96,8 +96,6 @@ struct Neighbourhood {
     radius: f32,
     /// How often the sphere went round each periodic axis since its flight began.
     turns: [i32; 3],
-    /// The cell about which it lies, on the level of the sphere.
-    cell: [u16; 3],
 }
 
 /// What neighbours are found from.
@@ -239,7 +237,6 @@ impl Neighbours {
             center: DVec3::ZERO,
             radius: rounded_up(kinds[body.kind as usize].radius),
             turns: [0; 3],
-            cell: [0; 3],
         };
         let mut neighbours = Self {
             levels: levels.collect(),
@@ -296,7 +293,7 @@ impl Neighbours {
     pub fn read_cells(&self, slot: u32) -> f64 {
         let ([Level { grid, own, .. }], None) = (&self.levels[..], &self.lists) else { return 0.0 };
         let mut read = 0;
-        grid.for_each_block(self.cell_of(slot), None, |block| {
+        grid.for_each_block(self.cell_of(slot, grid), None, |block| {
             block.for_each_row(|row| {
                 read += own.first(row.start).len() + own.first(row.end - 1).len();
             });
@@ -352,7 +349,7 @@ impl Neighbours {
         let near = if surfaces.is_empty() {
             &[]
         } else {
-            surfaces.of_cell(grid.index(self.cell_of(slot)))
+            surfaces.of_cell(grid.index(self.cell_of(slot, grid)))
         };
         near.iter().map(move |near| {
             let shift = match (near.turns, turns) {
@@ -419,7 +416,7 @@ impl Neighbours {
         near: &mut Vicinity,
     ) {
         near.clear();
-        let before = self.cell_of(slot);
+        let before = self.cell_of(slot, &self.levels[level as usize].grid);
         self.leave_cells(slot, level);
         self.place(slot, level, position, velocity);
         self.enter_cells(slot, level);
@@ -427,7 +424,7 @@ impl Neighbours {
             self.list(slot, near);
         } else {
             let grid = &self.levels[level as usize].grid;
-            self.gather(slot, level, grid.side(before, self.cell_of(slot)), near);
+            self.gather(slot, level, grid.side(before, self.cell_of(slot, grid)), near);
         }
     }
 
@@ -445,16 +442,15 @@ impl Neighbours {
         let center = position + ahead;
         neighbourhood.turns = turns_of(center, self.period);
         neighbourhood.center = center - way_round(neighbourhood.turns, self.period);
-        neighbourhood.cell = grid.cell_of(neighbourhood.center);
         if !is_listed {
-            neighbourhood.center = grid.center(neighbourhood.cell);
+            neighbourhood.center = grid.center(grid.cell_of(neighbourhood.center));
         }
     }
 
-    /// The cell of its level that the neighbourhood of a sphere lies about.
+    /// The cell of a grid that the neighbourhood of a sphere lies about.
     #[inline(always)]
-    fn cell_of(&self, slot: u32) -> [u16; 3] {
-        self.neighbourhoods[slot as usize].cell
+    fn cell_of(&self, slot: u32, grid: &Grid) -> [u16; 3] {
+        grid.cell_of(self.neighbourhoods[slot as usize].center)
     }
 
     /// The sphere, as it is seen from the box about the origin.
@@ -487,14 +483,14 @@ impl Neighbours {
         let mut act = |grid: &Grid, cells: &mut CellLists, cell| {
             grid.for_each_copy(cell, |number, turns| act(cells, number, mark(turns)));
         };
-        let Neighbourhood { center, cell, .. } = self.neighbourhoods[slot as usize];
+        let center = self.neighbourhoods[slot as usize].center;
         for Level { grid, visitors, .. } in &mut self.levels[..own_level as usize] {
             if let Some(visitors) = visitors {
                 act(grid, visitors, grid.cell_of(center));
             }
         }
         let Level { grid, own, .. } = &mut self.levels[own_level as usize];
-        act(grid, own, cell);
+        act(grid, own, grid.cell_of(center));
     }
 
     /// Appends the spheres in the cells around a sphere; of its own level, and of smaller spheres, those
@@ -504,14 +500,13 @@ impl Neighbours {
         if !self.spheres_collide {
             return;
         }
-        let Neighbourhood { center, cell, .. } = self.neighbourhoods[slot as usize];
         for Level { grid, own, .. } in &self.levels[..own_level as usize] {
-            self.gather_from((grid, own), slot, grid.cell_of(center), None, near);
+            self.gather_from((grid, own), slot, None, near);
         }
         let Level { grid, own, visitors, .. } = &self.levels[own_level as usize];
-        self.gather_from((grid, own), slot, cell, side, near);
+        self.gather_from((grid, own), slot, side, near);
         if let Some(visitors) = visitors {
-            self.gather_from((grid, visitors), slot, cell, side, near);
+            self.gather_from((grid, visitors), slot, side, near);
         }
     }
 
@@ -521,12 +516,11 @@ impl Neighbours {
         &self,
         (grid, spheres): (&Grid, &CellLists),
         slot: u32,
-        cell: [u16; 3],
         side: Option<Side>,
         near: &mut Vicinity,
     ) {
         let is_turned = self.neighbourhoods[slot as usize].turns != [0; 3];
-        grid.for_each_block(cell, side, |block| {
+        grid.for_each_block(self.cell_of(slot, grid), side, |block| {
             let start = near.gathered.len;
             near.gathered.add_block(spheres, &block);
             near.gathered.retain_from(start, |other| other.slot() != slot);
@@ -564,9 +558,9 @@ impl Neighbours {
     /// Finds the others whom a sphere can meet while both are in their neighbourhoods.
     fn find_peers(&self, slot: u32, peers: &mut Buffer) {
         let [Level { grid, half_edges, own, .. }] = &self.levels[..] else { return };
-        let Neighbourhood { center, radius, turns, cell } = self.neighbourhoods[slot as usize];
+        let Neighbourhood { center, radius, turns } = self.neighbourhoods[slot as usize];
         let radius = f64::from(radius);
-        grid.for_each_block(cell, None, |block| {
+        grid.for_each_block(grid.cell_of(center), None, |block| {
             let start = peers.len;
             peers.add_block(own, &block);
             let reach = block.is_endless.map(|is| if is { f64::INFINITY } else { 2.0 });
