@@ -19,10 +19,6 @@ const MIN_BUCKETS: usize = 16;
 /// The queue is cleared of void entries when it holds this many times what it can need.
 const MAX_VOID_RATIO: usize = 2;
 
-/// Buckets are at least this part of the time wide: some roundings of the clock, so that the next
-/// bucket always begins later.
-const NARROWEST: f64 = 4.0 * f64::EPSILON;
-
 /// An event of a sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Entry {
@@ -52,15 +48,16 @@ impl PartialOrd for Entry {
 /// Events in the order of time.
 #[derive(Debug, Clone, Default)]
 pub(super) struct EventQueue {
-    /// Events before `current_end`, the first one last.
+    /// Events of the buckets before `next_bucket`, the first one last.
     current: Vec<Entry>,
     /// Likewise, those that were added since the bucket was sorted.
     late: BinaryHeap<Reverse<Entry>>,
-    current_end: f64,
-    /// Bucket `b` holds events from `start + b width` to `start + (b + 1) width`.
+    /// By number: which bucket an event is in, `bucket_of` its time alone says.
     buckets: Vec<Vec<Entry>>,
+    /// When the first bucket begins \[s\].
     start: f64,
-    width: f64,
+    /// Inverse of the width of a bucket \[1/s\].
+    per_second: f64,
     /// The bucket that comes after the current one.
     next_bucket: usize,
     /// Events after the last bucket.
@@ -77,7 +74,8 @@ impl EventQueue {
         Self {
             buckets: vec![Vec::new(); buckets],
             next_bucket: buckets,
-            current_end: f64::NEG_INFINITY,
+            start: f64::NEG_INFINITY,
+            per_second: 1.0,
             spheres,
             ..Self::default()
         }
@@ -89,22 +87,22 @@ impl EventQueue {
             return;
         }
         self.len += 1;
-        if entry.time < self.current_end {
+        let bucket = self.bucket_of(entry.time);
+        if bucket < self.next_bucket {
             self.late.push(Reverse(entry));
         } else {
-            match self.bucket_of(entry.time) {
-                Some(bucket) => self.buckets[bucket].push(entry),
+            match self.buckets.get_mut(bucket) {
+                Some(bucket) => bucket.push(entry),
                 None => self.far.push(entry),
             }
         }
     }
 
-    /// Bucket of a time that is not before the end of the current one.
-    fn bucket_of(&self, time: f64) -> Option<usize> {
-        let bucket = ((time - self.start) / self.width) as usize;
-        // Rounding must not put an event into a bucket that was passed already.
-        let bucket = bucket.max(self.next_bucket);
-        (bucket < self.buckets.len()).then_some(bucket)
+    /// The number of the bucket of a time \[s\], whether there is one or not. However it rounds, a
+    /// later time is never in an earlier bucket.
+    #[inline]
+    fn bucket_of(&self, time: f64) -> usize {
+        ((time - self.start) * self.per_second) as usize
     }
 
     /// Takes out the first event that is not void and not later than `end` \[s\].
@@ -124,7 +122,8 @@ impl EventQueue {
                     return Some(first);
                 }
             }
-            if self.len == 0 || self.current_end > end || !self.fill_current(&is_live) {
+            let is_done = self.len == 0 || self.bucket_of(end) < self.next_bucket;
+            if is_done || !self.fill_current(&is_live) {
                 return None;
             }
         }
@@ -153,7 +152,6 @@ impl EventQueue {
         while self.next_bucket < self.buckets.len() {
             let bucket = self.next_bucket;
             self.next_bucket += 1;
-            self.current_end = self.start + self.next_bucket as f64 * self.width;
             // It gives its memory back: full buckets and empty ones are never all of one size.
             let entries = std::mem::take(&mut self.buckets[bucket]);
             self.len -= entries.len();
@@ -182,18 +180,15 @@ impl EventQueue {
         let first = far[..=middle].iter().fold(median, |first, entry| entry.time.min(first));
         let per_event = (median - first) / (middle + 1) as f64;
         let width = per_event * ENTRIES_PER_BUCKET as f64;
-        // Events at one time need no width, but time must move on.
-        self.width = width.max(NARROWEST * first.abs()).max(f64::MIN_POSITIVE);
+        // Events at one time need no width, but a number has to be divided by.
+        self.per_second = width.max(f64::MIN_POSITIVE).recip();
         self.start = first;
         self.next_bucket = 0;
-        self.current_end = first;
         // What stays far away stays in place.
-        far.retain(|&entry| match self.bucket_of(entry.time) {
-            Some(bucket) => {
-                self.buckets[bucket].push(entry);
-                false
-            }
-            None => true,
+        far.retain(|&entry| {
+            let bucket = self.bucket_of(entry.time);
+            let bucket = self.buckets.get_mut(bucket);
+            bucket.map(|bucket| bucket.push(entry)).is_none()
         });
         self.far = far;
         true
