@@ -541,14 +541,11 @@ impl Neighbours {
         if let Some(lists) = &mut self.lists {
             before.add_list(lists, slot);
             lists.set(slot as usize, after.found());
-            for &come in after.found() {
-                // What is left in the end is gone.
-                if !before.drop_from(0, come) {
-                    lists.add(come.slot() as usize, come.mirrored(slot));
-                    new.gathered.push(come);
-                }
+            for &come in after.found().iter().filter(|&&one| !before.has(one)) {
+                lists.add(come.slot() as usize, come.mirrored(slot));
+                new.gathered.push(come);
             }
-            for gone in before.found() {
+            for &gone in before.found().iter().filter(|&&one| !after.has(one)) {
                 lists.remove(gone.slot() as usize, gone.mirrored(slot));
             }
         }

@@ -454,7 +454,7 @@ impl Timeline {
     }
 
     /// Centre \[m\] and velocity \[m/s\] of a sphere at `time` \[s\].
-    #[inline]
+    #[inline(always)]
     pub fn state_of(&self, slot: u32, time: f64) -> (DVec3, DVec3) {
         let body = &self.bodies[slot as usize];
         body.state_at(&self.kinds[body.kind as usize], time)

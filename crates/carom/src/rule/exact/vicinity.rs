@@ -76,20 +76,10 @@ impl Buffer {
         self.len = lists.gather(slot as usize, &mut self.buffer, self.len);
     }
 
-    /// Of those from `start` on, drops one who is there once at most; whether it was there. Looks at
-    /// all of them, likewise.
+    /// Whether one is among them. Looks at all of them, likewise.
     #[inline(always)]
-    pub fn drop_from(&mut self, start: usize, one: Neighbour) -> bool {
-        let found = &mut self.buffer[start..self.len];
-        let Some(&last) = found.last() else { return false };
-        let mut count = 0;
-        for other in found {
-            let is_one = *other == one;
-            count += usize::from(is_one);
-            *other = if is_one { last } else { *other };
-        }
-        self.len -= count;
-        count > 0
+    pub fn has(&self, one: Neighbour) -> bool {
+        self.found().iter().fold(false, |found, &other| found | (other == one))
     }
 
     /// Of those from `start` on, keeps some. Without branches on that, which no processor can
