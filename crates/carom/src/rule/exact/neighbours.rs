@@ -288,10 +288,14 @@ impl Neighbours {
         f64::from(self.neighbourhoods[slot as usize].radius) + listed as f64
     }
 
-    /// Reads the cells around a sphere, if there are no lists.
+    /// Reads the cells around a sphere, if they are needed: where there are lists, only if it leaves
+    /// its neighbourhood.
     #[inline]
-    pub fn read_cells(&self, slot: u32) -> f64 {
-        let ([Level { grid, own, .. }], None) = (&self.levels[..], &self.lists) else { return 0.0 };
+    pub fn read_cells(&self, slot: u32, leaves: bool) -> f64 {
+        let [Level { grid, own, .. }] = &self.levels[..] else { return 0.0 };
+        if self.lists.is_some() && !leaves {
+            return 0.0;
+        }
         let mut read = 0;
         grid.for_each_block(self.cell_of(slot, grid), None, |block| {
             block.for_each_row(|row| {
@@ -299,6 +303,23 @@ impl Neighbours {
             });
         });
         read as f64
+    }
+
+    /// Reads where those are who may come onto the list of a sphere, if there are lists.
+    #[inline]
+    pub fn read_candidates(&self, slot: u32) -> f64 {
+        let ([Level { grid, own, .. }], Some(_)) = (&self.levels[..], &self.lists) else {
+            return 0.0;
+        };
+        let mut read = 0.0;
+        grid.for_each_block(self.cell_of(slot, grid), None, |block| {
+            block.for_each_row(|row| {
+                for other in row.flat_map(|cell| own.first(cell)) {
+                    read += self.neighbourhoods[other.slot() as usize].radius;
+                }
+            });
+        });
+        f64::from(read)
     }
 
     /// Reads the bodies of those who are on the list of a sphere, if there are lists.

@@ -323,27 +323,34 @@ impl Timeline {
         }
         let Self { outlooks, bodies, neighbours, queue, index_of, flights_before, .. } = self;
         // What is read in one step is found from what was read in the steps before.
-        let spheres = |place: usize| {
-            let slot = queue.upcoming(place);
-            let other = slot.and_then(|slot| match outlooks[slot as usize].event().target {
-                Target::Sphere(other) => Some(other),
-                _ => None,
-            });
-            slot.into_iter().chain(other)
+        let next =
+            |place: usize| queue.upcoming(place).map(|slot| (slot, outlooks[slot as usize].next()));
+        let meets = |next: Next| match next {
+            Next::Event(Event { target: Target::Sphere(other), .. }) => Some(other),
+            _ => None,
         };
         let mut read = 0.0;
         if let Some(slot) = queue.upcoming(8) {
             read += outlooks[slot as usize].departure + bodies[slot as usize].time;
         }
-        for slot in spheres(6) {
-            read += bodies[slot as usize].time + neighbours.read_place(slot);
-            read += f64::from(index_of[slot as usize] ^ flights_before[slot as usize]);
+        if let Some((slot, next)) = next(6) {
+            for slot in [slot].into_iter().chain(meets(next)) {
+                read += bodies[slot as usize].time + neighbours.read_place(slot);
+                read += f64::from(index_of[slot as usize] ^ flights_before[slot as usize]);
+            }
         }
-        for slot in spheres(3) {
-            read += neighbours.read_cells(slot);
+        if let Some((slot, next)) = next(3) {
+            read += neighbours.read_cells(slot, matches!(next, Next::Departure(_)));
+            read += meets(next).map_or(0.0, |other| neighbours.read_cells(other, false));
         }
-        for slot in spheres(1) {
-            read += neighbours.read_bodies(slot, bodies);
+        match next(1) {
+            Some((slot, Next::Departure(_))) => read += neighbours.read_candidates(slot),
+            Some((slot, next)) => {
+                for slot in [slot].into_iter().chain(meets(next)) {
+                    read += neighbours.read_bodies(slot, bodies);
+                }
+            }
+            None => {}
         }
         std::hint::black_box(read);
     }
