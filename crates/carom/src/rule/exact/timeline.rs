@@ -330,20 +330,20 @@ impl Timeline {
             _ => None,
         };
         let mut read = 0.0;
-        if let Some(slot) = queue.upcoming(8) {
+        if let Some(slot) = queue.upcoming(10) {
             read += outlooks[slot as usize].departure + bodies[slot as usize].time;
         }
-        if let Some((slot, next)) = next(6) {
+        if let Some((slot, next)) = next(8) {
             for slot in [slot].into_iter().chain(meets(next)) {
                 read += bodies[slot as usize].time + neighbours.read_place(slot);
                 read += f64::from(index_of[slot as usize] ^ flights_before[slot as usize]);
             }
         }
-        if let Some((slot, next)) = next(3) {
+        if let Some((slot, next)) = next(5) {
             read += neighbours.read_cells(slot, matches!(next, Next::Departure(_)));
             read += meets(next).map_or(0.0, |other| neighbours.read_cells(other, false));
         }
-        match next(1) {
+        match next(2) {
             Some((slot, Next::Departure(_))) => read += neighbours.read_candidates(slot),
             Some((slot, next)) => {
                 for slot in [slot].into_iter().chain(meets(next)) {
