@@ -75,7 +75,7 @@ pub(crate) fn advance(
     let period = system.settings.boundary.period();
     let around = Default::default();
     let mut stage = Stage { system, parameters, report, start, length, period, around };
-    while let Some((slot, next)) = timeline.next(end) {
+    while let Some((slot, next)) = timeline.next(system, end) {
         let event = match next {
             Next::Event(event) => event,
             Next::Departure(time) => {

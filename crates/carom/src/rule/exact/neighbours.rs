@@ -98,6 +98,14 @@ struct Neighbourhood {
     turns: [i32; 3],
 }
 
+impl Neighbourhood {
+    /// Reads it, from its beginning to its end: that may be two lines of the cache.
+    #[inline(always)]
+    fn read(&self) -> f64 {
+        self.center.x + f64::from(self.turns[2])
+    }
+}
+
 /// What neighbours are found from.
 #[derive(Clone, Copy)]
 pub(super) struct Contents<'a> {
@@ -285,7 +293,7 @@ impl Neighbours {
     #[inline]
     pub fn read_place(&self, slot: u32) -> f64 {
         let listed = self.lists.as_ref().map_or(0, |lists| lists.first(slot as usize).len());
-        f64::from(self.neighbourhoods[slot as usize].radius) + listed as f64
+        self.neighbourhoods[slot as usize].read() + listed as f64
     }
 
     /// Reads the cells around a sphere, if they are needed: where there are lists, only if it leaves
@@ -315,11 +323,11 @@ impl Neighbours {
         grid.for_each_block(self.cell_of(slot, grid), None, |block| {
             block.for_each_row(|row| {
                 for other in row.flat_map(|cell| own.first(cell)) {
-                    read += self.neighbourhoods[other.slot() as usize].radius;
+                    read += self.neighbourhoods[other.slot() as usize].read();
                 }
             });
         });
-        f64::from(read)
+        read
     }
 
     /// Reads the bodies of those who are on the list of a sphere, if there are lists.

@@ -33,6 +33,8 @@ const EVENTS_PER_ARRANGEMENT: u64 = 24;
 
 /// More spheres than this do not stay in the fast caches.
 const MANY: usize = 20_000;
+/// Of so many, so many are read at once.
+const READ_AT_ONCE: usize = 32;
 
 /// All that the rule keeps between frames.
 ///
@@ -289,9 +291,9 @@ impl Timeline {
     }
 
     /// What happens next, not later than `end` \[s\], and to which sphere.
-    pub(super) fn next(&mut self, end: f64) -> Option<(u32, Next)> {
+    pub(super) fn next(&mut self, system: &System, end: f64) -> Option<(u32, Next)> {
         let entry = self.queue.pop(end, |entry| is_live(&self.outlooks, entry))?;
-        self.anticipate();
+        self.anticipate(system);
         self.events += 1;
         let next = self.outlooks[entry.slot as usize].next();
         self.departures += u64::from(matches!(next, Next::Departure(_)));
@@ -317,7 +319,7 @@ impl Timeline {
     /// Reads what the next events will need, so that it is in the cache by then: all at once, not one
     /// after another. Nothing is done with it.
     #[inline]
-    fn anticipate(&self) {
+    fn anticipate(&self, system: &System) {
         if !self.are_many() {
             return;
         }
@@ -340,6 +342,9 @@ impl Timeline {
             }
         }
         if let Some((slot, next)) = next(5) {
+            for slot in [slot].into_iter().chain(meets(next)) {
+                read += system.spheres.id[index_of[slot as usize] as usize].0 as f64;
+            }
             read += neighbours.read_cells(slot, matches!(next, Next::Departure(_)));
             read += meets(next).map_or(0.0, |other| neighbours.read_cells(other, false));
         }
@@ -555,6 +560,12 @@ impl Timeline {
     /// Writes the states of all spheres at `time` \[s\].
     pub fn write_motion(&self, motion: &mut Motion, period: DVec3, time: f64) {
         parallel::fill((&mut motion.position, &mut motion.velocity), |index| {
+            if self.are_many() && index % READ_AT_ONCE == 0 {
+                // So that none waits for another to come into the cache.
+                let slots = self.slot_of[index..].iter().take(READ_AT_ONCE);
+                let times = slots.map(|&slot| self.bodies[slot as usize].time);
+                std::hint::black_box(times.sum::<f64>());
+            }
             let (position, velocity) = self.state_of(self.slot_of[index], time);
             (periodic::folded(position, period), velocity)
         });
