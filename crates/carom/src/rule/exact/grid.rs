@@ -165,20 +165,30 @@ impl Grid {
     /// what is in the cell is seen there.
     #[inline(always)]
     pub fn for_each_copy(&self, cell: [u16; 3], mut visit: impl FnMut(usize, [i32; 3])) {
+        let own = [0, 1, 2].map(|axis| cell[axis] + self.ghosts(axis));
+        visit(self.number_with_ghosts(own), [0; 3]);
+        let is_ghosted = |axis: usize| {
+            self.periodic[axis] && (cell[axis] == 0 || cell[axis] + 1 == self.counts[axis])
+        };
+        if !(0..3).any(is_ghosted) {
+            return;
+        }
+        // The ends of an axis may be one cell.
         let turns = |axis: usize| {
             let [is_first, is_last] = [cell[axis] == 0, cell[axis] + 1 == self.counts[axis]];
             let is_periodic = self.periodic[axis];
-            -i16::from(is_last & is_periodic)..=i16::from(is_first & is_periodic)
+            -i32::from(is_last & is_periodic)..1 + i32::from(is_first & is_periodic)
         };
-        let place = |axis: usize, turns: i16| {
-            let place = cell[axis] + self.ghosts(axis);
-            place.wrapping_add_signed(turns.wrapping_mul(self.counts[axis] as i16))
+        let place = |axis: usize, turns: i32| {
+            (i32::from(own[axis]) + turns * i32::from(self.counts[axis])) as u16
         };
         for z in turns(2) {
             for y in turns(1) {
                 for x in turns(0) {
-                    let copy = [place(0, x), place(1, y), place(2, z)];
-                    visit(self.number_with_ghosts(copy), [x, y, z].map(i32::from));
+                    if [x, y, z] != [0; 3] {
+                        let ghost = [place(0, x), place(1, y), place(2, z)];
+                        visit(self.number_with_ghosts(ghost), [x, y, z]);
+                    }
                 }
             }
         }

@@ -258,8 +258,8 @@ impl Neighbours {
         let mut new = Vicinity::default();
         for (slot, body) in (0u32..).zip(bodies) {
             let (kind, place) = (&kinds[body.kind as usize], contents.place_of(body));
-            neighbours.place(slot, kind.level, place, body.velocity);
-            neighbours.enter_cells(slot, kind.level);
+            let cell = neighbours.place(slot, kind.level, place, body.velocity);
+            neighbours.enter_cells(slot, kind.level, cell);
             if neighbours.lists.is_some() {
                 new.clear();
                 neighbours.list(slot, &mut new);
@@ -273,7 +273,10 @@ impl Neighbours {
     #[inline(always)]
     pub fn find(&self, slot: u32, level: u32, near: &mut Vicinity) {
         near.clear();
-        let Some(lists) = &self.lists else { return self.gather(slot, level, None, near) };
+        let Some(lists) = &self.lists else {
+            let cell = self.cell_of(slot, &self.levels[level as usize].grid);
+            return self.gather(slot, level, (cell, None), near);
+        };
         near.are_listed = lists.whole(slot as usize).is_some();
         if !near.are_listed {
             near.gathered.add_list(lists, slot);
@@ -446,24 +449,24 @@ impl Neighbours {
     ) {
         near.clear();
         let before = self.cell_of(slot, &self.levels[level as usize].grid);
-        self.leave_cells(slot, level);
-        self.place(slot, level, position, velocity);
-        self.enter_cells(slot, level);
+        self.leave_cells(slot, level, before);
+        let cell = self.place(slot, level, position, velocity);
+        self.enter_cells(slot, level, cell);
         if self.lists.is_some() {
             self.list(slot, near);
         } else {
-            let grid = &self.levels[level as usize].grid;
-            self.gather(slot, level, grid.side(before, self.cell_of(slot, grid)), near);
+            let side = self.levels[level as usize].grid.side(before, cell);
+            self.gather(slot, level, (cell, side), near);
         }
     }
 
-    /// Lays the neighbourhood of a sphere about it.
-    fn place(&mut self, slot: u32, level: u32, position: DVec3, velocity: DVec3) {
+    /// Lays the neighbourhood of a sphere about it, and gives the cell that it lies about.
+    fn place(&mut self, slot: u32, level: u32, position: DVec3, velocity: DVec3) -> [u16; 3] {
         let Level { grid, half_edges, .. } = &self.levels[level as usize];
         let neighbourhood = &mut self.neighbourhoods[slot as usize];
-        let speed = velocity.norm();
         let is_listed = self.lists.is_some();
-        let ahead = if is_listed && speed > 0.0 && speed.is_finite() {
+        let speed = if is_listed { velocity.norm() } else { 0.0 };
+        let ahead = if speed > 0.0 && speed.is_finite() {
             AHEAD * half_edges * (velocity / speed)
         } else {
             DVec3::ZERO
@@ -471,9 +474,11 @@ impl Neighbours {
         let center = position + ahead;
         neighbourhood.turns = turns_of(center, self.period);
         neighbourhood.center = center - way_round(neighbourhood.turns, self.period);
+        let cell = grid.cell_of(neighbourhood.center);
         if !is_listed {
-            neighbourhood.center = grid.center(grid.cell_of(neighbourhood.center));
+            neighbourhood.center = grid.center(cell);
         }
+        cell
     }
 
     /// The cell of a grid that the neighbourhood of a sphere lies about.
@@ -490,21 +495,21 @@ impl Neighbours {
         }
     }
 
-    fn enter_cells(&mut self, slot: u32, level: u32) {
-        self.for_its_cells(slot, level, |cells, cell, mark| cells.add(cell, mark));
+    fn enter_cells(&mut self, slot: u32, level: u32, own_cell: [u16; 3]) {
+        self.for_its_cells(slot, (level, own_cell), |cells, cell, mark| cells.add(cell, mark));
     }
 
-    fn leave_cells(&mut self, slot: u32, level: u32) {
-        self.for_its_cells(slot, level, |cells, cell, mark| cells.remove(cell, mark));
+    fn leave_cells(&mut self, slot: u32, level: u32, own_cell: [u16; 3]) {
+        self.for_its_cells(slot, (level, own_cell), |cells, cell, mark| cells.remove(cell, mark));
     }
 
-    /// Does something about a sphere, or an image of it, in the cell that holds it on each level and
-    /// in the ghosts of that.
+    /// Does something about a sphere, or an image of it, in its cell, in those that hold it on the
+    /// levels above, and in the ghosts of these.
     #[inline]
     fn for_its_cells(
         &mut self,
         slot: u32,
-        own_level: u32,
+        (own_level, own_cell): (u32, [u16; 3]),
         mut act: impl FnMut(&mut CellLists, usize, Neighbour),
     ) {
         let own_mark = self.mark(slot);
@@ -519,23 +524,29 @@ impl Neighbours {
             }
         }
         let Level { grid, own, .. } = &mut self.levels[own_level as usize];
-        act(grid, own, grid.cell_of(center));
+        act(grid, own, own_cell);
     }
 
-    /// Appends the spheres in the cells around a sphere; of its own level, and of smaller spheres, those
-    /// on one side, if one is given.
+    /// Appends the spheres in the cells around a sphere, whose own cell is given; of its own level,
+    /// and of smaller spheres, those on one side, if one is given.
     #[inline(always)]
-    fn gather(&self, slot: u32, own_level: u32, side: Option<Side>, near: &mut Vicinity) {
+    fn gather(
+        &self,
+        slot: u32,
+        own_level: u32,
+        (cell, side): ([u16; 3], Option<Side>),
+        near: &mut Vicinity,
+    ) {
         if !self.spheres_collide {
             return;
         }
         for Level { grid, own, .. } in &self.levels[..own_level as usize] {
-            self.gather_from((grid, own), slot, None, near);
+            self.gather_from((grid, own), slot, (self.cell_of(slot, grid), None), near);
         }
         let Level { grid, own, visitors, .. } = &self.levels[own_level as usize];
-        self.gather_from((grid, own), slot, side, near);
+        self.gather_from((grid, own), slot, (cell, side), near);
         if let Some(visitors) = visitors {
-            self.gather_from((grid, visitors), slot, side, near);
+            self.gather_from((grid, visitors), slot, (cell, side), near);
         }
     }
 
@@ -545,11 +556,11 @@ impl Neighbours {
         &self,
         (grid, spheres): (&Grid, &CellLists),
         slot: u32,
-        side: Option<Side>,
+        (cell, side): ([u16; 3], Option<Side>),
         near: &mut Vicinity,
     ) {
         let is_turned = self.neighbourhoods[slot as usize].turns != [0; 3];
-        grid.for_each_block(self.cell_of(slot, grid), side, |block| {
+        grid.for_each_block(cell, side, |block| {
             let start = near.gathered.len;
             near.gathered.add_block(spheres, &block);
             near.gathered.retain_from(start, |other| other.slot() != slot);
@@ -636,7 +647,8 @@ impl Neighbours {
 
     /// Counts turns of a sphere no longer: of its neighbours, others are now in the same box.
     fn turn_back(&mut self, slot: u32, level: u32, turns: [i32; 3]) {
-        self.leave_cells(slot, level);
+        let cell = self.cell_of(slot, &self.levels[level as usize].grid);
+        self.leave_cells(slot, level, cell);
         let near = self.lists.as_ref().map(|lists| lists.members(slot as usize));
         let near = near.unwrap_or_default();
         let in_box = |near: &Neighbour| {
@@ -656,7 +668,7 @@ impl Neighbours {
                 lists.replace(old.slot() as usize, old.mirrored(slot), new.mirrored(slot));
             }
         }
-        self.enter_cells(slot, level);
+        self.enter_cells(slot, level, cell);
     }
 }
 
