@@ -634,15 +634,16 @@ impl Neighbours {
         }
     }
 
-    /// Folds the position of a sphere into the periodic box, where a flight of it begins.
-    #[inline]
-    pub fn fold(&mut self, slot: u32, level: u32, position: DVec3) -> DVec3 {
+    /// Folds the position of a sphere, where a flight of it begins, into the periodic box, if it is
+    /// elsewhere.
+    #[inline(always)]
+    pub fn fold(&mut self, slot: u32, level: u32, position: DVec3) -> Option<DVec3> {
         let turns = turns_of(position, self.period);
         if turns == [0; 3] {
-            return position;
+            return None;
         }
         self.turn_back(slot, level, turns);
-        position - way_round(turns, self.period)
+        Some(position - way_round(turns, self.period))
     }
 
     /// Counts turns of a sphere no longer: of its neighbours, others are now in the same box.

@@ -72,7 +72,7 @@ fn outlook_after(
     let kind = &timeline.kinds[body.kind as usize];
     let (neighbours, horizon) = (&timeline.neighbours, timeline.horizon());
     let stays = horizon < f64::INFINITY && neighbours.stays(slot, body, kind, horizon);
-    if !(stays && timeline.has_room(slot)) {
+    if !system.surfaces.is_empty() && !(stays && timeline.has_room(slot)) {
         meet_surfaces(timeline, system, slot, body, kind, &mut ahead);
     }
     if let Some(cluster) = kind.cluster {
@@ -130,7 +130,6 @@ fn start_with_later(timeline: &Timeline, slot: u32) -> impl Fn(&Body) -> f64 {
 }
 
 /// Adds the surfaces near it that a sphere meets to what lies ahead of it.
-#[inline]
 fn meet_surfaces(
     timeline: &Timeline,
     system: &System,
@@ -139,9 +138,6 @@ fn meet_surfaces(
     kind: &Kind,
     ahead: &mut Ahead,
 ) {
-    if system.surfaces.is_empty() {
-        return;
-    }
     let horizon = timeline.horizon();
     let is_limited = horizon < f64::INFINITY;
     let reach = is_limited.then(|| Reach::of(body.flight(kind), kind.radius, horizon - body.time));

@@ -517,12 +517,13 @@ impl Timeline {
     }
 
     /// Folds the place where a flight begins into the periodic box; whether it was elsewhere.
-    #[inline]
+    #[inline(always)]
     pub fn fold(&mut self, slot: u32) -> bool {
-        let Body { position, kind, .. } = self.bodies[slot as usize];
-        let folded = self.neighbours.fold(slot, self.kinds[kind as usize].level, position);
-        self.bodies[slot as usize].position = folded;
-        folded != position
+        let body = &mut self.bodies[slot as usize];
+        let level = self.kinds[body.kind as usize].level;
+        let folded = self.neighbours.fold(slot, level, body.position);
+        body.position = folded.unwrap_or(body.position);
+        folded.is_some()
     }
 
     /// The flight of the sphere at an index of the world's arrays. Where forces of lasting contacts or
