@@ -258,6 +258,82 @@ fn in_a_periodic_box_spheres_meet_across_its_faces() {
     assert_eq!(impacts, ((1000.0 * 0.3 + 0.5 - 1.0 / 3.0) * 3.0 / 8.0) as usize);
 }
 
+/// Where equal balls are, and how many impacts they had, after a time in a periodic box: each impact
+/// is searched for among all pairs and all images nearby, and a short time at a time.
+fn searched(
+    (places, velocities): (&[DVec3], &[DVec3]),
+    (size, diameter): (DVec3, f64),
+    duration: f64,
+) -> (Vec<DVec3>, usize) {
+    let (mut x, mut v) = (places.to_vec(), velocities.to_vec());
+    let folded = |r: DVec3| r - (r / size).round() * size;
+    let images: Vec<DVec3> = (0..27)
+        .map(|n| vec(f64::from(n % 3 - 1), f64::from(n / 3 % 3 - 1), f64::from(n / 9 - 1)) * size)
+        .collect();
+    let (mut left, mut impacts) = (duration, 0);
+    while left > 0.0 {
+        // Nobody goes half a box in this time.
+        let fastest = v.iter().map(|v| v.length()).fold(0.0, f64::max);
+        let mut first = (left.min(0.2 * size.min_element() / fastest), None);
+        for i in 0..x.len() {
+            for j in 0..i {
+                let w = v[j] - v[i];
+                for r in images.iter().map(|image| folded(x[j] - x[i]) + image) {
+                    let (b, c) = (r.dot(w), r.length_squared() - diameter * diameter);
+                    let discriminant = b * b - w.length_squared() * c;
+                    if b < 0.0 && discriminant >= 0.0 {
+                        let time = (c / (discriminant.sqrt() - b)).max(0.0);
+                        if time < first.0 {
+                            first = (time, Some((i, j, r + w * time)));
+                        }
+                    }
+                }
+            }
+        }
+        x.iter_mut().zip(&v).for_each(|(x, v)| *x += *v * first.0);
+        left -= first.0;
+        if let (_, Some((i, j, r))) = first {
+            let change = (v[j] - v[i]).project_onto(r);
+            (v[i], v[j], impacts) = (v[i] + change, v[j] - change, impacts + 1);
+        }
+    }
+    (x.into_iter().map(folded).collect(), impacts)
+}
+
+#[test]
+fn in_periodic_boxes_of_any_width_balls_meet_as_in_a_search_among_all_images() {
+    // Boxes of few cells: one to six along an axis, dilute and crowded.
+    for (balls, size) in [
+        ([1, 8, 8], vec(2.0, 9.6, 9.6)),
+        ([2, 5, 5], vec(2.9, 6.0, 6.0)),
+        ([3, 3, 4], vec(4.0, 3.5, 7.0)),
+        ([4, 4, 4], vec(4.4, 4.4, 4.4)),
+        ([5, 5, 5], vec(6.5, 6.5, 6.5)),
+    ] {
+        let boundary = Boundary::Periodic { size };
+        let mut world = World::new(Settings { boundary, ..Settings::default() }).unwrap();
+        let mut numbers = Numbers(7);
+        let [nx, ny, nz] = balls;
+        for n in 0..nx * ny * nz {
+            let cell = vec(f64::from(n % nx), f64::from(n / nx % ny), f64::from(n / nx / ny));
+            let count = vec(f64::from(nx), f64::from(ny), f64::from(nz));
+            let place = (cell + 0.5) / count * size - 0.5 * size;
+            let ball = Sphere::new(place, 0.5).with_velocity(2.0 * numbers.vector());
+            world.add_sphere(ball).unwrap();
+        }
+        let spheres = world.spheres();
+        let start = (spheres.positions(), spheres.velocities());
+        let (expected, impacts) = searched(start, (size, 1.0), 1.0);
+        assert_eq!(run(&mut world, 1.0 / 16.0, 16), impacts, "{size}");
+        assert!(impacts > balls.iter().product::<i32>() as usize / 2, "{impacts} in {size}");
+        for (found, expected) in world.spheres().positions().iter().zip(expected) {
+            // Each impact makes rounding some ten times as large.
+            let apart = (*found - expected) / size;
+            assert!((apart - apart.round()).length() < 1e-9, "{found} not {expected} in {size}");
+        }
+    }
+}
+
 #[test]
 fn a_periodic_box_needs_the_rule_and_the_room() {
     let boundary = Boundary::Periodic { size: DVec3::splat(3.0) };

@@ -46,10 +46,10 @@ pub const NOTE: &str =
 const FEWEST_IMPACTS: u64 = 200_000;
 
 /// Collisions of a sphere in a frame: to write where all spheres are costs little then.
-const COLLISIONS_PER_FRAME: f64 = 0.5;
+const COLLISIONS_PER_FRAME: f64 = 1.0;
 
 /// Impacts in a frame, at most: more would make its report a large part of the memory measured.
-const MOST_IMPACTS_OF_A_FRAME: f64 = 100_000.0;
+const MOST_IMPACTS_OF_A_FRAME: f64 = 125_000.0;
 
 /// How fast a gas is.
 #[derive(Debug, Clone, Serialize, Deserialize)]

@@ -72,7 +72,7 @@ fn outlook_after(
     let kind = &timeline.kinds[body.kind as usize];
     let (neighbours, horizon) = (&timeline.neighbours, timeline.horizon());
     let stays = horizon < f64::INFINITY && neighbours.stays(slot, body, kind, horizon);
-    if !system.surfaces.is_empty() && !(stays && timeline.has_room(slot)) {
+    if !(system.surfaces.is_empty() || (stays && timeline.has_room(slot))) {
         meet_surfaces(timeline, system, slot, body, kind, &mut ahead);
     }
     if let Some(cluster) = kind.cluster {
