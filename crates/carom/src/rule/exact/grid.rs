@@ -25,7 +25,7 @@ pub(super) struct Grid {
     per_metre: DVec3,
     counts: [u16; 3],
     periodic: [bool; 3],
-    /// By axis and coordinate: a cell and those next to it. For open axes only.
+    /// By axis and coordinate: a cell and those next to it.
     runs: [Vec<[Run; 3]>; 3],
 }
 
@@ -127,7 +127,7 @@ impl Grid {
 
     fn with_runs(self) -> Self {
         let runs = |axis| {
-            let cells = if self.periodic[axis] { 0..0 } else { 0..self.counts[axis] };
+            let cells = 0..self.counts[axis];
             cells.map(|cell| self.runs_of(cell, axis, [-1, 1])).collect()
         };
         Self { runs: [0, 1, 2].map(runs), ..self }
@@ -165,14 +165,6 @@ impl Grid {
     /// what is in the cell is seen there.
     #[inline(always)]
     pub fn for_each_copy(&self, cell: [u16; 3], mut visit: impl FnMut(usize, [i32; 3])) {
-        let own = [0, 1, 2].map(|axis| cell[axis] + self.ghosts(axis));
-        visit(self.number_with_ghosts(own), [0; 3]);
-        let is_ghosted = |axis: usize| {
-            self.periodic[axis] && (cell[axis] == 0 || cell[axis] + 1 == self.counts[axis])
-        };
-        if !(0..3).any(is_ghosted) {
-            return;
-        }
         // The ends of an axis may be one cell.
         let turns = |axis: usize| {
             let [is_first, is_last] = [cell[axis] == 0, cell[axis] + 1 == self.counts[axis]];
@@ -180,15 +172,14 @@ impl Grid {
             -i32::from(is_last & is_periodic)..1 + i32::from(is_first & is_periodic)
         };
         let place = |axis: usize, turns: i32| {
-            (i32::from(own[axis]) + turns * i32::from(self.counts[axis])) as u16
+            let own = i32::from(cell[axis] + self.ghosts(axis));
+            (own + turns * i32::from(self.counts[axis])) as u16
         };
         for z in turns(2) {
             for y in turns(1) {
                 for x in turns(0) {
-                    if [x, y, z] != [0; 3] {
-                        let ghost = [place(0, x), place(1, y), place(2, z)];
-                        visit(self.number_with_ghosts(ghost), [x, y, z]);
-                    }
+                    let copy = [place(0, x), place(1, y), place(2, z)];
+                    visit(self.number_with_ghosts(copy), [x, y, z]);
                 }
             }
         }
@@ -280,7 +271,6 @@ impl Grid {
         }
         let runs = |axis| match side {
             Some(side) if side.axis == axis => self.runs_of(cell[axis], axis, [side.step; 2]),
-            _ if self.periodic[axis] => self.runs_of(cell[axis], axis, [-1, 1]),
             _ => self.runs[axis][usize::from(cell[axis])],
         };
         let [x, y, z] = [runs(0), runs(1), runs(2)];

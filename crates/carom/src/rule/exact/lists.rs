@@ -130,11 +130,10 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
         &page.members[..page.link.len()]
     }
 
-    /// The members of a list, if they are all in one piece.
+    /// Whether these are all its members.
     #[inline(always)]
-    pub fn whole(&self, list: usize) -> Option<&[T]> {
-        let page = &self.pages[list];
-        page.link.next().is_none().then(|| &page.members[..page.link.len()])
+    pub fn is_whole(&self, list: usize) -> bool {
+        self.pages[list].link.next().is_none()
     }
 
     /// The members of a list.

@@ -277,7 +277,7 @@ impl Neighbours {
             let cell = self.cell_of(slot, &self.levels[level as usize].grid);
             return self.gather(slot, level, (cell, None), near);
         };
-        near.are_listed = lists.whole(slot as usize).is_some();
+        near.are_listed = lists.is_whole(slot as usize);
         if !near.are_listed {
             near.gathered.add_list(lists, slot);
         }
@@ -595,7 +595,7 @@ impl Neighbours {
     /// Finds the others whom a sphere can meet while both are in their neighbourhoods.
     fn find_peers(&self, slot: u32, peers: &mut Buffer) {
         let [Level { grid, half_edges, own, .. }] = &self.levels[..] else { return };
-        let Neighbourhood { center, radius, turns } = self.neighbourhoods[slot as usize];
+        let Neighbourhood { center, radius, .. } = self.neighbourhoods[slot as usize];
         let radius = f64::from(radius);
         grid.for_each_block(grid.cell_of(center), None, |block| {
             let start = peers.len;
@@ -613,14 +613,7 @@ impl Neighbours {
                 is_near & (other.slot() != slot)
             });
             for other in &mut peers.buffer[start..peers.len] {
-                let (found, image) = (other.slot(), other.image_turns());
-                let is_in_same_box =
-                    image == [0; 3] && self.neighbourhoods[found as usize].turns == turns;
-                *other = if is_in_same_box {
-                    Neighbour::in_same_box(found)
-                } else {
-                    self.neighbour(slot, found, image)
-                };
+                *other = self.neighbour(slot, other.slot(), other.image_turns());
             }
         });
     }

@@ -4,7 +4,7 @@ use std::hint::select_unpredictable;
 
 use glam::DVec3;
 
-use super::body::{Body, Kind};
+use super::body::{Body, Kind, read_at_once};
 use super::neighbour::Neighbour;
 use super::outlook::{Ahead, Event, Target};
 use super::timeline::Timeline;
@@ -156,10 +156,7 @@ impl Surroundings {
         let Self { near, closing, count } = self;
         let near = timeline.neighbours.found(slot, near);
         if timeline.are_many() {
-            // All at once, so that none waits for another to come into the cache.
-            let bodies = &timeline.bodies;
-            let times = near.iter().map(|near| bodies[near.slot() as usize].time);
-            std::hint::black_box(times.sum::<f64>());
+            read_at_once(&timeline.bodies, near.iter().map(|near| near.slot()));
         }
         if closing.len() < near.len() {
             let nobody = Neighbour::in_same_box(slot);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::body::{Body, Kind};
+use super::body::{Body, Kind, read_at_once};
 use super::cluster::{Cluster, Clusters};
 use super::neighbours::{self, Contents, Neighbours};
 use super::outlook::{Ahead, Event, Next, Outlook, Target};
@@ -192,8 +192,8 @@ impl Timeline {
             for (new, &old) in (0u32..).zip(&order) {
                 new_slots[old as usize] = new;
             }
-            put_in_order(&mut self.bodies, &order);
-            put_in_order(&mut self.index_of, &order);
+            self.bodies = order.iter().map(|&slot| self.bodies[slot as usize]).collect();
+            self.index_of = order.iter().map(|&slot| self.index_of[slot as usize]).collect();
             for (slot, &index) in (0u32..).zip(&self.index_of) {
                 self.slot_of[index as usize] = slot;
             }
@@ -325,37 +325,34 @@ impl Timeline {
         }
         let Self { outlooks, bodies, neighbours, queue, index_of, flights_before, .. } = self;
         // What is read in one step is found from what was read in the steps before.
-        let next =
-            |place: usize| queue.upcoming(place).map(|slot| (slot, outlooks[slot as usize].next()));
-        let meets = |next: Next| match next {
-            Next::Event(Event { target: Target::Sphere(other), .. }) => Some(other),
-            _ => None,
+        let at_work = |place: usize| {
+            let slot = queue.upcoming(place);
+            let next = slot.map(|slot| outlooks[slot as usize].next());
+            let leaves = matches!(next, Some(Next::Departure(_)));
+            let other = match next {
+                Some(Next::Event(Event { target: Target::Sphere(other), .. })) => Some(other),
+                _ => None,
+            };
+            slot.into_iter().chain(other).map(move |slot| (slot, leaves))
         };
         let mut read = 0.0;
         if let Some(slot) = queue.upcoming(10) {
             read += outlooks[slot as usize].departure + bodies[slot as usize].time;
         }
-        if let Some((slot, next)) = next(8) {
-            for slot in [slot].into_iter().chain(meets(next)) {
-                read += bodies[slot as usize].time + neighbours.read_place(slot);
-                read += f64::from(index_of[slot as usize] ^ flights_before[slot as usize]);
-            }
+        for (slot, _) in at_work(8) {
+            read += bodies[slot as usize].time + neighbours.read_place(slot);
+            read += f64::from(index_of[slot as usize] ^ flights_before[slot as usize]);
         }
-        if let Some((slot, next)) = next(5) {
-            for slot in [slot].into_iter().chain(meets(next)) {
-                read += system.spheres.id[index_of[slot as usize] as usize].0 as f64;
-            }
-            read += neighbours.read_cells(slot, matches!(next, Next::Departure(_)));
-            read += meets(next).map_or(0.0, |other| neighbours.read_cells(other, false));
+        for (slot, leaves) in at_work(5) {
+            read += system.spheres.id[index_of[slot as usize] as usize].0 as f64;
+            read += neighbours.read_cells(slot, leaves);
         }
-        match next(2) {
-            Some((slot, Next::Departure(_))) => read += neighbours.read_candidates(slot),
-            Some((slot, next)) => {
-                for slot in [slot].into_iter().chain(meets(next)) {
-                    read += neighbours.read_bodies(slot, bodies);
-                }
-            }
-            None => {}
+        for (slot, leaves) in at_work(2) {
+            read += if leaves {
+                neighbours.read_candidates(slot)
+            } else {
+                neighbours.read_bodies(slot, bodies)
+            };
         }
         std::hint::black_box(read);
     }
@@ -562,26 +559,12 @@ impl Timeline {
     pub fn write_motion(&self, motion: &mut Motion, period: DVec3, time: f64) {
         parallel::fill((&mut motion.position, &mut motion.velocity), |index| {
             if self.are_many() && index % READ_AT_ONCE == 0 {
-                // So that none waits for another to come into the cache.
                 let slots = self.slot_of[index..].iter().take(READ_AT_ONCE);
-                let times = slots.map(|&slot| self.bodies[slot as usize].time);
-                std::hint::black_box(times.sum::<f64>());
+                read_at_once(&self.bodies, slots.copied());
             }
             let (position, velocity) = self.state_of(self.slot_of[index], time);
             (periodic::folded(position, period), velocity)
         });
-    }
-}
-
-/// Puts at each place the item that the order says, without memory for all of them once more.
-fn put_in_order<T>(items: &mut [T], order: &[u32]) {
-    for place in 0..items.len() {
-        // What was at a place before went to where its new item was.
-        let mut from = order[place] as usize;
-        while from < place {
-            from = order[from] as usize;
-        }
-        items.swap(place, from);
     }
 }
 
