@@ -31,5 +31,6 @@ mod turning;
 
 pub use bisection::{Bisection, Probe, bisect};
 pub(crate) use reach::Reach;
+pub(crate) use sphere_sphere::Approach;
 pub use sphere_sphere::{sphere_sphere, sphere_sphere_linear};
 pub(crate) use sphere_surface::sphere_surface;

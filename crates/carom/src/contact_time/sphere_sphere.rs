@@ -8,6 +8,7 @@ use super::roundoff::{DISTANCE_ROUNDOFF, Gap, Magnitudes, Phase, SPEED_ROUNDOFF,
 use super::search;
 use crate::flight::{self, Flight};
 use crate::norm::Norm;
+use crate::real::{Real, Vector};
 
 /// Time \[s\] at which two spheres come into contact whose relative velocity is constant: both
 /// fly under the same acceleration, without drag.
@@ -33,25 +34,43 @@ pub fn sphere_sphere_linear(
     relative_velocity: DVec3,
     radius_sum: f64,
 ) -> Option<f64> {
-    let (r, v) = (offset, relative_velocity);
-    let b = r.dot(v);
-    let v_squared = v.dot(v);
-    let discriminant = v_squared * radius_sum * radius_sum - r.cross(v).length_squared();
-    if !(b < 0.0 && discriminant >= 0.0) {
+    let approach = Approach::of(offset.into(), relative_velocity.into(), radius_sum);
+    if !(approach.closing < 0.0 && approach.discriminant >= 0.0) {
         return None;
     }
-    let distance = r.norm();
+    let distance = offset.norm();
     let gap = distance - radius_sum;
     if gap <= DISTANCE_ROUNDOFF * radius_sum {
-        let closes = -b > SPEED_ROUNDOFF * distance * v_squared.sqrt();
-        return closes.then(|| time(gap.max(0.0), distance + radius_sum, b, discriminant));
+        let closes = -approach.closing > SPEED_ROUNDOFF * distance * relative_velocity.norm();
+        return closes.then(|| approach.time(gap.max(0.0), distance + radius_sum));
     }
-    Some(time(gap, distance + radius_sum, b, discriminant))
+    Some(approach.time(gap, distance + radius_sum))
 }
 
-#[inline]
-fn time(gap: f64, sum: f64, b: f64, discriminant: f64) -> f64 {
-    gap * sum / (discriminant.sqrt() - b)
+/// How two spheres come near each other whose relative velocity is constant; of one pair, or of
+/// several side by side. They meet if both close and D >= 0.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Approach<N> {
+    /// b of [`sphere_sphere_linear`] \[m²/s\], negative where they close.
+    pub closing: N,
+    /// D there \[m⁴/s²\].
+    pub discriminant: N,
+}
+
+impl<N: Real> Approach<N> {
+    /// From the offset r \[m\] and the relative velocity v \[m/s\], for spheres whose radii have the
+    /// sum R \[m\].
+    #[inline(always)]
+    pub fn of(r: Vector<N>, v: Vector<N>, radius_sum: N) -> Self {
+        let discriminant = v.dot(v) * radius_sum * radius_sum - r.cross(v).length_squared();
+        Self { closing: r.dot(v), discriminant }
+    }
+
+    /// When they meet \[s\], from |r| - R and |r| + R \[m\].
+    #[inline(always)]
+    pub fn time(&self, gap: N, sum: N) -> N {
+        gap * sum / (self.discriminant.square_root() - self.closing)
+    }
 }
 
 /// Time \[s\] at which two spheres in free flight come into contact.

@@ -1,7 +1,10 @@
 //! Impacts of two spheres that touch nothing else.
 
+use std::hint::select_unpredictable;
+
 use glam::DVec3;
 
+use super::body::Body;
 use super::predict;
 use super::stage::Stage;
 use super::timeline::Timeline;
@@ -17,8 +20,9 @@ pub(super) const NEARBY: f64 = 1e-6;
 /// Answers the impact of two spheres at `time` \[s\], and of whatever touches them there.
 pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32; 2], time: f64) {
     // In the order of ids, as everywhere.
-    let mut slots = slots;
-    slots.sort_unstable_by_key(|&slot| timeline.index_of[slot as usize]);
+    let [one, other] = slots;
+    let is_ordered = timeline.index_of[one as usize] < timeline.index_of[other as usize];
+    let slots = select_unpredictable(is_ordered, [one, other], [other, one]);
     let kinds = slots.map(|slot| timeline.kind_of(slot));
     if !kinds[0].flies_like(kinds[1]) || kinds.iter().any(|kind| kind.cluster.is_some()) {
         return group::answer(timeline, stage, &slots, None, time);
@@ -30,7 +34,7 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
     for (slot, (place, velocity)) in slots.into_iter().zip(after) {
         timeline.bodies[slot as usize].begin_flight(place, velocity, time);
     }
-    if !(0..2).all(|one| is_alone(timeline, stage, slots, one, time)) {
+    if !(is_alone(timeline, stage, slots, 0) && is_alone(timeline, stage, slots, 1)) {
         slots
             .into_iter()
             .zip(before)
@@ -57,23 +61,17 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
 /// Whether one of two spheres, whose flights begin at `time` \[s\], touches nothing but the other.
 /// It looks around.
 #[inline(always)]
-fn is_alone(
-    timeline: &Timeline,
-    stage: &mut Stage,
-    slots: [u32; 2],
-    one: usize,
-    time: f64,
-) -> bool {
+fn is_alone(timeline: &Timeline, stage: &mut Stage, slots: [u32; 2], one: usize) -> bool {
     let (slot, other) = (slots[one], slots[1 - one]);
     let radius = timeline.kind_of(slot).radius;
     let around = &mut stage.around[one];
-    let mut touches = around.look(timeline, slot, |_| time, (other, NEARBY));
+    let mut touches = around.look(timeline, slot, (other, NEARBY));
     // The two fly alike: where all are of one kind, all do.
     if timeline.kinds.len() > 1 {
         touches |= around.touches_others(timeline, slot, (other, NEARBY));
     }
-    let place = timeline.bodies[slot as usize].position;
-    !touches && stage.touches_no_surface(timeline, slot, place, radius * NEARBY, time)
+    let Body { position, time, .. } = timeline.bodies[slot as usize];
+    !touches && stage.touches_no_surface(timeline, slot, position, radius * NEARBY, time)
 }
 
 /// The impact of two spheres by itself, which all laws answer alike.

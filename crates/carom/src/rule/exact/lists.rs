@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// A part of a list.
 #[derive(Debug, Clone, Copy)]
-#[repr(align(16))]
+#[repr(align(8))]
 struct Page<T, const SIZE: usize> {
     members: [T; SIZE],
     /// How many members there are, and the number of the next page.
@@ -130,10 +130,10 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
         &page.members[..page.link.len()]
     }
 
-    /// Whether these are all its members.
+    /// The first page of a list: its first members, and behind them former ones.
     #[inline(always)]
-    pub fn is_whole(&self, list: usize) -> bool {
-        self.pages[list].link.next().is_none()
+    pub fn first_page(&self, list: usize) -> &[T; SIZE] {
+        &self.pages[list].members
     }
 
     /// The members of a list.

@@ -11,6 +11,7 @@ mod axis_motion;
 mod body;
 mod bounce;
 mod carry;
+mod cells;
 mod cluster;
 mod corner;
 mod grid;
@@ -26,6 +27,7 @@ mod periodic;
 mod predict;
 mod queue;
 mod room;
+mod sight;
 mod stage;
 mod support;
 mod surroundings;
@@ -34,7 +36,7 @@ mod touch;
 mod vicinity;
 
 pub(crate) use neighbour::MAX_SPHERES;
-use outlook::{Next, Target};
+use outlook::{Next, Upon};
 use stage::Stage;
 pub(crate) use timeline::Timeline;
 
@@ -83,18 +85,18 @@ pub(crate) fn advance(
                 continue;
             }
         };
-        match event.target {
-            Target::Restart => predict::restart(timeline, &mut stage, slot, event.time),
-            Target::Sphere(_) if timeline.is_void(&event) => {
+        match event.target.upon() {
+            Upon::Restart => predict::restart(timeline, &mut stage, slot, event.time),
+            Upon::Sphere(_) if timeline.is_void(&event) => {
                 predict::fall_back(timeline, &mut stage, slot, event.time);
             }
-            Target::Sphere(other) => {
+            Upon::Sphere(other) => {
                 impact::of_spheres(timeline, &mut stage, [slot, other], event.time);
             }
-            Target::Surface(surface) => {
+            Upon::Surface(surface) => {
                 bounce::answer(timeline, &mut stage, slot, Some(surface), event.time);
             }
-            Target::Cluster => bounce::answer(timeline, &mut stage, slot, None, event.time),
+            Upon::Cluster => bounce::answer(timeline, &mut stage, slot, None, event.time),
         }
         if timeline.flights_in_frame(slot) > parameters.max_impacts {
             let limit = parameters.max_impacts;

@@ -21,6 +21,18 @@ const TURNS: [[i32; 3]; IMAGES] = {
     turns
 };
 
+const TURNS_IN_NUMBERS: [(DVec3, f64); IMAGES] = {
+    let mut numbers = [(DVec3::ZERO, 1.0); IMAGES];
+    numbers[0].1 = 0.0;
+    let mut image = 0;
+    while image < IMAGES {
+        let [x, y, z] = TURNS[image];
+        numbers[image].0 = DVec3::new(x as f64, y as f64, z as f64);
+        image += 1;
+    }
+    numbers
+};
+
 /// More spheres than this cannot be told apart.
 pub(crate) const MAX_SPHERES: usize = 1 << SLOT_BITS;
 
@@ -62,6 +74,12 @@ impl Neighbour {
         TURNS[self.image_number()]
     }
 
+    /// The same in numbers, and 1 if it is an image at all, 0 if it is none.
+    #[inline(always)]
+    pub fn image_turns_in_numbers(self) -> &'static (DVec3, f64) {
+        &TURNS_IN_NUMBERS[self.image_number()]
+    }
+
     /// The same, where no image is in the same box.
     #[inline(always)]
     pub fn as_image(self) -> Self {
@@ -101,9 +119,12 @@ mod tests {
             let image = Neighbour::image(slot, turns);
             assert_eq!((image.slot(), image.is_in_same_box()), (slot, false));
             assert_eq!((image.image_turns(), image.as_image()), (turns, image));
+            let numbers = DVec3::from_array(turns.map(f64::from));
+            assert_eq!(*image.image_turns_in_numbers(), (numbers, 1.0));
             assert_eq!(image.mirrored(7), Neighbour::image(7, turns.map(|turns| -turns)));
         }
         let plain = Neighbour::in_same_box(slot);
+        assert_eq!(*plain.image_turns_in_numbers(), (DVec3::ZERO, 0.0));
         assert!(plain.is_in_same_box() && plain.slot() == slot);
         assert_eq!(plain.mirrored(7), Neighbour::in_same_box(7));
         assert_eq!(plain.as_image(), Neighbour::image(slot, [0; 3]));

@@ -20,18 +20,22 @@
 
 use std::mem::take;
 
+use fearless_simd::{Simd, SimdMask, dispatch};
 use glam::DVec3;
 
 use super::axis_motion::AxisMotion;
 use super::body::{Body, Kind};
+use super::cells::Cells;
 use super::grid::{Grid, Side};
 use super::lists::Lists;
 use super::near_surfaces::NearSurfaces;
 use super::neighbour::{IMAGES, Neighbour};
 use super::periodic::{folded, turns_of, way_round};
-use super::vicinity::{Buffer, CellLists, NeighbourLists, Vicinity};
+use super::vicinity::{NeighbourLists, Vicinity, are_in_same_box};
 use crate::detect::surface_tree::SurfaceTree;
+use crate::lanes::{LANES, Lanes};
 use crate::norm::Norm;
+use crate::real::Vector;
 use crate::surface::Surface;
 
 /// Radii within this factor share a level.
@@ -70,8 +74,8 @@ pub(super) struct Neighbours {
     /// Whether spheres have to find each other at all.
     spheres_collide: bool,
     /// Working memory of a relocation: neighbours before and after.
-    before: Buffer,
-    after: Buffer,
+    before: Vicinity,
+    after: Vicinity,
 }
 
 /// The spheres of one size class.
@@ -81,9 +85,9 @@ struct Level {
     /// Half the edges of their neighbourhoods \[m\].
     half_edges: DVec3,
     /// Its spheres.
-    own: CellLists,
+    own: Cells,
     /// Smaller ones, if there are any.
-    visitors: Option<CellLists>,
+    visitors: Option<Cells>,
     surfaces: NearSurfaces,
 }
 
@@ -233,9 +237,10 @@ impl Neighbours {
             let overhang =
                 if lists.is_some() { half_edges } else { half_edges - 0.5 * grid.width() };
             let radius = contents.radius_of(number);
+            let cells = || Cells::new(grid.len_with_ghosts(), lists.is_some());
             Level {
-                own: Lists::new(grid.len_with_ghosts()),
-                visitors: (number as usize + 1 < count).then(|| Lists::new(grid.len_with_ghosts())),
+                own: cells(),
+                visitors: (number as usize + 1 < count).then(cells),
                 surfaces: NearSurfaces::new(contents, &grid, overhang, radius),
                 half_edges,
                 grid,
@@ -277,19 +282,7 @@ impl Neighbours {
             let cell = self.cell_of(slot, &self.levels[level as usize].grid);
             return self.gather(slot, level, (cell, None), near);
         };
-        near.are_listed = lists.is_whole(slot as usize);
-        if !near.are_listed {
-            near.gathered.add_list(lists, slot);
-        }
-    }
-
-    /// Those who were found near the sphere at `slot`.
-    #[inline(always)]
-    pub fn found<'a>(&'a self, slot: u32, near: &'a Vicinity) -> &'a [Neighbour] {
-        match &self.lists {
-            Some(lists) if near.are_listed => lists.first(slot as usize),
-            _ => near.gathered.found(),
-        }
+        near.add_list(lists, slot);
     }
 
     /// Reads where a sphere is, and its list if there are lists.
@@ -341,24 +334,41 @@ impl Neighbours {
     }
 
     /// Where to a neighbour of the sphere at `slot` has to be shifted to be near \[m\].
-    #[inline(always)]
     pub fn shift_of(&self, slot: u32, neighbour: Neighbour) -> DVec3 {
-        let is_in_box = |slot: u32| self.neighbourhoods[slot as usize].turns == [0; 3];
-        if is_in_box(slot) & is_in_box(neighbour.slot()) {
-            self.ways_to_images[neighbour.image_number()]
-        } else {
-            self.shift_of_far_image(slot, neighbour)
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn shift_of_far_image(&self, slot: u32, neighbour: Neighbour) -> DVec3 {
         if neighbour.is_in_same_box() {
             return DVec3::ZERO;
         }
         let turns = self.turns_between(slot, neighbour.slot(), neighbour.image_turns());
         way_round(turns, self.period)
+    }
+
+    /// Likewise of several, side by side.
+    #[inline(always)]
+    pub fn shifts_of<S: Simd>(
+        &self,
+        simd: S,
+        slot: u32,
+        some: &[Neighbour; LANES],
+    ) -> Vector<Lanes<S>> {
+        // In whole numbers, which are exact. Along an open axis nobody turns.
+        let edges = DVec3::select(self.period.is_finite_mask(), self.period, DVec3::ZERO);
+        let turns = |slot: u32| {
+            let turns = &self.neighbourhoods[slot as usize].turns;
+            DVec3::new(f64::from(turns[0]), f64::from(turns[1]), f64::from(turns[2]))
+        };
+        let here = Vector::all(simd, turns(slot));
+        let there = Vector::each(simd, some.each_ref().map(|one| turns(one.slot())));
+        let images = some.each_ref().map(|one| one.image_turns_in_numbers());
+        let is_image = Lanes::each(simd, images.map(|image| image.1));
+        let in_box = Vector::each(simd, images.map(|image| image.0));
+        ((in_box + (here - there)) * is_image).scaled(Vector::all(simd, edges))
+    }
+
+    /// The ways to images of spheres in the box about the origin \[m\].
+    #[inline(always)]
+    fn ways_to<S: Simd>(&self, simd: S, some: &[Neighbour; LANES]) -> Vector<Lanes<S>> {
+        let ways = some.each_ref().map(|one| &self.ways_to_images[one.image_number()]);
+        Vector::each(simd, ways.map(|way| *way))
     }
 
     /// Turns between where the positions of two spheres count, when in the box there are so many.
@@ -510,11 +520,11 @@ impl Neighbours {
         &mut self,
         slot: u32,
         (own_level, own_cell): (u32, [u16; 3]),
-        mut act: impl FnMut(&mut CellLists, usize, Neighbour),
+        mut act: impl FnMut(&mut Cells, usize, Neighbour),
     ) {
         let own_mark = self.mark(slot);
         let mark = |turns| if turns == [0; 3] { own_mark } else { Neighbour::image(slot, turns) };
-        let mut act = |grid: &Grid, cells: &mut CellLists, cell| {
+        let mut act = |grid: &Grid, cells: &mut Cells, cell| {
             grid.for_each_copy(cell, |number, turns| act(cells, number, mark(turns)));
         };
         let center = self.neighbourhoods[slot as usize].center;
@@ -554,20 +564,19 @@ impl Neighbours {
     #[inline(always)]
     fn gather_from(
         &self,
-        (grid, spheres): (&Grid, &CellLists),
+        (grid, spheres): (&Grid, &Cells),
         slot: u32,
         (cell, side): ([u16; 3], Option<Side>),
         near: &mut Vicinity,
     ) {
         let is_turned = self.neighbourhoods[slot as usize].turns != [0; 3];
         grid.for_each_block(cell, side, |block| {
-            let start = near.gathered.len;
-            near.gathered.add_block(spheres, &block);
-            near.gathered.retain_from(start, |other| other.slot() != slot);
+            let start = near.len;
+            near.add_block(spheres, &block);
+            near.leave_out(start, slot);
             if is_turned {
                 // Even those in the box about the origin are images.
-                let gathered = &mut near.gathered.buffer[start..near.gathered.len];
-                gathered.iter_mut().for_each(|other| *other = other.as_image());
+                near.make_images(start);
             }
         });
     }
@@ -576,14 +585,15 @@ impl Neighbours {
     /// its own.
     fn list(&mut self, slot: u32, new: &mut Vicinity) {
         let (mut before, mut after) = (take(&mut self.before), take(&mut self.after));
-        (before.len, after.len) = (0, 0);
+        before.clear();
+        after.clear();
         self.find_peers(slot, &mut after);
         if let Some(lists) = &mut self.lists {
             before.add_list(lists, slot);
             lists.set(slot as usize, after.found());
             for &come in after.found().iter().filter(|&&one| !before.has(one)) {
                 lists.add(come.slot() as usize, come.mirrored(slot));
-                new.gathered.push(come);
+                new.push(come);
             }
             for &gone in before.found().iter().filter(|&&one| !after.has(one)) {
                 lists.remove(gone.slot() as usize, gone.mirrored(slot));
@@ -593,29 +603,53 @@ impl Neighbours {
     }
 
     /// Finds the others whom a sphere can meet while both are in their neighbourhoods.
-    fn find_peers(&self, slot: u32, peers: &mut Buffer) {
+    fn find_peers(&self, slot: u32, peers: &mut Vicinity) {
         let [Level { grid, half_edges, own, .. }] = &self.levels[..] else { return };
-        let Neighbourhood { center, radius, .. } = self.neighbourhoods[slot as usize];
-        let radius = f64::from(radius);
-        grid.for_each_block(grid.cell_of(center), None, |block| {
+        let cell = self.cell_of(slot, grid);
+        grid.for_each_block(cell, None, |block| {
             let start = peers.len;
             peers.add_block(own, &block);
             let reach = block.is_endless.map(|is| if is { f64::INFINITY } else { 2.0 });
             let reach = DVec3::from_array(reach) * half_edges;
-            peers.retain_from(start, |other| {
-                let neighbourhood = &self.neighbourhoods[other.slot() as usize];
-                // Seen from the other one it is the same to the last bit, but for the sign.
-                let way = self.ways_to_images[other.image_number()];
-                let offset = (neighbourhood.center - center) + way;
-                let gap = (offset.abs() - reach).max(DVec3::ZERO);
-                let radius_sum = radius + f64::from(neighbourhood.radius);
-                let is_near = gap.length_squared() <= radius_sum * radius_sum * SLACK;
-                is_near & (other.slot() != slot)
-            });
+            let level = fearless_simd::Level::new();
+            dispatch!(level, simd => self.keep_peers(simd, slot, reach, peers, start));
             for other in &mut peers.buffer[start..peers.len] {
                 *other = self.neighbour(slot, other.slot(), other.image_turns());
             }
         });
+    }
+
+    /// Keeps, of those from `start` on, the others whose neighbourhoods reach that of the sphere, when
+    /// their centres may be so far apart \[m\].
+    #[inline(always)]
+    fn keep_peers<S: Simd>(
+        &self,
+        simd: S,
+        slot: u32,
+        reach: DVec3,
+        peers: &mut Vicinity,
+        start: usize,
+    ) {
+        let Neighbourhood { center, radius, .. } = self.neighbourhoods[slot as usize];
+        let (here, radius) = (Vector::all(simd, center), Lanes::all(simd, f64::from(radius)));
+        let reach = Vector::all(simd, reach);
+        peers.retain_from(
+            start,
+            #[inline(always)]
+            |four| {
+                let others = four.each_ref().map(|one| &self.neighbourhoods[one.slot() as usize]);
+                // Seen from the other one it is the same to the last bit, but for the sign.
+                let mut offset = Vector::each(simd, others.map(|other| other.center)) - here;
+                if !are_in_same_box(four) {
+                    offset = offset + self.ways_to(simd, four);
+                }
+                let gap = offset.beyond(reach);
+                let radii = others.map(|other| f64::from(other.radius));
+                let radius_sum = radius + Lanes::each(simd, radii);
+                gap.length_squared().is_at_most(radius_sum * radius_sum * SLACK).to_bitmask()
+            },
+        );
+        peers.leave_out(start, slot);
     }
 
     /// What a sphere is to that at `slot`, when its image so many turns away is near.

@@ -2,7 +2,7 @@
 
 use super::neighbour::MAX_SPHERES;
 
-/// What a sphere meets next.
+/// What a sphere meets next, in 16 bytes, for each sphere keeps two.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Event {
     /// On the world's clock \[s\].
@@ -13,9 +13,14 @@ pub(super) struct Event {
 }
 
 impl Event {
-    pub const NEVER: Self = Self { time: f64::INFINITY, target: Target::Restart, flights: 0 };
+    const NEVER: Self = Self { time: f64::INFINITY, target: Target::RESTART, flights: 0 };
     /// One that would have to be looked for: it stands before all others.
     const UNKNOWN: Self = Self { time: f64::NEG_INFINITY, ..Self::NEVER };
+
+    /// Whether it never comes.
+    pub fn is_never(&self) -> bool {
+        self.time == f64::INFINITY
+    }
 }
 
 /// What a sphere meets next, and what else it would meet next if that did not come.
@@ -26,8 +31,6 @@ pub(super) struct Ahead {
 }
 
 impl Ahead {
-    pub const NOTHING: Self = Self { first: Event::NEVER, second: Event::NEVER };
-
     /// One event, where it is not known what comes if it does not.
     pub fn only(first: Event) -> Self {
         Self { first, second: Event::UNKNOWN }
@@ -51,7 +54,7 @@ impl Ahead {
 
 /// What a sphere comes upon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Target {
+pub(super) enum Upon {
     /// Another sphere, by slot.
     Sphere(u32),
     Surface(u32),
@@ -59,6 +62,45 @@ pub(super) enum Target {
     Cluster,
     /// Nothing: its flight begins anew from where it is.
     Restart,
+}
+
+/// The same in four bytes: the slot of a sphere, a surface's number with the highest bit set (there
+/// is no memory for so many surfaces that it was set before), or one of the numbers below.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Target(u32);
+
+impl Target {
+    const SURFACE: u32 = 1 << 31;
+    /// No slot: these are smaller.
+    pub const CLUSTER: Self = Self(MAX_SPHERES as u32);
+    pub const RESTART: Self = Self(MAX_SPHERES as u32 + 1);
+
+    #[inline(always)]
+    pub fn sphere(slot: u32) -> Self {
+        Self(slot)
+    }
+
+    pub fn surface(number: u32) -> Self {
+        Self(number | Self::SURFACE)
+    }
+
+    /// The slot of a sphere, if it is one.
+    #[inline(always)]
+    pub fn slot(self) -> Option<u32> {
+        (self.0 < MAX_SPHERES as u32).then_some(self.0)
+    }
+
+    #[inline(always)]
+    pub fn upon(self) -> Upon {
+        match self {
+            Self(surface) if surface & Self::SURFACE != 0 => {
+                Upon::Surface(surface & !Self::SURFACE)
+            }
+            Self::CLUSTER => Upon::Cluster,
+            Self::RESTART => Upon::Restart,
+            Self(slot) => Upon::Sphere(slot),
+        }
+    }
 }
 
 /// What happens next to a sphere.
@@ -69,101 +111,35 @@ pub(super) enum Next {
     Departure(f64),
 }
 
-/// What lies ahead of a sphere, in little memory, for each sphere has one: events, and a departure.
+/// What lies ahead of a sphere: events, and a departure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Outlook {
-    first: PackedEvent,
-    second: PackedEvent,
+    pub ahead: Ahead,
     /// When it leaves its neighbourhood, on the world's clock \[s\].
     pub departure: f64,
 }
 
-/// An event in 16 bytes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct PackedEvent {
-    /// On the world's clock \[s\].
-    time: f64,
-    target: PackedTarget,
-    flights: u32,
-}
-
-impl PackedEvent {
-    #[inline(always)]
-    fn of(Event { time, target, flights }: Event) -> Self {
-        Self { time, target: PackedTarget::of(target), flights }
-    }
-
-    #[inline(always)]
-    fn unpacked(self) -> Event {
-        Event { time: self.time, target: self.target.unpacked(), flights: self.flights }
-    }
-}
-
 impl Outlook {
-    #[inline(always)]
-    pub fn new(Ahead { first, second }: Ahead, departure: f64) -> Self {
-        Self { first: PackedEvent::of(first), second: PackedEvent::of(second), departure }
-    }
-
-    #[inline(always)]
-    pub fn ahead(&self) -> Ahead {
-        Ahead { first: self.event(), second: self.second.unpacked() }
-    }
-
     /// The first event.
     #[inline(always)]
     pub fn event(&self) -> Event {
-        self.first.unpacked()
+        self.ahead.first
     }
 
     /// When the first of it happens, on the world's clock \[s\].
     #[inline(always)]
     pub fn time(&self) -> f64 {
         // Never NaN: to ask for that, as `min` does, takes longer than all the rest.
-        if self.departure < self.first.time { self.departure } else { self.first.time }
+        if self.departure < self.ahead.first.time { self.departure } else { self.ahead.first.time }
     }
 
     /// What happens first.
     #[inline(always)]
     pub fn next(&self) -> Next {
-        if self.departure < self.first.time {
+        if self.departure < self.ahead.first.time {
             Next::Departure(self.departure)
         } else {
             Next::Event(self.event())
-        }
-    }
-}
-
-/// A target in four bytes: the slot of a sphere, a surface's number with the highest bit set (there
-/// is no memory for so many surfaces that it was set before), or one of the numbers below.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct PackedTarget(u32);
-
-impl PackedTarget {
-    const SURFACE: u32 = 1 << 31;
-    /// No slot: these are smaller.
-    const CLUSTER: Self = Self(MAX_SPHERES as u32);
-    const RESTART: Self = Self(MAX_SPHERES as u32 + 1);
-
-    #[inline(always)]
-    fn of(target: Target) -> Self {
-        match target {
-            Target::Sphere(slot) => Self(slot),
-            Target::Surface(surface) => Self(surface | Self::SURFACE),
-            Target::Cluster => Self::CLUSTER,
-            Target::Restart => Self::RESTART,
-        }
-    }
-
-    #[inline(always)]
-    fn unpacked(self) -> Target {
-        match self {
-            Self(surface) if surface & Self::SURFACE != 0 => {
-                Target::Surface(surface & !Self::SURFACE)
-            }
-            Self::CLUSTER => Target::Cluster,
-            Self::RESTART => Target::Restart,
-            Self(slot) => Target::Sphere(slot),
         }
     }
 }
@@ -173,16 +149,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_outlook_gives_back_the_event_it_was_made_of() {
+    fn a_target_gives_back_what_it_was_made_of() {
         let last = MAX_SPHERES as u32 - 1;
-        let spheres = [0, last].map(Target::Sphere);
-        let others = [Target::Surface(0), Target::Surface(7), Target::Cluster, Target::Restart];
-        for (number, target) in (0u32..).zip(spheres.into_iter().chain(others)) {
-            let event = Event { time: f64::from(number), target, flights: number };
-            let ahead = Ahead { first: event, second: Event { time: 9.0, ..event } };
-            let outlook = Outlook::new(ahead, 2.0);
-            assert_eq!((outlook.ahead(), outlook.event()), (ahead, event));
-            assert_eq!(outlook.next() == Next::Event(event), event.time <= 2.0);
+        for slot in [0, last] {
+            assert_eq!(Target::sphere(slot).upon(), Upon::Sphere(slot));
         }
+        for number in [0, 7, last, last + 1, last + 2] {
+            assert_eq!(Target::surface(number).upon(), Upon::Surface(number));
+        }
+        assert_eq!(Target::CLUSTER.upon(), Upon::Cluster);
+        assert_eq!(Target::RESTART.upon(), Upon::Restart);
     }
 }

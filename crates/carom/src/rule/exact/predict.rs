@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::body::{Body, Kind};
-use super::outlook::{Ahead, Event, Outlook, Target};
+use super::outlook::{Ahead, Event, Outlook, Target, Upon};
 use super::stage::Stage;
 use super::surroundings::Surroundings;
 use super::timeline::Timeline;
@@ -21,8 +21,10 @@ pub(super) fn predict(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now
 /// began another flight before. Whoever does so looks at all around it, so that this one need not
 /// look at it again.
 pub(super) fn fall_back(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now: f64) {
-    match timeline.outlooks[slot as usize].ahead().without_first() {
-        Some(rest) if !timeline.is_void(&rest.first) => timeline.reschedule(slot, rest),
+    match timeline.outlooks[slot as usize].ahead.without_first() {
+        Some(rest) if rest.first.is_never() || !timeline.is_void(&rest.first) => {
+            timeline.reschedule(slot, rest)
+        }
         _ => predict(timeline, stage, slot, now),
     }
 }
@@ -38,10 +40,8 @@ pub(super) fn outlook(
     around: &mut Surroundings,
     now: f64,
 ) -> Outlook {
-    let mut ahead = Ahead::NOTHING;
-    let start_with = start_with_later(timeline, slot);
-    around.look(timeline, slot, &start_with, (slot, 0.0));
-    around.first_meetings(timeline, slot, start_with, &mut ahead);
+    around.look(timeline, slot, (slot, 0.0));
+    let ahead = around.first_meetings(timeline, slot);
     outlook_after(timeline, system, slot, ahead, now)
 }
 
@@ -54,8 +54,7 @@ pub(super) fn outlook_from_here(
     around: &Surroundings,
     now: f64,
 ) -> Outlook {
-    let mut ahead = Ahead::NOTHING;
-    around.first_meetings(timeline, slot, |_| now, &mut ahead);
+    let ahead = around.first_meetings(timeline, slot);
     outlook_after(timeline, system, slot, ahead, now)
 }
 
@@ -77,10 +76,10 @@ fn outlook_after(
     }
     if let Some(cluster) = kind.cluster {
         let time = timeline.clusters.renewal_by(cluster, slot);
-        ahead.add(Event { time, target: Target::Cluster, flights: 0 });
+        ahead.add(Event { time, target: Target::CLUSTER, flights: 0 });
     }
     let departure = if stays { f64::INFINITY } else { neighbours.departure(slot, body, kind, now) };
-    Outlook::new(ahead, departure)
+    Outlook { ahead, departure }
 }
 
 /// Lets a sphere pass over a meeting that is due before `until` \[s\], to begin another flight then.
@@ -90,13 +89,13 @@ fn outlook_after(
 pub(super) fn pause(timeline: &mut Timeline, slot: u32, bodies: Bodies, until: f64) {
     let event = timeline.outlooks[slot as usize].event();
     let sphere = timeline.index_of[slot as usize];
-    let again = match event.target {
-        Target::Sphere(other) => Bodies::pair([sphere, timeline.index_of[other as usize]]),
-        Target::Surface(surface) => Bodies::Surface { sphere, surface },
-        Target::Cluster | Target::Restart => return,
+    let again = match event.target.upon() {
+        Upon::Sphere(other) => Bodies::pair([sphere, timeline.index_of[other as usize]]),
+        Upon::Surface(surface) => Bodies::Surface { sphere, surface },
+        Upon::Cluster | Upon::Restart => return,
     };
     if again == bodies && event.time < until {
-        let restart = Event { time: until, target: Target::Restart, flights: 0 };
+        let restart = Event { time: until, target: Target::RESTART, flights: 0 };
         timeline.reschedule(slot, Ahead::only(restart));
     }
 }
@@ -114,19 +113,13 @@ pub(super) fn relocate(timeline: &mut Timeline, stage: &mut Stage, slot: u32, no
     let state = timeline.state_of(slot, now);
     let around = &mut stage.around[0];
     timeline.relocate(slot, state.into(), &mut around.near);
-    let mut ahead = timeline.outlooks[slot as usize].ahead();
-    let start_with = start_with_later(timeline, slot);
-    around.look_at_found(timeline, slot, &start_with, (slot, 0.0));
-    around.first_meetings(timeline, slot, start_with, &mut ahead);
+    let mut ahead = timeline.outlooks[slot as usize].ahead;
+    around.look_at_found(timeline, slot, (slot, 0.0));
+    let found = around.first_meetings(timeline, slot);
+    ahead.add(found.first);
+    ahead.add(found.second);
     let outlook = outlook_after(timeline, stage.system, slot, ahead, now);
     timeline.schedule(slot, outlook);
-}
-
-/// The start of the flight of a sphere, or of another if that began later.
-fn start_with_later(timeline: &Timeline, slot: u32) -> impl Fn(&Body) -> f64 {
-    let time = timeline.bodies[slot as usize].time;
-    // Never NaN: to ask for that, as `max` does, takes longer.
-    move |other| if other.time > time { other.time } else { time }
 }
 
 /// Adds the surfaces near it that a sphere meets to what lies ahead of it.
@@ -162,7 +155,7 @@ fn meet_surfaces(
         let delay =
             contact_time::sphere_surface(&flight, kind.radius, &form, &motion, until - start);
         if let Some(delay) = delay {
-            let target = Target::Surface(number);
+            let target = Target::surface(number);
             ahead.add(Event { time: start + delay, target, flights: 0 });
         }
     }

@@ -270,7 +270,7 @@ impl Timeline {
     /// Notes what a sphere meets next.
     pub(super) fn reschedule(&mut self, slot: u32, ahead: Ahead) {
         let departure = self.outlooks[slot as usize].departure;
-        self.schedule(slot, Outlook::new(ahead, departure));
+        self.schedule(slot, Outlook { ahead, departure });
     }
 
     /// Notes what lies ahead of a sphere.
@@ -281,13 +281,18 @@ impl Timeline {
         self.queue.push(Entry { time: outlook.time(), slot, index });
     }
 
+    /// The meeting with another sphere at this time \[s\], as far as is known now.
+    #[inline(always)]
+    pub(super) fn meeting(&self, time: f64, other: u32) -> Event {
+        let flights = self.bodies[other as usize].flights;
+        Event { time, target: Target::sphere(other), flights }
+    }
+
     /// Whether a meeting with another sphere will not be, for that one began another flight.
     #[inline]
     pub(super) fn is_void(&self, event: &Event) -> bool {
-        match event.target {
-            Target::Sphere(other) => self.bodies[other as usize].flights != event.flights,
-            _ => false,
-        }
+        let other = event.target.slot();
+        other.is_some_and(|other| self.bodies[other as usize].flights != event.flights)
     }
 
     /// What happens next, not later than `end` \[s\], and to which sphere.
@@ -330,7 +335,7 @@ impl Timeline {
             let next = slot.map(|slot| outlooks[slot as usize].next());
             let leaves = matches!(next, Some(Next::Departure(_)));
             let other = match next {
-                Some(Next::Event(Event { target: Target::Sphere(other), .. })) => Some(other),
+                Some(Next::Event(event)) => event.target.slot(),
                 _ => None,
             };
             slot.into_iter().chain(other).map(move |slot| (slot, leaves))

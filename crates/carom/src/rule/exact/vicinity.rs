@@ -1,97 +1,146 @@
 //! Who is near one sphere, gathered from cells or lists into memory that is used again.
 
+use std::array;
+
+use super::cells::Cells;
 use super::grid::Block;
 use super::lists::Lists;
 use super::neighbour::Neighbour;
+use crate::lanes::LANES;
 
-/// Spheres by cell, as they are seen from the box about the origin: as a rule not more than three.
-pub(super) type CellLists = Lists<Neighbour, 3>;
 /// Neighbours of each sphere, by slot: as a rule not more than fifteen.
-pub(super) type NeighbourLists = Lists<Neighbour, 15>;
+pub(super) type NeighbourLists = Lists<Neighbour, NEIGHBOURS>;
+const NEIGHBOURS: usize = 15;
 
-/// Whether no neighbour is an image. Looks at all of them, which is faster than to stop at one.
+/// Whether none is an image.
 #[inline(always)]
-pub(super) fn are_in_same_box(neighbours: &[Neighbour]) -> bool {
-    neighbours.iter().fold(Neighbour::default(), |all, &other| all.joined(other)).is_in_same_box()
+pub(super) fn are_in_same_box(four: &[Neighbour; LANES]) -> bool {
+    four.iter().fold(Neighbour::default(), |all, &other| all.joined(other)).is_in_same_box()
 }
 
 /// Memory in which those who are near a sphere are gathered.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Vicinity {
-    pub gathered: Buffer,
-    /// Whether they are all on the list of the sphere: then they are not here.
-    pub are_listed: bool,
+    /// Those who were found; what lies behind has no meaning, but each is a neighbour of somebody.
+    pub buffer: Vec<Neighbour>,
+    pub len: usize,
+    /// Joined, they and perhaps others: in the same box only if all of them are.
+    joined: Neighbour,
 }
 
 impl Vicinity {
     #[inline(always)]
     pub fn clear(&mut self) {
-        self.gathered.len = 0;
-        self.are_listed = false;
+        self.len = 0;
+        self.joined = Neighbour::default();
     }
-}
 
-/// Neighbours in memory that is used again.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Buffer {
-    /// Those who were found; what lies behind has no meaning.
-    pub buffer: Vec<Neighbour>,
-    pub len: usize,
-}
+    /// Whether images may be among them.
+    #[inline(always)]
+    pub fn has_images(&self) -> bool {
+        !self.joined.is_in_same_box()
+    }
 
-impl Buffer {
     #[inline(always)]
     pub fn found(&self) -> &[Neighbour] {
         &self.buffer[..self.len]
     }
 
+    /// Those who were found, in fours; behind them, in the last four, others stand.
+    #[inline(always)]
+    pub fn in_fours(&mut self) -> &[[Neighbour; LANES]] {
+        let end = self.len.next_multiple_of(LANES);
+        if self.buffer.len() < end {
+            self.buffer.resize(end, Neighbour::default());
+        }
+        self.buffer[..end].as_chunks().0
+    }
+
     pub fn push(&mut self, neighbour: Neighbour) {
-        let Self { buffer, len } = self;
-        buffer.truncate(*len);
-        buffer.push(neighbour);
-        *len += 1;
+        if self.buffer.len() == self.len {
+            self.buffer.push(neighbour);
+        } else {
+            self.buffer[self.len] = neighbour;
+        }
+        self.len += 1;
+        self.joined = self.joined.joined(neighbour);
     }
 
     /// Adds the spheres of some cells.
     #[inline(always)]
-    pub fn add_block(&mut self, cells: &CellLists, block: &Block) {
-        let Self { buffer, len } = self;
-        let most = cells.room(block.len());
-        if buffer.len() < *len + most {
-            buffer.resize(*len + most, Neighbour::default());
-        }
-        let mut end = *len;
-        block.for_each_row(|row| {
-            end = match cells.copy_first(row.clone(), buffer, end) {
-                (end, true) => end,
-                (end, false) => cells.copy_rest(row, buffer, end, most),
-            };
-        });
-        *len = end;
+    pub fn add_block(&mut self, cells: &Cells, block: &Block) {
+        self.len = cells.gather(block, &mut self.buffer, self.len);
     }
 
     /// Adds the neighbours of a sphere.
     #[inline(always)]
     pub fn add_list(&mut self, lists: &NeighbourLists, slot: u32) {
-        self.len = lists.gather(slot as usize, &mut self.buffer, self.len);
+        let start = self.len;
+        self.len = lists.gather(slot as usize, &mut self.buffer, start);
+        // The first page is looked at where it is, and all of it: what was just written can be read
+        // in other pieces only when it has come to the cache.
+        let rest = self.buffer[start..self.len].get(NEIGHBOURS..).unwrap_or(&[]);
+        let all = lists.first_page(slot as usize).iter().chain(rest);
+        self.joined = all.fold(self.joined, |all, &other| all.joined(other));
     }
 
-    /// Whether one is among them. Looks at all of them, likewise.
+    /// Whether one is among them. Looks at all of them, which is faster than to stop at one.
     #[inline(always)]
     pub fn has(&self, one: Neighbour) -> bool {
         self.found().iter().fold(false, |found, &other| found | (other == one))
     }
 
-    /// Of those from `start` on, keeps some. Without branches on that, which no processor can
-    /// foresee.
+    /// Leaves a sphere and its images out of those from `start` on. Without branches on that, which no
+    /// processor can foresee.
     #[inline(always)]
-    pub fn retain_from(&mut self, start: usize, is_kept: impl Fn(Neighbour) -> bool) {
-        let found = &mut self.buffer[start..self.len];
+    pub fn leave_out(&mut self, start: usize, slot: u32) {
+        let end = self.len;
+        let room = start + (end - start).next_multiple_of(LANES);
+        if self.buffer.len() < end + LANES {
+            self.buffer.resize(end + LANES, Neighbour::default());
+        }
+        // What stands behind them is left out, too.
+        self.buffer[end..end + LANES].fill(Neighbour::in_same_box(slot));
+        let found = &mut self.buffer[start..room];
+        let (mut count, mut joined) = (0, self.joined);
+        for first in (0..found.len()).step_by(LANES) {
+            let four: [Neighbour; LANES] = array::from_fn(|lane| found[first + lane]);
+            for neighbour in four {
+                found[count] = neighbour;
+                count += usize::from(neighbour.slot() != slot);
+                joined = joined.joined(neighbour);
+            }
+        }
+        (self.len, self.joined) = (start + count, joined);
+    }
+
+    /// Takes those from `start` on for images.
+    pub fn make_images(&mut self, start: usize) {
+        for other in &mut self.buffer[start..self.len] {
+            *other = other.as_image();
+            self.joined = self.joined.joined(*other);
+        }
+    }
+
+    /// Of those from `start` on, keeps those whose bits are set, four by four. Likewise without
+    /// branches.
+    #[inline(always)]
+    pub fn retain_from(&mut self, start: usize, kept: impl Fn(&[Neighbour; LANES]) -> u64) {
+        let end = self.len;
+        let room = start + (end - start).next_multiple_of(LANES);
+        if self.buffer.len() < room {
+            self.buffer.resize(room, Neighbour::default());
+        }
+        let found = &mut self.buffer[start..room];
         let mut count = 0;
-        for n in 0..found.len() {
-            let neighbour = found[n];
-            found[count] = neighbour;
-            count += usize::from(is_kept(neighbour));
+        for first in (0..found.len()).step_by(LANES) {
+            let four: [Neighbour; LANES] = array::from_fn(|lane| found[first + lane]);
+            let there = (1 << usize::min(end - start - first, LANES)) - 1;
+            let bits = kept(&four) & there;
+            for (lane, neighbour) in four.into_iter().enumerate() {
+                found[count] = neighbour;
+                count += (bits >> lane & 1) as usize;
+            }
         }
         self.len = start + count;
     }

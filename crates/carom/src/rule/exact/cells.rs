@@ -1,0 +1,77 @@
+//! Who is in which cell of a grid.
+
+use super::grid::Block;
+use super::lists::Lists;
+use super::neighbour::Neighbour;
+
+/// Spheres by cell, as they are seen from the box about the origin.
+#[derive(Debug, Clone)]
+pub(super) enum Cells {
+    /// As a rule, at most three are in a cell.
+    Sparse(Lists<Neighbour, 3>),
+    /// As a rule, at most five are.
+    Crowded(Lists<Neighbour, 5>),
+}
+
+impl Cells {
+    /// So many empty cells.
+    pub fn new(count: usize, are_crowded: bool) -> Self {
+        if are_crowded { Self::Crowded(Lists::new(count)) } else { Self::Sparse(Lists::new(count)) }
+    }
+
+    #[inline(always)]
+    pub fn add(&mut self, cell: usize, sphere: Neighbour) {
+        match self {
+            Self::Sparse(lists) => lists.add(cell, sphere),
+            Self::Crowded(lists) => lists.add(cell, sphere),
+        }
+    }
+
+    #[inline(always)]
+    pub fn remove(&mut self, cell: usize, sphere: Neighbour) {
+        match self {
+            Self::Sparse(lists) => lists.remove(cell, sphere),
+            Self::Crowded(lists) => lists.remove(cell, sphere),
+        }
+    }
+
+    /// The first spheres in a cell: as a rule, all.
+    #[inline(always)]
+    pub fn first(&self, cell: usize) -> &[Neighbour] {
+        match self {
+            Self::Sparse(lists) => lists.first(cell),
+            Self::Crowded(lists) => lists.first(cell),
+        }
+    }
+
+    /// Puts the spheres of some cells into `found`, from `len` on, and gives where they end. What is
+    /// there behind that has no meaning.
+    #[inline(always)]
+    pub fn gather(&self, block: &Block, found: &mut Vec<Neighbour>, len: usize) -> usize {
+        match self {
+            Self::Sparse(lists) => gather(lists, block, found, len),
+            Self::Crowded(lists) => gather(lists, block, found, len),
+        }
+    }
+}
+
+#[inline(always)]
+fn gather<const SIZE: usize>(
+    lists: &Lists<Neighbour, SIZE>,
+    block: &Block,
+    found: &mut Vec<Neighbour>,
+    len: usize,
+) -> usize {
+    let most = lists.room(block.len());
+    if found.len() < len + most {
+        found.resize(len + most, Neighbour::default());
+    }
+    let mut end = len;
+    block.for_each_row(|row| {
+        end = match lists.copy_first(row.clone(), found, end) {
+            (end, true) => end,
+            (end, false) => lists.copy_rest(row, found, end, most),
+        };
+    });
+    end
+}
