@@ -24,13 +24,6 @@ pub(super) struct Body {
     pub flights: u32,
 }
 
-/// Reads spheres all at once, so that none waits for another to come into the cache. Nothing is done
-/// with them.
-#[inline(always)]
-pub(super) fn read_at_once(bodies: &[Body], slots: impl Iterator<Item = u32>) {
-    std::hint::black_box(slots.map(|slot| bodies[slot as usize].time).sum::<f64>());
-}
-
 /// What spheres of one kind share: constants of their flight and of their impacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Kind {

@@ -35,6 +35,15 @@ impl Cells {
         }
     }
 
+    /// Has the first spheres in a cell fetched into the cache.
+    #[inline(always)]
+    pub fn prefetch(&self, cell: usize) {
+        match self {
+            Self::Sparse(lists) => lists.prefetch(cell),
+            Self::Crowded(lists) => lists.prefetch(cell),
+        }
+    }
+
     /// The first spheres in a cell: as a rule, all.
     #[inline(always)]
     pub fn first(&self, cell: usize) -> &[Neighbour] {

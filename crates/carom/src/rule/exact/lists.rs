@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use prefetch_index::prefetch_index;
+
 /// A part of a list.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(8))]
@@ -128,6 +130,14 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
     pub fn first(&self, list: usize) -> &[T] {
         let page = &self.pages[list];
         &page.members[..page.link.len()]
+    }
+
+    /// Has the first page of a list fetched into the cache, from its beginning to its end: that may be
+    /// two lines.
+    #[inline(always)]
+    pub fn prefetch(&self, list: usize) {
+        prefetch_index(&self.pages, list);
+        prefetch_index(&self.pages, list + 1);
     }
 
     /// The first page of a list: its first members, and behind them former ones.

@@ -22,6 +22,7 @@ use std::mem::take;
 
 use fearless_simd::{Simd, SimdMask, dispatch};
 use glam::DVec3;
+use prefetch_index::prefetch_index;
 
 use super::axis_motion::AxisMotion;
 use super::body::{Body, Kind};
@@ -100,14 +101,6 @@ struct Neighbourhood {
     radius: f32,
     /// How often the sphere went round each periodic axis since its flight began.
     turns: [i32; 3],
-}
-
-impl Neighbourhood {
-    /// Reads it, from its beginning to its end: that may be two lines of the cache.
-    #[inline(always)]
-    fn read(&self) -> f64 {
-        self.center.x + f64::from(self.turns[2])
-    }
 }
 
 /// What neighbours are found from.
@@ -285,52 +278,56 @@ impl Neighbours {
         near.add_list(lists, slot);
     }
 
-    /// Reads where a sphere is, and its list if there are lists.
+    /// Has it fetched into the cache where a sphere is, and its list if there are lists.
     #[inline]
-    pub fn read_place(&self, slot: u32) -> f64 {
-        let listed = self.lists.as_ref().map_or(0, |lists| lists.first(slot as usize).len());
-        self.neighbourhoods[slot as usize].read() + listed as f64
+    pub fn prefetch_place(&self, slot: u32) {
+        self.prefetch_neighbourhood(slot);
+        if let Some(lists) = &self.lists {
+            lists.prefetch(slot as usize);
+        }
     }
 
-    /// Reads the cells around a sphere, if they are needed: where there are lists, only if it leaves
-    /// its neighbourhood.
+    /// A neighbourhood, from its beginning to its end: that may be two lines of the cache.
+    #[inline(always)]
+    fn prefetch_neighbourhood(&self, slot: u32) {
+        prefetch_index(&self.neighbourhoods, slot as usize);
+        prefetch_index(&self.neighbourhoods, slot as usize + 1);
+    }
+
+    /// Likewise the cells around a sphere, if they are needed: where there are lists, only if it
+    /// leaves its neighbourhood.
     #[inline]
-    pub fn read_cells(&self, slot: u32, leaves: bool) -> f64 {
-        let [Level { grid, own, .. }] = &self.levels[..] else { return 0.0 };
+    pub fn prefetch_cells(&self, slot: u32, leaves: bool) {
+        let [Level { grid, own, .. }] = &self.levels[..] else { return };
         if self.lists.is_some() && !leaves {
-            return 0.0;
+            return;
         }
-        let mut read = 0;
         grid.for_each_block(self.cell_of(slot, grid), None, |block| {
             block.for_each_row(|row| {
-                read += own.first(row.start).len() + own.first(row.end - 1).len();
+                own.prefetch(row.start);
+                own.prefetch(row.end - 1);
             });
         });
-        read as f64
     }
 
-    /// Reads where those are who may come onto the list of a sphere, if there are lists.
+    /// Likewise, if there are lists, the `bodies` of those on the list of a sphere; if it leaves its
+    /// neighbourhood, where those are who may come onto its list.
     #[inline]
-    pub fn read_candidates(&self, slot: u32) -> f64 {
-        let ([Level { grid, own, .. }], Some(_)) = (&self.levels[..], &self.lists) else {
-            return 0.0;
+    pub fn prefetch_near(&self, slot: u32, leaves: bool, bodies: &[Body]) {
+        let ([Level { grid, own, .. }], Some(lists)) = (&self.levels[..], &self.lists) else {
+            return;
         };
-        let mut read = 0.0;
+        if !leaves {
+            let near = lists.first(slot as usize).iter();
+            return near.for_each(|near| prefetch_index(bodies, near.slot() as usize));
+        }
         grid.for_each_block(self.cell_of(slot, grid), None, |block| {
             block.for_each_row(|row| {
                 for other in row.flat_map(|cell| own.first(cell)) {
-                    read += self.neighbourhoods[other.slot() as usize].read();
+                    self.prefetch_neighbourhood(other.slot());
                 }
             });
         });
-        read
-    }
-
-    /// Reads the bodies of those who are on the list of a sphere, if there are lists.
-    #[inline]
-    pub fn read_bodies(&self, slot: u32, bodies: &[Body]) -> f64 {
-        let near = self.lists.as_ref().map_or(&[][..], |lists| lists.first(slot as usize));
-        near.iter().map(|near| bodies[near.slot() as usize].time).sum()
     }
 
     /// Where to a neighbour of the sphere at `slot` has to be shifted to be near \[m\].

@@ -1,8 +1,9 @@
 //! What a sphere sees around it: how far its neighbours are, and which of them it meets first.
 
 use glam::DVec3;
+use prefetch_index::prefetch_index;
 
-use super::body::{Body, Kind, read_at_once};
+use super::body::{Body, Kind};
 use super::neighbour::Neighbour;
 use super::outlook::Ahead;
 use super::sight::Look;
@@ -33,7 +34,8 @@ impl Surroundings {
     #[inline(always)]
     pub fn look_at_found(&mut self, timeline: &Timeline, slot: u32, besides: (u32, f64)) -> bool {
         if timeline.are_many() {
-            read_at_once(&timeline.bodies, self.near.found().iter().map(|near| near.slot()));
+            let slots = self.near.found().iter().map(|near| near.slot() as usize);
+            slots.for_each(|slot| prefetch_index(&timeline.bodies, slot));
         }
         let (count, has_images) = (self.near.len, self.near.has_images());
         let near = self.near.in_fours();

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
+use prefetch_index::prefetch_index;
 
-use super::body::{Body, Kind, read_at_once};
+use super::body::{Body, Kind};
 use super::cluster::{Cluster, Clusters};
 use super::neighbours::{self, Contents, Neighbours};
 use super::outlook::{Ahead, Event, Next, Outlook, Target};
@@ -33,8 +34,8 @@ const EVENTS_PER_ARRANGEMENT: u64 = 24;
 
 /// More spheres than this do not stay in the fast caches.
 const MANY: usize = 20_000;
-/// Of so many, so many are read at once.
-const READ_AT_ONCE: usize = 32;
+/// Where all are read one after another, so many are fetched into the cache ahead.
+const FETCHED_AHEAD: usize = 32;
 
 /// All that the rule keeps between frames.
 ///
@@ -321,15 +322,14 @@ impl Timeline {
         self.bodies.len() > MANY
     }
 
-    /// Reads what the next events will need, so that it is in the cache by then: all at once, not one
-    /// after another. Nothing is done with it.
+    /// Has what the next events will need fetched into the cache, so that it is there by then.
     #[inline]
     fn anticipate(&self, system: &System) {
         if !self.are_many() {
             return;
         }
         let Self { outlooks, bodies, neighbours, queue, index_of, flights_before, .. } = self;
-        // What is read in one step is found from what was read in the steps before.
+        // What is fetched in one step is found from what was fetched in the steps before.
         let at_work = |place: usize| {
             let slot = queue.upcoming(place);
             let next = slot.map(|slot| outlooks[slot as usize].next());
@@ -340,26 +340,24 @@ impl Timeline {
             };
             slot.into_iter().chain(other).map(move |slot| (slot, leaves))
         };
-        let mut read = 0.0;
         if let Some(slot) = queue.upcoming(10) {
-            read += outlooks[slot as usize].departure + bodies[slot as usize].time;
+            prefetch_index(outlooks, slot as usize);
         }
         for (slot, _) in at_work(8) {
-            read += bodies[slot as usize].time + neighbours.read_place(slot);
-            read += f64::from(index_of[slot as usize] ^ flights_before[slot as usize]);
+            let slot = slot as usize;
+            prefetch_index(bodies, slot);
+            prefetch_index(outlooks, slot);
+            prefetch_index(index_of, slot);
+            prefetch_index(flights_before, slot);
+            neighbours.prefetch_place(slot as u32);
         }
         for (slot, leaves) in at_work(5) {
-            read += system.spheres.id[index_of[slot as usize] as usize].0 as f64;
-            read += neighbours.read_cells(slot, leaves);
+            prefetch_index(&system.spheres.id, index_of[slot as usize] as usize);
+            neighbours.prefetch_cells(slot, leaves);
         }
         for (slot, leaves) in at_work(2) {
-            read += if leaves {
-                neighbours.read_candidates(slot)
-            } else {
-                neighbours.read_bodies(slot, bodies)
-            };
+            neighbours.prefetch_near(slot, leaves, bodies);
         }
-        std::hint::black_box(read);
     }
 
     /// Whether there is one kind of spheres, and they see each other move in straight lines.
@@ -563,9 +561,8 @@ impl Timeline {
     /// Writes the states of all spheres at `time` \[s\].
     pub fn write_motion(&self, motion: &mut Motion, period: DVec3, time: f64) {
         parallel::fill((&mut motion.position, &mut motion.velocity), |index| {
-            if self.are_many() && index % READ_AT_ONCE == 0 {
-                let slots = self.slot_of[index..].iter().take(READ_AT_ONCE);
-                read_at_once(&self.bodies, slots.copied());
+            if let Some(&slot) = self.slot_of.get(index + FETCHED_AHEAD) {
+                prefetch_index(&self.bodies, slot as usize);
             }
             let (position, velocity) = self.state_of(self.slot_of[index], time);
             (periodic::folded(position, period), velocity)
