@@ -9,8 +9,7 @@ use super::neighbour::Neighbour;
 use crate::lanes::LANES;
 
 /// Neighbours of each sphere, by slot: as a rule not more than fifteen.
-pub(super) type NeighbourLists = Lists<Neighbour, NEIGHBOURS>;
-const NEIGHBOURS: usize = 15;
+pub(super) type NeighbourLists = Lists<Neighbour, 15>;
 
 /// Whether none is an image.
 #[inline(always)]
@@ -79,7 +78,7 @@ impl Vicinity {
         self.len = lists.gather(slot as usize, &mut self.buffer, start);
         // The first page is looked at where it is, and all of it: what was just written can be read
         // in other pieces only when it has come to the cache.
-        let rest = self.buffer[start..self.len].get(NEIGHBOURS..).unwrap_or(&[]);
+        let rest = &self.buffer[start + lists.first(slot as usize).len()..self.len];
         let all = lists.first_page(slot as usize).iter().chain(rest);
         self.joined = all.fold(self.joined, |all, &other| all.joined(other));
     }
@@ -143,5 +142,26 @@ impl Vicinity {
             }
         }
         self.len = start + count;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_image_on_a_further_page_of_a_list_is_noticed() {
+        let mut lists = NeighbourLists::new(1);
+        (1..=15).for_each(|slot| lists.add(0, Neighbour::in_same_box(slot)));
+        lists.add(0, Neighbour::image(16, [1, 0, 0]));
+        // The first page is no longer full.
+        (1..4).for_each(|slot| lists.remove(0, Neighbour::in_same_box(slot)));
+        let mut near = Vicinity::default();
+        near.add_list(&lists, 0);
+        assert_eq!((near.len, near.has_images()), (13, true));
+        lists.remove(0, Neighbour::image(16, [1, 0, 0]));
+        near.clear();
+        near.add_list(&lists, 0);
+        assert_eq!((near.len, near.has_images()), (12, false));
     }
 }
