@@ -41,11 +41,10 @@ pub(super) fn outlook(
     now: f64,
 ) -> Outlook {
     around.look(timeline, slot, (slot, 0.0));
-    let ahead = around.first_meetings(timeline, slot);
-    outlook_after(timeline, system, slot, ahead, now)
+    outlook_from_here(timeline, system, slot, around, now)
 }
 
-/// Likewise for a sphere whose flight begins now, when it has looked around.
+/// Likewise when it has looked around.
 #[inline(always)]
 pub(super) fn outlook_from_here(
     timeline: &Timeline,

@@ -344,12 +344,12 @@ impl Timeline {
             prefetch_index(outlooks, slot as usize);
         }
         for (slot, _) in at_work(8) {
-            let slot = slot as usize;
-            prefetch_index(bodies, slot);
-            prefetch_index(outlooks, slot);
-            prefetch_index(index_of, slot);
-            prefetch_index(flights_before, slot);
-            neighbours.prefetch_place(slot as u32);
+            let place = slot as usize;
+            prefetch_index(bodies, place);
+            prefetch_index(outlooks, place);
+            prefetch_index(index_of, place);
+            prefetch_index(flights_before, place);
+            neighbours.prefetch_place(slot);
         }
         for (slot, leaves) in at_work(5) {
             prefetch_index(&system.spheres.id, index_of[slot as usize] as usize);
