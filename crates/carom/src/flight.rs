@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::real::{Real, Vector};
+
 /// A sphere in free flight: under a constant acceleration and viscous drag, `x'' = a - γ x'`.
 ///
 /// Without drag the path is a parabola. With it (Lamb, *Dynamics* (1914), "resisted motion"):
@@ -39,6 +41,12 @@ impl Flight {
     /// Centre \[m\] and velocity \[m/s\] at a time \[s\].
     #[inline]
     pub fn after(&self, t: f64) -> (DVec3, DVec3) {
+        if self.drag_rate * t == 0.0 {
+            let [position, velocity, acceleration] =
+                [self.position, self.velocity, self.acceleration].map(Vector::from);
+            let (position, velocity) = without_drag(t, position, velocity, acceleration);
+            return (position.into(), velocity.into());
+        }
         let Propagator { decay, drift, fall } = Propagator::over(t, self.drag_rate);
         let position = self.position + (drift * self.velocity + fall * self.acceleration);
         let velocity = decay * self.velocity + drift * self.acceleration;
@@ -77,6 +85,19 @@ impl Flight {
     pub(crate) fn initial_acceleration(&self) -> DVec3 {
         self.acceleration - self.drag_rate * self.velocity
     }
+}
+
+/// Centre \[m\] and velocity \[m/s\] after a time t \[s\] without drag, of one flight or of several
+/// side by side, from those at its start and an acceleration \[m/s²\]: [`Propagator`] for γ t = 0.
+#[inline(always)]
+pub(crate) fn without_drag<N: Real>(
+    t: N,
+    position: Vector<N>,
+    velocity: Vector<N>,
+    acceleration: Vector<N>,
+) -> (Vector<N>, Vector<N>) {
+    let fall = (t * 0.5 * t).at_most(f64::MAX);
+    (position + (velocity * t + acceleration * fall), velocity + acceleration * t)
 }
 
 /// What a stretch of time does to a flight:

@@ -5,7 +5,9 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
-use fearless_simd::{Select, Simd, SimdBase, SimdCombine, SimdFloat, f64x2, f64x4, mask64x4};
+use fearless_simd::{
+    Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, f64x2, f64x4, mask64x4,
+};
 use glam::DVec3;
 
 use crate::real::{Real, Vector};
@@ -34,6 +36,11 @@ impl<S: Simd> Lanes<S> {
         let [a, b, c, d] = pairs.map(|pair| f64x2::load_array(simd, pair));
         let (first, second) = a.combine(b).deinterleave(c.combine(d));
         [Self(first), Self(second)]
+    }
+
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        Self(self.0.abs())
     }
 
     /// By how much each goes beyond a bound, either way; none is NaN.
@@ -86,6 +93,11 @@ impl<S: Simd> Real for Lanes<S> {
     #[inline(always)]
     fn or_larger(self, other: Self) -> Self {
         other.where_chosen(self.is_less(other), self)
+    }
+
+    #[inline(always)]
+    fn at_most(self, bound: f64) -> Self {
+        Self(self.0.min(bound))
     }
 }
 
@@ -148,6 +160,27 @@ impl<S: Simd> Vector<Lanes<S>> {
             y: Lanes::each(simd, vectors.map(|vector| vector.y)),
             z: Lanes::each(simd, vectors.map(|vector| vector.z)),
         }
+    }
+
+    /// From lane 0 on.
+    #[inline(always)]
+    pub fn to_array(self) -> [DVec3; LANES] {
+        let [x, y, z] = [self.x, self.y, self.z].map(Lanes::to_array);
+        std::array::from_fn(|lane| DVec3::new(x[lane], y[lane], z[lane]))
+    }
+
+    /// Sum of the sizes of the components.
+    #[inline(always)]
+    pub fn size(self) -> Lanes<S> {
+        self.x.abs() + self.y.abs() + self.z.abs()
+    }
+
+    /// Whether a component of any goes beyond a bound, either way.
+    #[inline(always)]
+    pub fn is_beyond(self, bound: Self) -> bool {
+        let is_beyond = |a: Lanes<S>, bound: Lanes<S>| bound.0.simd_lt(a.0.abs());
+        (is_beyond(self.x, bound.x) | is_beyond(self.y, bound.y) | is_beyond(self.z, bound.z))
+            .any_true()
     }
 
     /// By how much each component goes beyond a bound, either way.

@@ -26,23 +26,22 @@ pub(crate) fn map<M: Default, T: Send>(
     (0..count).map(|number| f(&mut memory, number)).collect()
 }
 
-/// Puts the results of `f` for 0, 1, ... into two arrays of one length.
+/// Has two arrays of one length filled, run by run: `f` is given the number of the first in a run.
 #[cfg(feature = "rayon")]
 pub(crate) fn fill<A: Send, B: Send>(
     (first, second): (&mut [A], &mut [B]),
-    f: impl Fn(usize) -> (A, B) + Sync + Send,
+    f: impl Fn(usize, (&mut [A], &mut [B])) + Sync + Send,
 ) {
     use rayon::prelude::*;
-    let both = first.par_iter_mut().zip(second).enumerate().with_min_len(FEW);
-    both.for_each(|(number, (a, b))| (*a, *b) = f(number));
+    let runs = first.par_chunks_mut(FEW).zip(second.par_chunks_mut(FEW)).enumerate();
+    runs.for_each(|(number, run)| f(number * FEW, run));
 }
 
 /// Likewise.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn fill<A: Send, B: Send>(
-    (first, second): (&mut [A], &mut [B]),
-    f: impl Fn(usize) -> (A, B) + Sync + Send,
+    both: (&mut [A], &mut [B]),
+    f: impl Fn(usize, (&mut [A], &mut [B])) + Sync + Send,
 ) {
-    let both = first.iter_mut().zip(second).enumerate();
-    both.for_each(|(number, (a, b))| (*a, *b) = f(number));
+    f(0, both);
 }

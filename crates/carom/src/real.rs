@@ -17,6 +17,8 @@ pub(crate) trait Real:
     fn square_root(self) -> Self;
     /// The larger one of each two, neither of them NaN.
     fn or_larger(self, other: Self) -> Self;
+    /// At most `bound`; neither is NaN.
+    fn at_most(self, bound: f64) -> Self;
 }
 
 impl Real for f64 {
@@ -28,6 +30,11 @@ impl Real for f64 {
     #[inline(always)]
     fn or_larger(self, other: Self) -> Self {
         if other > self { other } else { self }
+    }
+
+    #[inline(always)]
+    fn at_most(self, bound: f64) -> Self {
+        if self > bound { bound } else { self }
     }
 }
 

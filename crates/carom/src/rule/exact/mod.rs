@@ -14,6 +14,7 @@ mod carry;
 mod cells;
 mod cluster;
 mod corner;
+mod flights;
 mod grid;
 mod group;
 mod hold;

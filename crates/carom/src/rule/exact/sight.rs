@@ -9,6 +9,7 @@ use fearless_simd::{Level, Simd, SimdMask, dispatch, mask64x4};
 use glam::DVec3;
 
 use super::body::{Body, Kind};
+use super::flights::{Flights, Relative};
 use super::neighbour::Neighbour;
 use super::timeline::Timeline;
 use crate::contact_time::{self, Approach};
@@ -44,51 +45,6 @@ pub(super) struct Seen {
     /// The first two meetings, on the world's clock \[s\], and the slots of those who are met;
     /// infinite if there are none.
     pub meetings: [(f64, u32); 2],
-}
-
-/// A sphere in flight since some time \[s\], or several side by side.
-#[derive(Clone, Copy)]
-struct Flights<N> {
-    position: Vector<N>,
-    velocity: Vector<N>,
-    time: N,
-}
-
-/// How another sphere is seen when the later one of two flights begins.
-#[derive(Clone, Copy)]
-struct Relative<N> {
-    /// On the world's clock \[s\].
-    start: N,
-    /// From the centre of the one that sees to that of the other \[m\].
-    offset: Vector<N>,
-    /// \[m/s\]
-    velocity: Vector<N>,
-}
-
-impl<N: Real> Flights<N> {
-    /// How this one sees another, an image where there is a way to it \[m\], if both fall with the
-    /// same acceleration \[m/s²\], if any.
-    #[inline(always)]
-    fn see(
-        &self,
-        other: &Self,
-        way: Option<Vector<N>>,
-        acceleration: Option<Vector<N>>,
-    ) -> Relative<N> {
-        let start = self.time.or_larger(other.time);
-        let [age, other_age] = [start - self.time, start - other.time];
-        let mut offset = other.position - self.position;
-        if let Some(way) = way {
-            offset = offset + way;
-        }
-        offset = offset + (other.velocity * other_age - self.velocity * age);
-        let mut velocity = other.velocity - self.velocity;
-        if let Some(acceleration) = acceleration {
-            offset = offset + acceleration * ((other_age * other_age - age * age) * 0.5);
-            velocity = velocity + acceleration * (other_age - age);
-        }
-        Relative { start, offset, velocity }
-    }
 }
 
 impl Look<'_> {
@@ -191,7 +147,7 @@ impl<'a, const ASKED: u8> View<'a, ASKED> {
         let way = asks::<ASKED>(IMAGES).then(|| timeline.neighbours.shifts_of(simd, *slot, four));
         let acceleration = asks::<ASKED>(FALLS).then(|| Vector::all(simd, kind.acceleration));
         let Relative { start, offset, velocity } =
-            me.see(&flights(simd, others), way, acceleration);
+            me.see(&Flights::of_each(simd, others), way, acceleration);
         let (mut radius_sum, mut is_alike) = (all(kind.radius + kind.radius), is_there);
         if asks::<ASKED>(KINDS) {
             let kinds = others.map(|other| self.kind_of(other));
@@ -235,7 +191,7 @@ impl<'a, const ASKED: u8> View<'a, ASKED> {
     /// When one is met that nearly touches, on the world's clock \[s\]; infinite if never.
     fn close_meeting(&self, near: Neighbour) -> f64 {
         let other = &self.look.timeline.bodies[near.slot() as usize];
-        let [me, they] = [self.body, other].map(flight);
+        let [me, they] = [self.body, other].map(Flights::of_one);
         let shift = || self.look.timeline.neighbours.shift_of(self.look.slot, near).into();
         let way = asks::<ASKED>(IMAGES).then(shift);
         let acceleration = asks::<ASKED>(FALLS).then(|| self.kind.acceleration.into());
@@ -255,25 +211,6 @@ impl<'a, const ASKED: u8> View<'a, ASKED> {
 #[inline(always)]
 const fn asks<const ASKED: u8>(what: u8) -> bool {
     ASKED & what != 0
-}
-
-fn flight(body: &Body) -> Flights<f64> {
-    let Body { position, velocity, time, .. } = *body;
-    Flights { position: position.into(), velocity: velocity.into(), time }
-}
-
-#[inline(always)]
-fn flights<S: Simd>(simd: S, bodies: [&Body; LANES]) -> Flights<Lanes<S>> {
-    // Two numbers that lie side by side in memory are read at once.
-    let pairs = |pair: fn(&Body) -> [f64; 2]| Lanes::pairs(simd, bodies.map(pair));
-    let [x, y] = pairs(|body| [body.position.x, body.position.y]);
-    let [z, u] = pairs(|body| [body.position.z, body.velocity.x]);
-    let [v, w] = pairs(|body| [body.velocity.y, body.velocity.z]);
-    Flights {
-        position: Vector { x, y, z },
-        velocity: Vector { x: u, y: v, z: w },
-        time: Lanes::each(simd, bodies.map(|body| body.time)),
-    }
 }
 
 /// In each lane, the first two of some times, and the numbers that go with them.

@@ -1,12 +1,15 @@
 //! The timeline: where every sphere flies, and what happens next.
 
+use std::array;
 use std::collections::BTreeMap;
 
+use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 use prefetch_index::prefetch_index;
 
 use super::body::{Body, Kind};
 use super::cluster::{Cluster, Clusters};
+use super::flights::Flights;
 use super::neighbours::{self, Contents, Neighbours};
 use super::outlook::{Ahead, Event, Next, Outlook, Target};
 use super::periodic;
@@ -19,7 +22,9 @@ use super::{hold, predict};
 use crate::bodies::{Motion, SphereId};
 use crate::detect::contact::Bodies;
 use crate::forces;
+use crate::lanes::{LANES, Lanes};
 use crate::parallel;
+use crate::real::Vector;
 use crate::surface::Role;
 use crate::system::System;
 
@@ -542,12 +547,8 @@ impl Timeline {
     /// not finite.
     pub fn lost(&self, time: f64) -> Option<(usize, &'static str)> {
         // As a rule nobody can be that far, whatever drag does, and no path need be followed.
-        let pull: f64 = self.kinds.iter().map(|kind| size(kind.acceleration)).sum();
-        let farthest = |body: &Body| {
-            let age = (time - body.time).abs();
-            size(body.position) + (1.0 + age) * (size(body.velocity) + age * pull)
-        };
-        if self.bodies.iter().map(farthest).sum::<f64>().is_finite() {
+        let pull = self.kinds.iter().map(|kind| kind.acceleration.abs().element_sum()).sum();
+        if dispatch!(Level::new(), simd => self.farthest(simd, time, pull)).is_finite() {
             return None;
         }
         self.slot_of.iter().enumerate().find_map(|(index, &slot)| {
@@ -558,21 +559,73 @@ impl Timeline {
         })
     }
 
+    /// More than how far anybody is from the origin \[m\] and how fast \[m/s\] at `time` \[s\], where
+    /// no acceleration is larger than `pull` \[m/s²\].
+    #[inline(always)]
+    fn farthest<S: Simd>(&self, simd: S, time: f64, pull: f64) -> f64 {
+        let [time, pull, one] = [time, pull, 1.0].map(|number| Lanes::all(simd, number));
+        let (in_fours, rest) = self.bodies.as_chunks();
+        let rest =
+            rest.first().map(|&body| array::from_fn(|place| *rest.get(place).unwrap_or(&body)));
+        let mut sum = Lanes::all(simd, 0.0);
+        for bodies in in_fours.iter().chain(&rest) {
+            let Flights { position, velocity, time: start } =
+                Flights::of_each(simd, bodies.each_ref());
+            let age = (time - start).abs();
+            sum = sum + position.size() + (one + age) * (velocity.size() + age * pull);
+        }
+        sum.to_array().iter().sum()
+    }
+
     /// Writes the states of all spheres at `time` \[s\].
     pub fn write_motion(&self, motion: &mut Motion, period: DVec3, time: f64) {
-        parallel::fill((&mut motion.position, &mut motion.velocity), |index| {
-            if let Some(&slot) = self.slot_of.get(index + FETCHED_AHEAD) {
-                prefetch_index(&self.bodies, slot as usize);
-            }
-            let (position, velocity) = self.state_of(self.slot_of[index], time);
-            (periodic::folded(position, period), velocity)
+        parallel::fill((&mut motion.position, &mut motion.velocity), |first, run| {
+            dispatch!(Level::new(), simd => self.write_states(simd, first, run, period, time));
         });
     }
-}
 
-/// Sum of the sizes of the components.
-fn size(vector: DVec3) -> f64 {
-    vector.abs().element_sum()
+    /// Writes centres \[m\] and velocities \[m/s\] of spheres at `time` \[s\], from the one with
+    /// the index `first` on.
+    #[inline(always)]
+    fn write_states<S: Simd>(
+        &self,
+        simd: S,
+        first: usize,
+        (mut positions, mut velocities): (&mut [DVec3], &mut [DVec3]),
+        period: DVec3,
+        time: f64,
+    ) {
+        let mut slots = &self.slot_of[first..];
+        if let [kind] = &self.kinds[..]
+            && kind.drag_rate == 0.0
+        {
+            // Side by side.
+            let acceleration = Vector::all(simd, kind.acceleration);
+            let (in_fours, rest) = positions.as_chunks_mut();
+            let (velocities_in_fours, velocities_of_rest) = velocities.as_chunks_mut();
+            let slots_in_fours = slots.as_chunks().0;
+            let count = in_fours.len();
+            let states = in_fours.iter_mut().zip(velocities_in_fours);
+            for (number, (positions, velocities)) in states.enumerate() {
+                if let Some(slots) = slots_in_fours.get(number + FETCHED_AHEAD / LANES) {
+                    slots.iter().for_each(|&slot| prefetch_index(&self.bodies, slot as usize));
+                }
+                let bodies = slots_in_fours[number].map(|slot| &self.bodies[slot as usize]);
+                [*positions, *velocities] = Flights::of_each(simd, bodies).states_at(
+                    simd,
+                    acceleration,
+                    0.5 * period,
+                    time,
+                );
+            }
+            slots = &slots[count * LANES..];
+            (positions, velocities) = (rest, velocities_of_rest);
+        }
+        for ((position, velocity), &slot) in positions.iter_mut().zip(velocities).zip(slots) {
+            let state = self.state_of(slot, time);
+            (*position, *velocity) = (periodic::folded(state.0, period), state.1);
+        }
+    }
 }
 
 /// Whether an entry of the queue still tells what happens next to its sphere.
