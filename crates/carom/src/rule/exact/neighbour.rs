@@ -41,6 +41,9 @@ pub(crate) const MAX_SPHERES: usize = 1 << SLOT_BITS;
 pub(super) struct Neighbour(u32);
 
 impl Neighbour {
+    /// Not a neighbour: an image that there is not.
+    pub const NOBODY: Self = Self((IMAGES as u32 - 1) << SLOT_BITS);
+
     /// One whose position counts in the same box as that of the sphere.
     #[inline(always)]
     pub fn in_same_box(slot: u32) -> Self {

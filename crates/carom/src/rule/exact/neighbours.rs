@@ -588,11 +588,11 @@ impl Neighbours {
         if let Some(lists) = &mut self.lists {
             before.add_list(lists, slot);
             lists.set(slot as usize, after.found());
-            for &come in after.found().iter().filter(|&&one| !before.has(one)) {
+            for come in after.without(&mut before) {
                 lists.add(come.slot() as usize, come.mirrored(slot));
                 new.push(come);
             }
-            for &gone in before.found().iter().filter(|&&one| !after.has(one)) {
+            for gone in before.without(&mut after) {
                 lists.remove(gone.slot() as usize, gone.mirrored(slot));
             }
         }

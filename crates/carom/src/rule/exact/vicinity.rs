@@ -1,6 +1,6 @@
 //! Who is near one sphere, gathered from cells or lists into memory that is used again.
 
-use std::array;
+use std::{array, iter};
 
 use super::cells::Cells;
 use super::grid::Block;
@@ -10,6 +10,9 @@ use crate::lanes::LANES;
 
 /// Neighbours of each sphere, by slot: as a rule not more than fifteen.
 pub(super) type NeighbourLists = Lists<Neighbour, 15>;
+
+/// So many are compared at once.
+const LINE: usize = 16;
 
 /// Whether none is an image.
 #[inline(always)]
@@ -83,10 +86,34 @@ impl Vicinity {
         self.joined = all.fold(self.joined, |all, &other| all.joined(other));
     }
 
-    /// Whether one is among them. Looks at all of them, which is faster than to stop at one.
+    /// Those who are not among `others`. All are compared, which is faster than to stop at one.
     #[inline(always)]
-    pub fn has(&self, one: Neighbour) -> bool {
-        self.found().iter().fold(false, |found, &other| found | (other == one))
+    pub fn without<'a>(&'a self, others: &'a mut Self) -> impl Iterator<Item = Neighbour> + 'a {
+        let others = others.filled_up();
+        let is_there = |one: Neighbour| {
+            let is_among = |some: &[Neighbour; LINE]| {
+                some.iter().fold(false, |is_there, &other| is_there | (other == one))
+            };
+            others.iter().fold(false, |is_there, some| is_there | is_among(some))
+        };
+        self.found().chunks(u64::BITS as usize).flat_map(move |some| {
+            let one_bit = |(place, &one)| u64::from(!is_there(one)) << place;
+            let mut missing = some.iter().enumerate().map(one_bit).fold(0, |all, bit| all | bit);
+            iter::from_fn(move || {
+                let next = some.get(missing.trailing_zeros() as usize)?;
+                missing &= missing - 1;
+                Some(*next)
+            })
+        })
+    }
+
+    /// They, and nobody behind them.
+    #[inline(always)]
+    fn filled_up(&mut self) -> &[[Neighbour; LINE]] {
+        let end = self.len.next_multiple_of(LINE);
+        self.buffer.resize(self.buffer.len().max(end), Neighbour::NOBODY);
+        self.buffer[self.len..end].fill(Neighbour::NOBODY);
+        self.buffer[..end].as_chunks().0
     }
 
     /// Leaves a sphere and its images out of those from `start` on. Without branches on that, which no
