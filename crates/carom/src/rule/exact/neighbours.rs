@@ -70,6 +70,8 @@ pub(super) struct Neighbours {
     lists: Option<NeighbourLists>,
     /// Edges of the periodic box \[m\]; infinite along an open axis.
     period: DVec3,
+    /// Likewise, 0 along an open axis, about which nobody turns.
+    edges: DVec3,
     /// The way to each image there \[m\], by its number.
     ways_to_images: [DVec3; IMAGES],
     /// Whether spheres have to find each other at all.
@@ -101,6 +103,13 @@ struct Neighbourhood {
     radius: f32,
     /// How often the sphere went round each periodic axis since its flight began.
     turns: [i32; 3],
+}
+
+impl Neighbourhood {
+    #[inline(always)]
+    fn turns_in_numbers(&self) -> DVec3 {
+        DVec3::from_array(self.turns.map(f64::from))
+    }
 }
 
 /// What neighbours are found from.
@@ -249,6 +258,7 @@ impl Neighbours {
             neighbourhoods: bodies.iter().map(nowhere).collect(),
             lists,
             period,
+            edges: DVec3::select(period.is_finite_mask(), period, DVec3::ZERO),
             ways_to_images: Neighbour::ways_to_images(period),
             spheres_collide,
             ..Self::default()
@@ -347,18 +357,14 @@ impl Neighbours {
         slot: u32,
         some: &[Neighbour; LANES],
     ) -> Vector<Lanes<S>> {
-        // In whole numbers, which are exact. Along an open axis nobody turns.
-        let edges = DVec3::select(self.period.is_finite_mask(), self.period, DVec3::ZERO);
-        let turns = |slot: u32| {
-            let turns = &self.neighbourhoods[slot as usize].turns;
-            DVec3::new(f64::from(turns[0]), f64::from(turns[1]), f64::from(turns[2]))
-        };
+        // In whole numbers, which are exact.
+        let turns = |slot: u32| self.neighbourhoods[slot as usize].turns_in_numbers();
         let here = Vector::all(simd, turns(slot));
         let there = Vector::each(simd, some.each_ref().map(|one| turns(one.slot())));
         let images = some.each_ref().map(|one| one.image_turns_in_numbers());
         let is_image = Lanes::each(simd, images.map(|image| image.1));
         let in_box = Vector::each(simd, images.map(|image| image.0));
-        ((in_box + (here - there)) * is_image).scaled(Vector::all(simd, edges))
+        ((in_box + (here - there)) * is_image).scaled(Vector::all(simd, self.edges))
     }
 
     /// The ways to images of spheres in the box about the origin \[m\].
@@ -377,7 +383,7 @@ impl Neighbours {
     /// From the box about the origin to where the position of the sphere counts \[m\].
     #[inline]
     pub fn way_round(&self, slot: u32) -> DVec3 {
-        way_round(self.neighbourhoods[slot as usize].turns, self.period)
+        self.neighbourhoods[slot as usize].turns_in_numbers() * self.edges
     }
 
     /// Surfaces that the sphere may meet in its neighbourhood, with the shift \[m\] that brings them to

@@ -51,11 +51,12 @@ impl Look<'_> {
     /// Looks at all of those who fly alike.
     pub fn at_all(&self) -> Seen {
         let level = Level::new();
-        let falls = self.timeline.kind_of(self.slot).acceleration != DVec3::ZERO;
-        match (self.timeline.all_fly_alike(), falls, self.has_images) {
-            (true, false, false) => dispatch!(level, simd => View::<0>::of(self).seen(simd)),
-            (true, false, true) => dispatch!(level, simd => View::<IMAGES>::of(self).seen(simd)),
-            (true, true, _) => {
+        let only_kind = self.timeline.only_kind();
+        let falls = only_kind.map(|kind| kind.acceleration != DVec3::ZERO);
+        match (falls, self.has_images) {
+            (Some(false), false) => dispatch!(level, simd => View::<0>::of(self).seen(simd)),
+            (Some(false), true) => dispatch!(level, simd => View::<IMAGES>::of(self).seen(simd)),
+            (Some(true), _) => {
                 dispatch!(level, simd => View::<{ IMAGES | FALLS }>::of(self).seen(simd))
             }
             _ => dispatch!(level, simd => View::<{ IMAGES | FALLS | KINDS }>::of(self).seen(simd)),

@@ -83,7 +83,7 @@ impl Surroundings {
             first: timeline.meeting(first.0, first.1),
             second: timeline.meeting(second.0, second.1),
         };
-        if !timeline.all_fly_alike() {
+        if timeline.only_kind().is_none() {
             self.meetings_with_others(timeline, slot, &mut ahead);
         }
         ahead

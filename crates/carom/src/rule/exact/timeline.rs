@@ -365,10 +365,13 @@ impl Timeline {
         }
     }
 
-    /// Whether there is one kind of spheres, and they see each other move in straight lines.
+    /// The kind of all spheres, if there is one, and they see each other move in straight lines.
     #[inline(always)]
-    pub(super) fn all_fly_alike(&self) -> bool {
-        matches!(&self.kinds[..], [kind] if kind.flies_like(kind))
+    pub(super) fn only_kind(&self) -> Option<&Kind> {
+        match &self.kinds[..] {
+            [kind] if kind.drag_rate == 0.0 => Some(kind),
+            _ => None,
+        }
     }
 
     pub(super) fn kind_of(&self, slot: u32) -> &Kind {
@@ -596,9 +599,7 @@ impl Timeline {
         time: f64,
     ) {
         let mut slots = &self.slot_of[first..];
-        if let [kind] = &self.kinds[..]
-            && kind.drag_rate == 0.0
-        {
+        if let Some(kind) = self.only_kind() {
             // Side by side.
             let acceleration = Vector::all(simd, kind.acceleration);
             let (in_fours, rest) = positions.as_chunks_mut();
