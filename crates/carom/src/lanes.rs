@@ -73,6 +73,11 @@ impl<S: Simd> Lanes<S> {
     }
 
     #[inline(always)]
+    pub fn is_equal(self, other: Self) -> mask64x4<S> {
+        self.0.simd_eq(other.0)
+    }
+
+    #[inline(always)]
     pub fn is_at_most(self, other: Self) -> mask64x4<S> {
         self.0.simd_le(other.0)
     }

@@ -61,6 +61,13 @@ impl Neighbour {
         self.0 & ((1 << SLOT_BITS) - 1)
     }
 
+    /// The same in numbers.
+    #[inline(always)]
+    pub fn slot_in_numbers(self) -> f64 {
+        // The conversion of a signed number takes less.
+        f64::from(self.slot() as i32)
+    }
+
     #[inline(always)]
     pub fn is_in_same_box(self) -> bool {
         self.0 < 1 << SLOT_BITS

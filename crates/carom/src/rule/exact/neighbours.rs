@@ -276,8 +276,14 @@ impl Neighbours {
         neighbours
     }
 
+    /// Whether a sphere is found among those near it.
+    #[inline(always)]
+    pub fn finds_itself(&self) -> bool {
+        self.lists.is_none()
+    }
+
     /// Finds the spheres that the one at `slot`, of level `level`, may meet before one of them
-    /// leaves its neighbourhood.
+    /// leaves its neighbourhood, perhaps with itself.
     #[inline(always)]
     pub fn find(&self, slot: u32, level: u32, near: &mut Vicinity) {
         near.clear();
@@ -576,7 +582,6 @@ impl Neighbours {
         grid.for_each_block(cell, side, |block| {
             let start = near.len;
             near.add_block(spheres, &block);
-            near.leave_out(start, slot);
             if is_turned {
                 // Even those in the box about the origin are images.
                 near.make_images(start);

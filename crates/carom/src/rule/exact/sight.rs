@@ -33,6 +33,8 @@ pub(super) struct Look<'a> {
     pub count: usize,
     /// Whether images may be among them.
     pub has_images: bool,
+    /// Whether the sphere itself may be among them.
+    pub has_itself: bool,
     /// A sphere that may touch, and the part of the sum of radii up to which others do.
     pub besides: (u32, f64),
 }
@@ -53,13 +55,18 @@ impl Look<'_> {
         let level = Level::new();
         let only_kind = self.timeline.only_kind();
         let falls = only_kind.map(|kind| kind.acceleration != DVec3::ZERO);
-        match (falls, self.has_images) {
-            (Some(false), false) => dispatch!(level, simd => View::<0>::of(self).seen(simd)),
-            (Some(false), true) => dispatch!(level, simd => View::<IMAGES>::of(self).seen(simd)),
-            (Some(true), _) => {
-                dispatch!(level, simd => View::<{ IMAGES | FALLS }>::of(self).seen(simd))
-            }
-            _ => dispatch!(level, simd => View::<{ IMAGES | FALLS | KINDS }>::of(self).seen(simd)),
+        macro_rules! look {
+            ($($asked:ident),*) => {
+                dispatch!(level, simd => View::<{ 0 $(| $asked)* }>::of(self).seen(simd))
+            };
+        }
+        match (falls, self.has_images, self.has_itself) {
+            (Some(false), false, false) => look!(),
+            (Some(false), true, false) => look!(IMAGES),
+            (Some(false), false, true) => look!(ITSELF),
+            (Some(false), true, true) => look!(IMAGES, ITSELF),
+            (Some(true), ..) => look!(IMAGES, ITSELF, FALLS),
+            _ => look!(IMAGES, ITSELF, FALLS, KINDS),
         }
     }
 }
@@ -72,11 +79,12 @@ struct Glance<S: Simd> {
     is_near: mask64x4<S>,
 }
 
-/// What has to be asked for each that a sphere looks at: whether it is an image, falls, or is of
-/// another kind.
+/// What has to be asked for each that a sphere looks at: whether it is an image, that sphere itself,
+/// falls, or is of another kind.
 const IMAGES: u8 = 1;
-const FALLS: u8 = 2;
-const KINDS: u8 = 4;
+const ITSELF: u8 = 2;
+const FALLS: u8 = 4;
+const KINDS: u8 = 8;
 
 /// A look, where only the `ASKED` has to be asked for each.
 struct View<'a, const ASKED: u8> {
@@ -109,7 +117,11 @@ impl<'a, const ASKED: u8> View<'a, ASKED> {
         let mut firsts = FirstTwo { times: [all(f64::INFINITY); 2], numbers: [all(0.0); 2] };
         let (mut touching, mut toucher) = (all(0.0), all(0.0));
         for four in near {
-            let is_there = number.is_less(all(count as f64));
+            let mut is_there = number.is_less(all(count as f64));
+            if asks::<ASKED>(ITSELF) {
+                let slots = Lanes::each(simd, four.map(Neighbour::slot_in_numbers));
+                is_there = is_there & !slots.is_equal(all(f64::from(self.look.slot)));
+            }
             let Glance { time, is_near } = self.glance(simd, four, is_there);
             touching = touching + all(1.0).where_chosen(is_near, all(0.0));
             toucher = number.where_chosen(is_near, toucher);

@@ -39,7 +39,8 @@ impl Surroundings {
         }
         let (count, has_images) = (self.near.len, self.near.has_images());
         let near = self.near.in_fours();
-        let seen = Look { timeline, slot, near, count, has_images, besides }.at_all();
+        let has_itself = timeline.neighbours.finds_itself();
+        let seen = Look { timeline, slot, near, count, has_images, has_itself, besides }.at_all();
         self.meetings = seen.meetings;
         seen.touches
     }
@@ -53,8 +54,7 @@ impl Surroundings {
         (other, part): (u32, f64),
     ) -> bool {
         let (body, kind) = (&timeline.bodies[slot as usize], timeline.kind_of(slot));
-        let mut near = self.near.found().iter();
-        near.any(|&near| {
+        self.near.others(slot).any(|near| {
             near.slot() != other
                 && !timeline.kind_of(near.slot()).flies_like(kind)
                 && is_near(timeline, slot, near, (body.position, body.time), part)
@@ -71,8 +71,7 @@ impl Surroundings {
         part: f64,
     ) -> bool {
         timeline.neighbours.find(slot, timeline.kind_of(slot).level, &mut self.near);
-        let mut near = self.near.found().iter();
-        near.any(|&near| is_near(timeline, slot, near, place, part))
+        self.near.others(slot).any(|near| is_near(timeline, slot, near, place, part))
     }
 
     /// The first two meetings that the sphere has seen, or has with spheres that fly differently.
@@ -92,7 +91,7 @@ impl Surroundings {
     #[inline(never)]
     fn meetings_with_others(&self, timeline: &Timeline, slot: u32, ahead: &mut Ahead) {
         let kind = timeline.kind_of(slot);
-        for &near in self.near.found() {
+        for near in self.near.others(slot) {
             if !kind.flies_like(timeline.kind_of(near.slot())) {
                 let time = meeting_of_others(timeline, slot, near);
                 ahead.add(timeline.meeting(time, near.slot()));

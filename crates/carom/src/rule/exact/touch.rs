@@ -354,7 +354,7 @@ impl<'a> Gathering<'a> {
         let mut found = Vec::new();
         let mut around = Vicinity::default();
         timeline.neighbours.find(slot, kind.level, &mut around);
-        for &neighbour in around.found() {
+        for neighbour in around.others(slot) {
             let (near, shift) = (neighbour.slot(), timeline.neighbours.shift_of(slot, neighbour));
             let (near_place, near_velocity) = timeline.state_of(near, self.time);
             let radius_sum = kind.radius + timeline.kind_of(near).radius;

@@ -48,6 +48,11 @@ impl Vicinity {
         &self.buffer[..self.len]
     }
 
+    /// They without a sphere, and without its images.
+    pub fn others(&self, slot: u32) -> impl Iterator<Item = Neighbour> {
+        self.found().iter().copied().filter(move |other| other.slot() != slot)
+    }
+
     /// Those who were found, in fours; behind them, in the last four, others stand.
     #[inline(always)]
     pub fn in_fours(&mut self) -> &[[Neighbour; LANES]] {
@@ -71,7 +76,17 @@ impl Vicinity {
     /// Adds the spheres of some cells.
     #[inline(always)]
     pub fn add_block(&mut self, cells: &Cells, block: &Block) {
-        self.len = cells.gather(block, &mut self.buffer, self.len);
+        let start = self.len;
+        self.len = cells.gather(block, &mut self.buffer, start);
+        let end = start + (self.len - start).next_multiple_of(LANES);
+        if self.buffer.len() < end {
+            self.buffer.resize(end, Neighbour::default());
+        }
+        let fours = self.buffer[start..end].as_chunks::<LANES>().0;
+        let joined = fours.iter().fold([self.joined; LANES], |all, four| {
+            array::from_fn(|lane| all[lane].joined(four[lane]))
+        });
+        self.joined = joined.into_iter().fold(self.joined, Neighbour::joined);
     }
 
     /// Adds the neighbours of a sphere.
@@ -128,16 +143,15 @@ impl Vicinity {
         // What stands behind them is left out, too.
         self.buffer[end..end + LANES].fill(Neighbour::in_same_box(slot));
         let found = &mut self.buffer[start..room];
-        let (mut count, mut joined) = (0, self.joined);
+        let mut count = 0;
         for first in (0..found.len()).step_by(LANES) {
             let four: [Neighbour; LANES] = array::from_fn(|lane| found[first + lane]);
             for neighbour in four {
                 found[count] = neighbour;
                 count += usize::from(neighbour.slot() != slot);
-                joined = joined.joined(neighbour);
             }
         }
-        (self.len, self.joined) = (start + count, joined);
+        self.len = start + count;
     }
 
     /// Takes those from `start` on for images.
