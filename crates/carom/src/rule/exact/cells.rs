@@ -75,12 +75,23 @@ fn gather<const SIZE: usize>(
     if found.len() < len + most {
         found.resize(len + most, Neighbour::default());
     }
-    let mut end = len;
+    let (mut end, mut has_rest) = (len, false);
     block.for_each_row(|row| {
-        end = match lists.copy_first(row.clone(), found, end) {
-            (end, true) => end,
-            (end, false) => lists.copy_rest(row, found, end, most),
-        };
+        let (new_end, row_has_rest) = lists.copy_first(row, found, end);
+        (end, has_rest) = (new_end, has_rest | row_has_rest);
     });
+    if has_rest { gather_rest(lists, block, found, end) } else { end }
+}
+
+/// Likewise those who are not on the first pages.
+#[cold]
+#[inline(never)]
+fn gather_rest<const SIZE: usize>(
+    lists: &Lists<Neighbour, SIZE>,
+    block: &Block,
+    found: &mut Vec<Neighbour>,
+    mut end: usize,
+) -> usize {
+    block.for_each_row(|row| end = lists.copy_rest(row, found, end));
     end
 }

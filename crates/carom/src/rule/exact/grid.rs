@@ -50,9 +50,24 @@ impl Block<'_> {
     /// Visits the cells, in rows one after another, by their numbers with ghosts.
     #[inline(always)]
     pub fn for_each_row(&self, mut visit: impl FnMut(Range<usize>)) {
-        // As a rule it is a cube, whose loops need not be counted.
-        let lens = self.lens.map(usize::from);
-        if lens == [3; 3] { self.rows([3; 3], &mut visit) } else { self.rows(lens, &mut visit) }
+        // As a rule it is a cube or a side of one, whose loops need not be counted.
+        let [row, column, _] = self.grid.counts_with_ghosts();
+        let [x, y, z] = [1, row, row * column];
+        let strides = match self.lens {
+            [3, 3, 3] => return self.rows([3; 3], &mut visit),
+            [1, 3, 3] => [y, z],
+            [3, 1, 3] => [x, z],
+            [3, 3, 1] => [x, y],
+            lens => return self.rows(lens.map(usize::from), &mut visit),
+        };
+        // One by one, whichever way the side lies.
+        let first = self.grid.number_with_ghosts(self.first);
+        for line in 0..3 {
+            for place in 0..3 {
+                let cell = first + place * strides[0] + line * strides[1];
+                visit(cell..cell + 1);
+            }
+        }
     }
 
     #[inline(always)]

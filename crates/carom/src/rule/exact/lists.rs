@@ -71,7 +71,7 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
     }
 
     /// Copies the members on the first pages of lists into `members`, from `end` on, and tells where
-    /// they end, and whether there are no further pages. What is behind the end has no meaning.
+    /// they end, and whether there are further pages. What is behind the end has no meaning.
     #[inline(always)]
     pub fn copy_first(
         &self,
@@ -86,24 +86,17 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
             end += page.link.len();
             links |= page.link.0;
         }
-        (end, Link(links).next().is_none())
+        (end, Link(links).next().is_some())
     }
 
-    /// Likewise those on the further pages. Leaves `room` for so many more.
-    #[inline(never)]
-    pub fn copy_rest(
-        &self,
-        lists: Range<usize>,
-        members: &mut Vec<T>,
-        mut end: usize,
-        room: usize,
-    ) -> usize {
+    /// Likewise those on the further pages.
+    pub fn copy_rest(&self, lists: Range<usize>, members: &mut Vec<T>, mut end: usize) -> usize {
         for mut page in &self.pages[lists] {
             while let Some(next) = page.link.next() {
                 page = &self.pages[next];
                 let most = end + SIZE;
-                if members.len() < most + room {
-                    members.resize(most + room, T::default());
+                if members.len() < most {
+                    members.resize(most, T::default());
                 }
                 members[end..most].copy_from_slice(&page.members);
                 end += page.link.len();
@@ -120,8 +113,8 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
             members.resize(len + SIZE, T::default());
         }
         match self.copy_first(list..list + 1, members, len) {
-            (end, true) => end,
-            (end, false) => self.copy_rest(list..list + 1, members, end, 0),
+            (end, false) => end,
+            (end, true) => self.copy_rest(list..list + 1, members, end),
         }
     }
 
