@@ -167,6 +167,15 @@ impl<S: Simd> Vector<Lanes<S>> {
         }
     }
 
+    /// The nearest whole numbers, of such as are less than 2^51.
+    #[inline(always)]
+    pub fn rounded(self, simd: S) -> Self {
+        // From here on there are no fractions.
+        let whole = Lanes::all(simd, 1.5 / f64::EPSILON);
+        let rounded = |number: Lanes<S>| (number + whole) - whole;
+        Self { x: rounded(self.x), y: rounded(self.y), z: rounded(self.z) }
+    }
+
     /// From lane 0 on.
     #[inline(always)]
     pub fn to_array(self) -> [DVec3; LANES] {

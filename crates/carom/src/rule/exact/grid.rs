@@ -206,6 +206,11 @@ impl Grid {
         self.periodic == [true; 3]
     }
 
+    /// Whether a thing less than three cells away along each axis is nearer than all its images.
+    pub fn is_wide(&self) -> bool {
+        (0..3).all(|axis| !self.periodic[axis] || self.counts[axis] >= 6)
+    }
+
     /// Edges of a cell \[m\].
     pub fn width(&self) -> DVec3 {
         self.width

@@ -64,13 +64,13 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
 fn is_alone(timeline: &Timeline, stage: &mut Stage, slots: [u32; 2], one: usize) -> bool {
     let (slot, other) = (slots[one], slots[1 - one]);
     let radius = timeline.kind_of(slot).radius;
+    let Body { position, time, .. } = timeline.bodies[slot as usize];
     let around = &mut stage.around[one];
-    let mut touches = around.look(timeline, slot, (other, NEARBY));
+    let mut touches = around.look(timeline, slot, time, (other, NEARBY));
     // The two fly alike: where all are of one kind, all do.
     if timeline.kinds.len() > 1 {
         touches |= around.touches_others(timeline, slot, (other, NEARBY));
     }
-    let Body { position, time, .. } = timeline.bodies[slot as usize];
     !touches && stage.touches_no_surface(timeline, slot, position, radius * NEARBY, time)
 }
 

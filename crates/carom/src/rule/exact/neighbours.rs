@@ -72,6 +72,10 @@ pub(super) struct Neighbours {
     period: DVec3,
     /// Likewise, 0 along an open axis, about which nobody turns.
     edges: DVec3,
+    /// One over that \[1/m\], 0 along an open axis.
+    per_edge: DVec3,
+    /// Whether one near a sphere is as near as none of its other images.
+    tells_images_by_place: bool,
     /// The way to each image there \[m\], by its number.
     ways_to_images: [DVec3; IMAGES],
     /// Whether spheres have to find each other at all.
@@ -248,17 +252,22 @@ impl Neighbours {
                 grid,
             }
         });
+        let levels: Vec<Level> = levels.collect();
         let nowhere = |body: &Body| Neighbourhood {
             center: DVec3::ZERO,
             radius: rounded_up(kinds[body.kind as usize].radius),
             turns: [0; 3],
         };
+        // Who is near is less than three cells away along each axis, of the coarsest grid.
+        let tells_images_by_place = levels.first().is_some_and(|level| level.grid.is_wide());
         let mut neighbours = Self {
-            levels: levels.collect(),
+            levels,
             neighbourhoods: bodies.iter().map(nowhere).collect(),
             lists,
             period,
             edges: DVec3::select(period.is_finite_mask(), period, DVec3::ZERO),
+            per_edge: period.recip(),
+            tells_images_by_place,
             ways_to_images: Neighbour::ways_to_images(period),
             spheres_collide,
             ..Self::default()
@@ -371,6 +380,23 @@ impl Neighbours {
         let is_image = Lanes::each(simd, images.map(|image| image.1));
         let in_box = Vector::each(simd, images.map(|image| image.0));
         ((in_box + (here - there)) * is_image).scaled(Vector::all(simd, self.edges))
+    }
+
+    /// Whether one near a sphere is as near as none of its other images.
+    #[inline(always)]
+    pub fn tells_images_by_place(&self) -> bool {
+        self.tells_images_by_place
+    }
+
+    /// Where to neighbours have to be shifted to be near, by their offsets now \[m\].
+    #[inline(always)]
+    pub fn shifts_to_nearest<S: Simd>(
+        &self,
+        simd: S,
+        offset: Vector<Lanes<S>>,
+    ) -> Vector<Lanes<S>> {
+        let turns = offset.scaled(Vector::all(simd, self.per_edge)).rounded(simd);
+        turns.scaled(Vector::all(simd, -self.edges))
     }
 
     /// The ways to images of spheres in the box about the origin \[m\].

@@ -40,7 +40,7 @@ pub(super) fn outlook(
     around: &mut Surroundings,
     now: f64,
 ) -> Outlook {
-    around.look(timeline, slot, (slot, 0.0));
+    around.look(timeline, slot, now, (slot, 0.0));
     outlook_from_here(timeline, system, slot, around, now)
 }
 
@@ -113,7 +113,7 @@ pub(super) fn relocate(timeline: &mut Timeline, stage: &mut Stage, slot: u32, no
     let around = &mut stage.around[0];
     timeline.relocate(slot, state.into(), &mut around.near);
     let mut ahead = timeline.outlooks[slot as usize].ahead;
-    around.look_at_found(timeline, slot, (slot, 0.0));
+    around.look_at_found(timeline, slot, now, (slot, 0.0));
     let found = around.first_meetings(timeline, slot);
     ahead.add(found.first);
     ahead.add(found.second);

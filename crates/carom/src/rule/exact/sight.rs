@@ -35,6 +35,8 @@ pub(super) struct Look<'a> {
     pub has_images: bool,
     /// Whether the sphere itself may be among them.
     pub has_itself: bool,
+    /// When it looks, on the world's clock \[s\].
+    pub now: f64,
     /// A sphere that may touch, and the part of the sum of radii up to which others do.
     pub besides: (u32, f64),
 }
@@ -55,17 +57,18 @@ impl Look<'_> {
         let level = Level::new();
         let only_kind = self.timeline.only_kind();
         let falls = only_kind.map(|kind| kind.acceleration != DVec3::ZERO);
+        let by_place = self.timeline.neighbours.tells_images_by_place();
         macro_rules! look {
             ($($asked:ident),*) => {
                 dispatch!(level, simd => View::<{ 0 $(| $asked)* }>::of(self).seen(simd))
             };
         }
-        match (falls, self.has_images, self.has_itself) {
-            (Some(false), false, false) => look!(),
-            (Some(false), true, false) => look!(IMAGES),
-            (Some(false), false, true) => look!(ITSELF),
-            (Some(false), true, true) => look!(IMAGES, ITSELF),
-            (Some(true), ..) => look!(IMAGES, ITSELF, FALLS),
+        match (falls, self.has_images, by_place, self.has_itself) {
+            (Some(false), false, _, false) => look!(),
+            (Some(false), false, _, true) => look!(ITSELF),
+            (Some(false), true, true, false) => look!(NEAREST),
+            (Some(false), true, true, true) => look!(NEAREST, ITSELF),
+            (Some(_), ..) => look!(IMAGES, ITSELF, FALLS),
             _ => look!(IMAGES, ITSELF, FALLS, KINDS),
         }
     }
@@ -85,19 +88,24 @@ const IMAGES: u8 = 1;
 const ITSELF: u8 = 2;
 const FALLS: u8 = 4;
 const KINDS: u8 = 8;
+/// Whether it is an image is told by its place, of those that do not fall.
+const NEAREST: u8 = 16;
 
 /// A look, where only the `ASKED` has to be asked for each.
 struct View<'a, const ASKED: u8> {
     look: &'a Look<'a>,
     body: &'a Body,
     kind: &'a Kind,
+    /// Where the sphere is now \[m\], if it flies straight.
+    here: DVec3,
 }
 
 impl<'a, const ASKED: u8> View<'a, ASKED> {
     #[inline(always)]
     fn of(look: &'a Look<'a>) -> Self {
         let body = &look.timeline.bodies[look.slot as usize];
-        Self { look, body, kind: &look.timeline.kinds[body.kind as usize] }
+        let here = body.position + (look.now - body.time) * body.velocity;
+        Self { look, body, kind: &look.timeline.kinds[body.kind as usize], here }
     }
 
     #[inline(always)]
@@ -149,7 +157,7 @@ impl<'a, const ASKED: u8> View<'a, ASKED> {
         four: &[Neighbour; LANES],
         is_there: mask64x4<S>,
     ) -> Glance<S> {
-        let Self { look: Look { timeline, slot, besides, .. }, body, kind } = *self;
+        let Self { look: Look { timeline, slot, besides, now, .. }, body, kind, here } = self;
         let all = |number: f64| Lanes::all(simd, number);
         let me = Flights {
             position: Vector::all(simd, body.position),
@@ -157,10 +165,15 @@ impl<'a, const ASKED: u8> View<'a, ASKED> {
             time: all(body.time),
         };
         let others = four.each_ref().map(|one| &timeline.bodies[one.slot() as usize]);
-        let way = asks::<ASKED>(IMAGES).then(|| timeline.neighbours.shifts_of(simd, *slot, four));
+        let flights = Flights::of_each(simd, others);
+        let way = if asks::<ASKED>(NEAREST) {
+            let there = flights.position + flights.velocity * (all(*now) - flights.time);
+            Some(timeline.neighbours.shifts_to_nearest(simd, there - Vector::all(simd, *here)))
+        } else {
+            asks::<ASKED>(IMAGES).then(|| timeline.neighbours.shifts_of(simd, *slot, four))
+        };
         let acceleration = asks::<ASKED>(FALLS).then(|| Vector::all(simd, kind.acceleration));
-        let Relative { start, offset, velocity } =
-            me.see(&Flights::of_each(simd, others), way, acceleration);
+        let Relative { start, offset, velocity } = me.see(&flights, way, acceleration);
         let (mut radius_sum, mut is_alike) = (all(kind.radius + kind.radius), is_there);
         if asks::<ASKED>(KINDS) {
             let kinds = others.map(|other| self.kind_of(other));
@@ -206,7 +219,7 @@ impl<'a, const ASKED: u8> View<'a, ASKED> {
         let other = &self.look.timeline.bodies[near.slot() as usize];
         let [me, they] = [self.body, other].map(Flights::of_one);
         let shift = || self.look.timeline.neighbours.shift_of(self.look.slot, near).into();
-        let way = asks::<ASKED>(IMAGES).then(shift);
+        let way = asks::<ASKED>(IMAGES | NEAREST).then(shift);
         let acceleration = asks::<ASKED>(FALLS).then(|| self.kind.acceleration.into());
         let Relative { start, offset, velocity } = me.see(&they, way, acceleration);
         let (offset, velocity) = (offset.into(), velocity.into());

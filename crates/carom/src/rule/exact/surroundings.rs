@@ -22,17 +22,23 @@ pub(super) struct Surroundings {
 }
 
 impl Surroundings {
-    /// Looks for those near a sphere whom it meets first. Tells whether one of those that fly alike,
+    /// Looks, `now` \[s\], for those near a sphere whom it meets first. Tells whether one of those that fly alike,
     /// but `other`, is nearer to it than the sum of their radii and `part` of it.
     #[inline(always)]
-    pub fn look(&mut self, timeline: &Timeline, slot: u32, besides: (u32, f64)) -> bool {
+    pub fn look(&mut self, timeline: &Timeline, slot: u32, now: f64, besides: (u32, f64)) -> bool {
         timeline.neighbours.find(slot, timeline.kind_of(slot).level, &mut self.near);
-        self.look_at_found(timeline, slot, besides)
+        self.look_at_found(timeline, slot, now, besides)
     }
 
     /// Likewise among those who were found already.
     #[inline(always)]
-    pub fn look_at_found(&mut self, timeline: &Timeline, slot: u32, besides: (u32, f64)) -> bool {
+    pub fn look_at_found(
+        &mut self,
+        timeline: &Timeline,
+        slot: u32,
+        now: f64,
+        besides: (u32, f64),
+    ) -> bool {
         if timeline.are_many() {
             let slots = self.near.found().iter().map(|near| near.slot() as usize);
             slots.for_each(|slot| prefetch_index(&timeline.bodies, slot));
@@ -40,7 +46,8 @@ impl Surroundings {
         let (count, has_images) = (self.near.len, self.near.has_images());
         let near = self.near.in_fours();
         let has_itself = timeline.neighbours.finds_itself();
-        let seen = Look { timeline, slot, near, count, has_images, has_itself, besides }.at_all();
+        let seen =
+            Look { timeline, slot, near, count, has_images, has_itself, now, besides }.at_all();
         self.meetings = seen.meetings;
         seen.touches
     }
