@@ -608,6 +608,9 @@ impl Neighbours {
         grid.for_each_block(cell, side, |block| {
             let start = near.len;
             near.add_block(spheres, &block);
+            if !self.tells_images_by_place {
+                near.note_images(start);
+            }
             if is_turned {
                 // Even those in the box about the origin are images.
                 near.make_images(start);

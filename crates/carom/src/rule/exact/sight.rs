@@ -63,11 +63,10 @@ impl Look<'_> {
                 dispatch!(level, simd => View::<{ 0 $(| $asked)* }>::of(self).seen(simd))
             };
         }
-        match (falls, self.has_images, by_place, self.has_itself) {
-            (Some(false), false, _, false) => look!(),
-            (Some(false), false, _, true) => look!(ITSELF),
-            (Some(false), true, true, false) => look!(NEAREST),
-            (Some(false), true, true, true) => look!(NEAREST, ITSELF),
+        match (falls, by_place, self.has_itself, self.has_images) {
+            (Some(false), true, true, _) => look!(NEAREST, ITSELF),
+            (Some(false), true, false, true) => look!(NEAREST),
+            (Some(false), _, false, false) => look!(),
             (Some(_), ..) => look!(IMAGES, ITSELF, FALLS),
             _ => look!(IMAGES, ITSELF, FALLS, KINDS),
         }

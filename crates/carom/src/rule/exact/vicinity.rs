@@ -76,8 +76,12 @@ impl Vicinity {
     /// Adds the spheres of some cells.
     #[inline(always)]
     pub fn add_block(&mut self, cells: &Cells, block: &Block) {
-        let start = self.len;
-        self.len = cells.gather(block, &mut self.buffer, start);
+        self.len = cells.gather(block, &mut self.buffer, self.len);
+    }
+
+    /// Notes whether images are among those from `start` on.
+    #[inline(always)]
+    pub fn note_images(&mut self, start: usize) {
         let end = start + (self.len - start).next_multiple_of(LANES);
         if self.buffer.len() < end {
             self.buffer.resize(end, Neighbour::default());
