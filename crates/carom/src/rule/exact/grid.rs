@@ -25,6 +25,8 @@ pub(super) struct Grid {
     per_metre: DVec3,
     counts: [u16; 3],
     periodic: [bool; 3],
+    /// From the number of a cell, ghosts counted, to that of the next one along each axis.
+    strides: [usize; 3],
     /// By axis and coordinate: a cell and those next to it.
     runs: [Vec<[Run; 3]>; 3],
 }
@@ -51,8 +53,7 @@ impl Block<'_> {
     #[inline(always)]
     pub fn for_each_row(&self, mut visit: impl FnMut(Range<usize>)) {
         // As a rule it is a cube or a side of one, whose loops need not be counted.
-        let [row, column, _] = self.grid.counts_with_ghosts();
-        let [x, y, z] = [1, row, row * column];
+        let [x, y, z] = self.grid.strides;
         let strides = match self.lens {
             [3, 3, 3] => return self.rows([3; 3], &mut visit),
             [1, 3, 3] => [y, z],
@@ -72,8 +73,7 @@ impl Block<'_> {
 
     #[inline(always)]
     fn rows(&self, [x, y, z]: [usize; 3], visit: &mut impl FnMut(Range<usize>)) {
-        let [row, column, _] = self.grid.counts_with_ghosts();
-        let layer = row * column;
+        let [_, row, layer] = self.grid.strides;
         let mut first_of_layer = self.grid.number_with_ghosts(self.first);
         for _ in 0..z {
             let mut first = first_of_layer;
@@ -128,8 +128,9 @@ impl Grid {
             let width = extent[axis] / f64::from(counts[axis]);
             if periodic[axis] { width } else { width.max(min_width) }
         }));
-        let runs = Default::default();
-        Self { origin: low, width, per_metre: width.recip(), counts, periodic, runs }.with_runs()
+        let (strides, runs) = Default::default();
+        let per_metre = width.recip();
+        Self { origin: low, width, per_metre, counts, periodic, strides, runs }.with_runs()
     }
 
     /// A grid whose cells are parts of the cells of this one, likewise.
@@ -145,7 +146,8 @@ impl Grid {
             let cells = 0..self.counts[axis];
             cells.map(|cell| self.runs_of(cell, axis, [-1, 1])).collect()
         };
-        Self { runs: [0, 1, 2].map(runs), ..self }
+        let [row, column, _] = self.counts_with_ghosts();
+        Self { strides: [1, row, row * column], runs: [0, 1, 2].map(runs), ..self }
     }
 
     /// How many cells there are.
@@ -172,8 +174,8 @@ impl Grid {
     /// The number of a cell whose coordinates count ghosts.
     #[inline(always)]
     fn number_with_ghosts(&self, cell: [u16; 3]) -> usize {
-        let ([row, column, _], [x, y, z]) = (self.counts_with_ghosts(), cell.map(usize::from));
-        x + row * (y + column * z)
+        let ([x, y, z], [_, row, layer]) = (cell.map(usize::from), self.strides);
+        x + row * y + layer * z
     }
 
     /// Visits a cell and its ghosts, with their numbers and the turns about each axis after which
