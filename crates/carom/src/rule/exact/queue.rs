@@ -16,6 +16,10 @@ use std::collections::BinaryHeap;
 const ENTRIES_PER_BUCKET: usize = 32;
 /// Buckets of a small queue.
 const MIN_BUCKETS: usize = 16;
+/// Up to this many spheres, buckets are so cheap that there are more of them by `SPARE_BUCKETS`: then
+/// hardly any event lies beyond the last one.
+const FEW: usize = 20_000;
+const SPARE_BUCKETS: usize = 8;
 /// The queue is cleared of void entries when it holds this many times what it can need.
 const MAX_VOID_RATIO: usize = 2;
 
@@ -70,7 +74,8 @@ pub(super) struct EventQueue {
 impl EventQueue {
     /// An empty queue for this many spheres.
     pub fn new(spheres: usize) -> Self {
-        let buckets = (spheres / ENTRIES_PER_BUCKET).max(MIN_BUCKETS);
+        let spare = if spheres <= FEW { SPARE_BUCKETS } else { 1 };
+        let buckets = (spare * spheres / ENTRIES_PER_BUCKET).max(MIN_BUCKETS);
         Self {
             buckets: vec![Vec::new(); buckets],
             next_bucket: buckets,
