@@ -670,6 +670,7 @@ impl Neighbours {
         let Neighbourhood { center, radius, .. } = self.neighbourhoods[slot as usize];
         let (here, radius) = (Vector::all(simd, center), Lanes::all(simd, f64::from(radius)));
         let reach = Vector::all(simd, reach);
+        let itself = Lanes::all(simd, f64::from(slot));
         peers.retain_from(
             start,
             #[inline(always)]
@@ -683,10 +684,11 @@ impl Neighbours {
                 let gap = offset.beyond(reach);
                 let radii = others.map(|other| f64::from(other.radius));
                 let radius_sum = radius + Lanes::each(simd, radii);
-                gap.length_squared().is_at_most(radius_sum * radius_sum * SLACK).to_bitmask()
+                let are_near = gap.length_squared().is_at_most(radius_sum * radius_sum * SLACK);
+                let slots = Lanes::each(simd, four.map(Neighbour::slot_in_numbers));
+                (are_near & !slots.is_equal(itself)).to_bitmask()
             },
         );
-        peers.leave_out(start, slot);
     }
 
     /// What a sphere is to that at `slot`, when its image so many turns away is near.

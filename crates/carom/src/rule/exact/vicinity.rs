@@ -13,6 +13,8 @@ pub(super) type NeighbourLists = Lists<Neighbour, 15>;
 
 /// So many are compared at once.
 const LINE: usize = 16;
+/// Of so many it is noted in one number who is meant.
+const BITS: usize = u64::BITS as usize;
 
 /// Whether none is an image.
 #[inline(always)]
@@ -115,14 +117,10 @@ impl Vicinity {
             };
             others.iter().fold(false, |is_there, some| is_there | is_among(some))
         };
-        self.found().chunks(u64::BITS as usize).flat_map(move |some| {
+        self.found().chunks(BITS).flat_map(move |some| {
             let one_bit = |(place, &one)| u64::from(!is_there(one)) << place;
-            let mut missing = some.iter().enumerate().map(one_bit).fold(0, |all, bit| all | bit);
-            iter::from_fn(move || {
-                let next = some.get(missing.trailing_zeros() as usize)?;
-                missing &= missing - 1;
-                Some(*next)
-            })
+            let missing = some.iter().enumerate().map(one_bit).fold(0, |all, bit| all | bit);
+            places(missing).map(|place| some[place])
         })
     }
 
@@ -135,29 +133,6 @@ impl Vicinity {
         self.buffer[..end].as_chunks().0
     }
 
-    /// Leaves a sphere and its images out of those from `start` on. Without branches on that, which no
-    /// processor can foresee.
-    #[inline(always)]
-    pub fn leave_out(&mut self, start: usize, slot: u32) {
-        let end = self.len;
-        let room = start + (end - start).next_multiple_of(LANES);
-        if self.buffer.len() < end + LANES {
-            self.buffer.resize(end + LANES, Neighbour::default());
-        }
-        // What stands behind them is left out, too.
-        self.buffer[end..end + LANES].fill(Neighbour::in_same_box(slot));
-        let found = &mut self.buffer[start..room];
-        let mut count = 0;
-        for first in (0..found.len()).step_by(LANES) {
-            let four: [Neighbour; LANES] = array::from_fn(|lane| found[first + lane]);
-            for neighbour in four {
-                found[count] = neighbour;
-                count += usize::from(neighbour.slot() != slot);
-            }
-        }
-        self.len = start + count;
-    }
-
     /// Takes those from `start` on for images.
     pub fn make_images(&mut self, start: usize) {
         for other in &mut self.buffer[start..self.len] {
@@ -166,28 +141,38 @@ impl Vicinity {
         }
     }
 
-    /// Of those from `start` on, keeps those whose bits are set, four by four. Likewise without
-    /// branches.
+    /// Of those from `start` on, keeps those whose bits are set, who are asked for in fours.
     #[inline(always)]
     pub fn retain_from(&mut self, start: usize, kept: impl Fn(&[Neighbour; LANES]) -> u64) {
-        let end = self.len;
-        let room = start + (end - start).next_multiple_of(LANES);
+        let count = self.len - start;
+        let room = start + count.next_multiple_of(LANES);
         if self.buffer.len() < room {
             self.buffer.resize(room, Neighbour::default());
         }
-        let found = &mut self.buffer[start..room];
-        let mut count = 0;
-        for first in (0..found.len()).step_by(LANES) {
-            let four: [Neighbour; LANES] = array::from_fn(|lane| found[first + lane]);
-            let there = (1 << usize::min(end - start - first, LANES)) - 1;
-            let bits = kept(&four) & there;
-            for (lane, neighbour) in four.into_iter().enumerate() {
-                found[count] = neighbour;
-                count += (bits >> lane & 1) as usize;
+        let mut end = start;
+        for first in (start..self.len).step_by(BITS) {
+            let last = usize::min(first + BITS, self.len);
+            // All are asked before any is moved: there are few of many, and no branch for each.
+            let fours = self.buffer[first..room].as_chunks().0;
+            let fours = &fours[..(last - first).div_ceil(LANES)];
+            let bits = fours.iter().rev().fold(0, |bits, four| bits << LANES | kept(four));
+            for place in places(bits & u64::MAX >> (BITS - (last - first))) {
+                self.buffer[end] = self.buffer[first + place];
+                end += 1;
             }
         }
-        self.len = start + count;
+        self.len = end;
     }
+}
+
+/// The places of the bits that are set.
+#[inline(always)]
+fn places(mut bits: u64) -> impl Iterator<Item = usize> {
+    iter::from_fn(move || {
+        let place = (bits != 0).then(|| bits.trailing_zeros() as usize);
+        bits &= bits.wrapping_sub(1);
+        place
+    })
 }
 
 #[cfg(test)]
