@@ -23,8 +23,11 @@ pub(super) fn of_spheres(timeline: &mut Timeline, stage: &mut Stage, slots: [u32
     let [one, other] = slots;
     let is_ordered = timeline.index_of[one as usize] < timeline.index_of[other as usize];
     let slots = select_unpredictable(is_ordered, [one, other], [other, one]);
-    let kinds = slots.map(|slot| timeline.kind_of(slot));
-    if !kinds[0].flies_like(kinds[1]) || kinds.iter().any(|kind| kind.cluster.is_some()) {
+    let are_free = timeline.only_kind().is_some() || {
+        let kinds = slots.map(|slot| timeline.kind_of(slot));
+        kinds[0].flies_like(kinds[1]) && kinds.iter().all(|kind| kind.cluster.is_none())
+    };
+    if !are_free {
         return group::answer(timeline, stage, &slots, None, time);
     }
     // As if they were alone: then they need not look around once more.

@@ -31,7 +31,7 @@ use super::grid::{Grid, Side};
 use super::lists::Lists;
 use super::near_surfaces::NearSurfaces;
 use super::neighbour::{IMAGES, Neighbour};
-use super::periodic::{folded, turns_of, way_round};
+use super::periodic::{self, folded, turns_of, way_round};
 use super::vicinity::{NeighbourLists, Vicinity, are_in_same_box};
 use crate::detect::surface_tree::SurfaceTree;
 use crate::lanes::{LANES, Lanes};
@@ -700,9 +700,14 @@ impl Neighbours {
         }
     }
 
+    /// Whether a place is in the periodic box.
+    #[inline(always)]
+    pub fn is_in_box(&self, place: DVec3) -> bool {
+        periodic::is_in_box(place, self.period)
+    }
+
     /// Folds the position of a sphere, where a flight of it begins, into the periodic box, if it is
     /// elsewhere.
-    #[inline(always)]
     pub fn fold(&mut self, slot: u32, level: u32, position: DVec3) -> Option<DVec3> {
         let turns = turns_of(position, self.period);
         if turns == [0; 3] {

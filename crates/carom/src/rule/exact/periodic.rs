@@ -11,12 +11,17 @@ pub(super) fn folded(place: DVec3, period: DVec3) -> DVec3 {
     }
 }
 
+/// Whether a place is in the box about the origin.
+#[inline(always)]
+pub(super) fn is_in_box(place: DVec3, period: DVec3) -> bool {
+    // One question for all axes, not three that no processor can foresee.
+    place.abs().cmple(0.5 * period).all()
+}
+
 /// How often a place went round each periodic axis: 0 in the box about the origin.
 #[inline]
 pub(super) fn turns_of(place: DVec3, period: DVec3) -> [i32; 3] {
-    let half = 0.5 * period;
-    // One question for all axes, not three that no processor can foresee.
-    if (place.abs() - half).max_element() <= 0.0 {
+    if is_in_box(place, period) {
         return [0; 3];
     }
     [0, 1, 2].map(|axis| {

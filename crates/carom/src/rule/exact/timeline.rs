@@ -527,6 +527,13 @@ impl Timeline {
     /// Folds the place where a flight begins into the periodic box; whether it was elsewhere.
     #[inline(always)]
     pub fn fold(&mut self, slot: u32) -> bool {
+        let is_elsewhere = !self.neighbours.is_in_box(self.bodies[slot as usize].position);
+        is_elsewhere && self.fold_into_box(slot)
+    }
+
+    /// Likewise if it may be outside.
+    #[inline(never)]
+    fn fold_into_box(&mut self, slot: u32) -> bool {
         let body = &mut self.bodies[slot as usize];
         let level = self.kinds[body.kind as usize].level;
         let folded = self.neighbours.fold(slot, level, body.position);
