@@ -1,5 +1,6 @@
 //! Grids: which places are near each other.
 
+use std::hint::select_unpredictable;
 use std::ops::{Range, RangeInclusive};
 
 use glam::DVec3;
@@ -312,20 +313,18 @@ impl Grid {
 
     /// The side of a cell that another one is on, if it is a neighbour along one axis.
     pub fn side(&self, from: [u16; 3], to: [u16; 3]) -> Option<Side> {
-        let mut differing = (0..3).filter(|&axis| from[axis] != to[axis]);
-        let (axis, None) = (differing.next()?, differing.next()) else { return None };
-        let last = self.counts[axis] - 1;
-        let step = match i32::from(to[axis]) - i32::from(from[axis]) {
-            // In a ring of two cells, one is on both sides of the other.
-            1 | -1 if last == 1 => return None,
-            1 => 1,
-            -1 => -1,
-            // Round the axis.
-            step if step == i32::from(last) => -1,
-            step if step == -i32::from(last) => 1,
-            _ => return None,
-        };
-        Some(Side { axis, step })
+        let [x, y, z] = [0, 1, 2].map(|axis| usize::from(from[axis] != to[axis]));
+        // Without branches on the axis, which no processor can foresee.
+        let axis = y + 2 * z;
+        if x + y + z != 1 {
+            return None;
+        }
+        let last = i32::from(self.counts[axis]) - 1;
+        let step = i32::from(to[axis]) - i32::from(from[axis]);
+        // Round the axis it is as many cells the other way.
+        let step = select_unpredictable(step.abs() == last, -step.signum(), step);
+        // In a ring of two cells, one is on both sides of the other.
+        (last > 1 && step.abs() == 1).then_some(Side { axis, step: step as i16 })
     }
 
     /// Whether a cell has others next to it on both sides of an axis, and none of them, nor itself,
