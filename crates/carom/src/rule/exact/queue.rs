@@ -16,9 +16,9 @@ use std::collections::BinaryHeap;
 const ENTRIES_PER_BUCKET: usize = 32;
 /// Buckets of a small queue.
 const MIN_BUCKETS: usize = 16;
-/// Up to this many spheres, buckets are so cheap that there are more of them by `SPARE_BUCKETS`: then
-/// hardly any event lies beyond the last one.
+/// Up to this many spheres, the memory of buckets is no matter.
 const FEW: usize = 20_000;
+/// These have so many times the buckets that they need: hardly any event lies beyond the last one.
 const SPARE_BUCKETS: usize = 8;
 /// The queue is cleared of void entries when it holds this many times what it can need.
 const MAX_VOID_RATIO: usize = 2;

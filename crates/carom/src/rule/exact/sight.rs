@@ -67,8 +67,9 @@ impl Look<'_> {
             (Some(false), true, true, _) => look!(NEAREST, ITSELF),
             (Some(false), true, false, true) => look!(NEAREST),
             (Some(false), _, false, false) => look!(),
-            (Some(_), ..) => look!(IMAGES, ITSELF, FALLS),
-            _ => look!(IMAGES, ITSELF, FALLS, KINDS),
+            (Some(false), ..) => look!(IMAGES, ITSELF),
+            (Some(true), ..) => look!(IMAGES, ITSELF, FALLS),
+            (None, ..) => look!(IMAGES, ITSELF, FALLS, KINDS),
         }
     }
 }
@@ -127,7 +128,7 @@ impl<'a, const ASKED: u8> View<'a, ASKED> {
             let mut is_there = number.is_less(all(count as f64));
             if asks::<ASKED>(ITSELF) {
                 let slots = Lanes::each(simd, four.map(Neighbour::slot_in_numbers));
-                is_there = is_there & !slots.is_equal(all(f64::from(self.look.slot)));
+                is_there &= !slots.is_equal(all(f64::from(self.look.slot)));
             }
             let Glance { time, is_near } = self.glance(simd, four, is_there);
             touching = touching + all(1.0).where_chosen(is_near, all(0.0));

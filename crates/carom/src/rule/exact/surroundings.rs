@@ -22,8 +22,8 @@ pub(super) struct Surroundings {
 }
 
 impl Surroundings {
-    /// Looks, `now` \[s\], for those near a sphere whom it meets first. Tells whether one of those that fly alike,
-    /// but `other`, is nearer to it than the sum of their radii and `part` of it.
+    /// Looks, `now` \[s\], for those near a sphere whom it meets first. Tells whether one of those that
+    /// fly alike, but `other`, is nearer to it than the sum of their radii and `part` of it.
     #[inline(always)]
     pub fn look(&mut self, timeline: &Timeline, slot: u32, now: f64, besides: (u32, f64)) -> bool {
         timeline.neighbours.find(slot, timeline.kind_of(slot).level, &mut self.near);

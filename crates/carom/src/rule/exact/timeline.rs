@@ -2,6 +2,7 @@
 
 use std::array;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
@@ -595,43 +596,38 @@ impl Timeline {
     }
 
     /// Writes centres \[m\] and velocities \[m/s\] of spheres at `time` \[s\], from the one with
-    /// the index `first` on.
+    /// the index `first` on: side by side, where all are of one kind, else one by one.
     #[inline(always)]
     fn write_states<S: Simd>(
         &self,
         simd: S,
         first: usize,
-        (mut positions, mut velocities): (&mut [DVec3], &mut [DVec3]),
+        (positions, velocities): (&mut [DVec3], &mut [DVec3]),
         period: DVec3,
         time: f64,
     ) {
-        let mut slots = &self.slot_of[first..];
+        let slots = &self.slot_of[first..];
+        let fetch = |places: Range<usize>| {
+            let slots = slots.get(places).unwrap_or_default();
+            slots.iter().for_each(|&slot| prefetch_index(&self.bodies, slot as usize));
+        };
+        let mut done = 0;
         if let Some(kind) = self.only_kind() {
-            // Side by side.
             let acceleration = Vector::all(simd, kind.acceleration);
-            let (in_fours, rest) = positions.as_chunks_mut();
-            let (velocities_in_fours, velocities_of_rest) = velocities.as_chunks_mut();
-            let slots_in_fours = slots.as_chunks().0;
-            let count = in_fours.len();
-            let states = in_fours.iter_mut().zip(velocities_in_fours);
-            for (number, (positions, velocities)) in states.enumerate() {
-                if let Some(slots) = slots_in_fours.get(number + FETCHED_AHEAD / LANES) {
-                    slots.iter().for_each(|&slot| prefetch_index(&self.bodies, slot as usize));
-                }
-                let bodies = slots_in_fours[number].map(|slot| &self.bodies[slot as usize]);
-                [*positions, *velocities] = Flights::of_each(simd, bodies).states_at(
-                    simd,
-                    acceleration,
-                    0.5 * period,
-                    time,
-                );
+            let states = positions.as_chunks_mut().0.iter_mut().zip(velocities.as_chunks_mut().0);
+            for ((positions, velocities), slots) in states.zip(slots.as_chunks::<LANES>().0) {
+                fetch(done + FETCHED_AHEAD..done + FETCHED_AHEAD + LANES);
+                let flights = Flights::of_each(simd, slots.map(|slot| &self.bodies[slot as usize]));
+                [*positions, *velocities] =
+                    flights.states_at(simd, acceleration, 0.5 * period, time);
+                done += LANES;
             }
-            slots = &slots[count * LANES..];
-            (positions, velocities) = (rest, velocities_of_rest);
         }
-        for ((position, velocity), &slot) in positions.iter_mut().zip(velocities).zip(slots) {
-            let state = self.state_of(slot, time);
-            (*position, *velocity) = (periodic::folded(state.0, period), state.1);
+        for place in done..positions.len() {
+            fetch(place + FETCHED_AHEAD..place + FETCHED_AHEAD + 1);
+            let (position, velocity) = self.state_of(slots[place], time);
+            positions[place] = periodic::folded(position, period);
+            velocities[place] = velocity;
         }
     }
 }

@@ -39,7 +39,7 @@ impl Vicinity {
         self.joined = Neighbour::default();
     }
 
-    /// Whether images may be among them.
+    /// Whether images may be among them, as far as that was noted.
     #[inline(always)]
     pub fn has_images(&self) -> bool {
         !self.joined.is_in_same_box()
