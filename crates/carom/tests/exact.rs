@@ -310,7 +310,7 @@ fn in_periodic_boxes_of_any_width_balls_meet_as_in_a_search_among_all_images() {
         ([3, 3, 4], vec(4.0, 3.5, 7.0), 2.0),
         ([4, 4, 4], vec(4.4, 4.4, 4.4), 2.0),
         ([5, 5, 5], vec(6.5, 6.5, 6.5), 2.0),
-        ([5, 5, 5], vec(13.0, 14.0, 15.0), 20.0),
+        ([5, 4, 4], vec(32.0, 31.0, 30.0), 100.0),
         ([7, 6, 6], vec(7.7, 7.69, 7.69), 0.2),
     ] {
         let boundary = Boundary::Periodic { size };

@@ -50,7 +50,7 @@ impl Block<'_> {
         self.lens.iter().map(|&len| usize::from(len)).product()
     }
 
-    /// Visits the cells, in rows one after another, by their numbers with ghosts.
+    /// Visits the cells, in rows or parts of rows, by their numbers with ghosts.
     #[inline(always)]
     pub fn for_each_row(&self, mut visit: impl FnMut(Range<usize>)) {
         // As a rule it is a cube or a side of one, whose loops need not be counted.

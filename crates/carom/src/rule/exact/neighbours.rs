@@ -72,10 +72,9 @@ pub(super) struct Neighbours {
     period: DVec3,
     /// Likewise, 0 along an open axis, about which nobody turns.
     edges: DVec3,
-    /// One over that \[1/m\], 0 along an open axis.
+    /// One over the edges of the box \[1/m\], 0 along an open axis.
     per_edge: DVec3,
-    /// Whether one near a sphere is as near as none of its other images.
-    tells_images_by_place: bool,
+    images: Images,
     /// The way to each image there \[m\], by its number.
     ways_to_images: [DVec3; IMAGES],
     /// Whether spheres have to find each other at all.
@@ -83,6 +82,18 @@ pub(super) struct Neighbours {
     /// Working memory of a relocation: neighbours before and after.
     before: Vicinity,
     after: Vicinity,
+}
+
+/// How images of spheres are told from others.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) enum Images {
+    /// There are none: all axes are open.
+    #[default]
+    None,
+    /// One near a sphere is nearer than all its other images.
+    ByPlace,
+    /// In a narrow box, by their marks in cells and lists.
+    ByMark,
 }
 
 /// The spheres of one size class.
@@ -259,7 +270,11 @@ impl Neighbours {
             turns: [0; 3],
         };
         // Who is near is less than three cells away along each axis, of the coarsest grid.
-        let tells_images_by_place = levels.first().is_some_and(|level| level.grid.is_wide());
+        let images = match levels.first() {
+            _ if !period.is_finite_mask().any() => Images::None,
+            Some(level) if level.grid.is_wide() => Images::ByPlace,
+            _ => Images::ByMark,
+        };
         let mut neighbours = Self {
             levels,
             neighbourhoods: bodies.iter().map(nowhere).collect(),
@@ -267,7 +282,7 @@ impl Neighbours {
             period,
             edges: DVec3::select(period.is_finite_mask(), period, DVec3::ZERO),
             per_edge: period.recip(),
-            tells_images_by_place,
+            images,
             ways_to_images: Neighbour::ways_to_images(period),
             spheres_collide,
             ..Self::default()
@@ -382,13 +397,14 @@ impl Neighbours {
         ((in_box + (here - there)) * is_image).scaled(Vector::all(simd, self.edges))
     }
 
-    /// Whether one near a sphere is as near as none of its other images.
+    /// How images are told from others.
     #[inline(always)]
-    pub fn tells_images_by_place(&self) -> bool {
-        self.tells_images_by_place
+    pub fn images(&self) -> Images {
+        self.images
     }
 
-    /// Where to neighbours have to be shifted to be near, by their offsets now \[m\].
+    /// Where to neighbours have to be shifted to be near, where images are told by their places, from
+    /// their offsets at a time when all are in their neighbourhoods \[m\].
     #[inline(always)]
     pub fn shifts_to_nearest<S: Simd>(
         &self,
@@ -484,7 +500,7 @@ impl Neighbours {
     }
 
     /// Gives a sphere that is at `position` \[m\] with `velocity` \[m/s\] another neighbourhood, and
-    /// finds those who were not near it before, perhaps with others who were.
+    /// finds those who were not near it before, perhaps with others who were and with itself.
     pub fn relocate(
         &mut self,
         slot: u32,
@@ -608,9 +624,6 @@ impl Neighbours {
         grid.for_each_block(cell, side, |block| {
             let start = near.len;
             near.add_block(spheres, &block);
-            if !self.tells_images_by_place {
-                near.note_images(start);
-            }
             if is_turned {
                 // Even those in the box about the origin are images.
                 near.make_images(start);

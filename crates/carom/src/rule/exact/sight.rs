@@ -11,6 +11,7 @@ use glam::DVec3;
 use super::body::{Body, Kind};
 use super::flights::{Flights, Relative};
 use super::neighbour::Neighbour;
+use super::neighbours::Images;
 use super::timeline::Timeline;
 use crate::contact_time::{self, Approach};
 use crate::lanes::{LANES, Lanes};
@@ -31,11 +32,11 @@ pub(super) struct Look<'a> {
     pub near: &'a [[Neighbour; LANES]],
     /// How many are near it.
     pub count: usize,
-    /// Whether images may be among them.
+    /// Whether images may be among them, if they are from a list.
     pub has_images: bool,
     /// Whether the sphere itself may be among them.
     pub has_itself: bool,
-    /// When it looks, on the world's clock \[s\].
+    /// When it looks, on the world's clock \[s\]: at a time when all are in their neighbourhoods.
     pub now: f64,
     /// A sphere that may touch, and the part of the sum of radii up to which others do.
     pub besides: (u32, f64),
@@ -57,16 +58,17 @@ impl Look<'_> {
         let level = Level::new();
         let only_kind = self.timeline.only_kind();
         let falls = only_kind.map(|kind| kind.acceleration != DVec3::ZERO);
-        let by_place = self.timeline.neighbours.tells_images_by_place();
+        let images = self.timeline.neighbours.images();
         macro_rules! look {
             ($($asked:ident),*) => {
                 dispatch!(level, simd => View::<{ 0 $(| $asked)* }>::of(self).seen(simd))
             };
         }
-        match (falls, by_place, self.has_itself, self.has_images) {
-            (Some(false), true, true, _) => look!(NEAREST, ITSELF),
-            (Some(false), true, false, true) => look!(NEAREST),
-            (Some(false), _, false, false) => look!(),
+        match (falls, self.has_itself, images) {
+            (Some(false), false, _) if !self.has_images => look!(),
+            (Some(false), false, Images::ByPlace) => look!(NEAREST),
+            (Some(false), true, Images::ByPlace) => look!(NEAREST, ITSELF),
+            (Some(false), true, Images::None) => look!(ITSELF),
             (Some(false), ..) => look!(IMAGES, ITSELF),
             (Some(true), ..) => look!(IMAGES, ITSELF, FALLS),
             (None, ..) => look!(IMAGES, ITSELF, FALLS, KINDS),

@@ -1,6 +1,6 @@
 //! Who is near one sphere, gathered from cells or lists into memory that is used again.
 
-use std::{array, iter};
+use std::iter;
 
 use super::cells::Cells;
 use super::grid::Block;
@@ -25,10 +25,10 @@ pub(super) fn are_in_same_box(four: &[Neighbour; LANES]) -> bool {
 /// Memory in which those who are near a sphere are gathered.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Vicinity {
-    /// Those who were found; what lies behind has no meaning, but each is a neighbour of somebody.
+    /// Those who were found; what lies behind has no meaning, but for a sphere's slot in each.
     pub buffer: Vec<Neighbour>,
     pub len: usize,
-    /// Joined, they and perhaps others: in the same box only if all of them are.
+    /// Joined, those from lists and perhaps others: in the same box only if all of these are.
     joined: Neighbour,
 }
 
@@ -39,7 +39,7 @@ impl Vicinity {
         self.joined = Neighbour::default();
     }
 
-    /// Whether images may be among them, as far as that was noted.
+    /// Whether images may be among those from lists.
     #[inline(always)]
     pub fn has_images(&self) -> bool {
         !self.joined.is_in_same_box()
@@ -79,20 +79,6 @@ impl Vicinity {
     #[inline(always)]
     pub fn add_block(&mut self, cells: &Cells, block: &Block) {
         self.len = cells.gather(block, &mut self.buffer, self.len);
-    }
-
-    /// Notes whether images are among those from `start` on.
-    #[inline(always)]
-    pub fn note_images(&mut self, start: usize) {
-        let end = start + (self.len - start).next_multiple_of(LANES);
-        if self.buffer.len() < end {
-            self.buffer.resize(end, Neighbour::default());
-        }
-        let fours = self.buffer[start..end].as_chunks::<LANES>().0;
-        let joined = fours.iter().fold([self.joined; LANES], |all, four| {
-            array::from_fn(|lane| all[lane].joined(four[lane]))
-        });
-        self.joined = joined.into_iter().fold(self.joined, Neighbour::joined);
     }
 
     /// Adds the neighbours of a sphere.
@@ -137,7 +123,6 @@ impl Vicinity {
     pub fn make_images(&mut self, start: usize) {
         for other in &mut self.buffer[start..self.len] {
             *other = other.as_image();
-            self.joined = self.joined.joined(*other);
         }
     }
 
