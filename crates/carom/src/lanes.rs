@@ -192,7 +192,7 @@ impl<S: Simd> Vector<Lanes<S>> {
     /// Whether a component of any goes beyond a bound, either way.
     #[inline(always)]
     pub fn is_beyond(self, bound: Self) -> bool {
-        let is_beyond = |a: Lanes<S>, bound: Lanes<S>| bound.0.simd_lt(a.0.abs());
+        let is_beyond = |number: Lanes<S>, bound: Lanes<S>| bound.is_less(number.abs());
         (is_beyond(self.x, bound.x) | is_beyond(self.y, bound.y) | is_beyond(self.z, bound.z))
             .any_true()
     }

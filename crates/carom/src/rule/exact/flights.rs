@@ -76,22 +76,22 @@ impl<S: Simd> Flights<Lanes<S>> {
         }
     }
 
-    /// Centres \[m\] in the periodic box, of which half the edges are given \[m\], and velocities
-    /// \[m/s\] at `time` \[s\], under an acceleration \[m/s²\].
+    /// Centres \[m\] in a periodic box, whose edges are given \[m\], and velocities \[m/s\] at `time`
+    /// \[s\], under an acceleration \[m/s²\].
     #[inline(always)]
     pub fn states_at(
         &self,
         simd: S,
         acceleration: Vector<Lanes<S>>,
-        half_period: DVec3,
+        period: DVec3,
         time: f64,
     ) -> [[DVec3; LANES]; 2] {
         let age = Lanes::all(simd, time) - self.time;
         let (place, velocity) =
             flight::without_drag(age, self.position, self.velocity, acceleration);
         let mut places = place.to_array();
-        if place.is_beyond(Vector::all(simd, half_period)) {
-            places = places.map(|place| periodic::folded(place, 2.0 * half_period));
+        if place.is_beyond(Vector::all(simd, 0.5 * period)) {
+            places = places.map(|place| periodic::folded(place, period));
         }
         [places, velocity.to_array()]
     }

@@ -74,7 +74,10 @@ fn is_alone(timeline: &Timeline, stage: &mut Stage, slots: [u32; 2], one: usize)
     if timeline.kinds.len() > 1 {
         touches |= around.touches_others(timeline, slot, (other, NEARBY));
     }
-    !touches && stage.touches_no_surface(timeline, slot, position, radius * NEARBY, time)
+    // Surfaces are not called for where there are none.
+    !touches
+        && (stage.system.surfaces.is_empty()
+            || stage.touches_no_surface(timeline, slot, position, radius * NEARBY, time))
 }
 
 /// The impact of two spheres by itself, which all laws answer alike.

@@ -34,8 +34,6 @@ pub(super) struct Look<'a> {
     pub count: usize,
     /// Whether images may be among them, if they are from a list.
     pub has_images: bool,
-    /// Whether the sphere itself may be among them.
-    pub has_itself: bool,
     /// When it looks, on the world's clock \[s\]: at a time when all are in their neighbourhoods.
     pub now: f64,
     /// A sphere that may touch, and the part of the sum of radii up to which others do.
@@ -58,13 +56,13 @@ impl Look<'_> {
         let level = Level::new();
         let only_kind = self.timeline.only_kind();
         let falls = only_kind.map(|kind| kind.acceleration != DVec3::ZERO);
-        let images = self.timeline.neighbours.images();
+        let neighbours = &self.timeline.neighbours;
         macro_rules! look {
             ($($asked:ident),*) => {
                 dispatch!(level, simd => View::<{ 0 $(| $asked)* }>::of(self).seen(simd))
             };
         }
-        match (falls, self.has_itself, images) {
+        match (falls, neighbours.finds_itself(), neighbours.images()) {
             (Some(false), false, _) if !self.has_images => look!(),
             (Some(false), false, Images::ByPlace) => look!(NEAREST),
             (Some(false), true, Images::ByPlace) => look!(NEAREST, ITSELF),

@@ -76,21 +76,7 @@ impl Stage<'_> {
     }
 
     /// Whether no surface is within `margin` \[m\] of a sphere at `place` \[m\] at `time` \[s\].
-    #[inline(always)]
     pub fn touches_no_surface(
-        &self,
-        timeline: &Timeline,
-        slot: u32,
-        place: DVec3,
-        margin: f64,
-        time: f64,
-    ) -> bool {
-        self.system.surfaces.is_empty() || self.touches_none(timeline, slot, place, margin, time)
-    }
-
-    /// Likewise where there are surfaces.
-    #[inline(never)]
-    fn touches_none(
         &self,
         timeline: &Timeline,
         slot: u32,

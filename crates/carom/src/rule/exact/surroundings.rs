@@ -45,9 +45,7 @@ impl Surroundings {
         }
         let (count, has_images) = (self.near.len, self.near.has_images());
         let near = self.near.in_fours();
-        let has_itself = timeline.neighbours.finds_itself();
-        let seen =
-            Look { timeline, slot, near, count, has_images, has_itself, now, besides }.at_all();
+        let seen = Look { timeline, slot, near, count, has_images, now, besides }.at_all();
         self.meetings = seen.meetings;
         seen.touches
     }

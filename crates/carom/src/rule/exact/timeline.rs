@@ -618,8 +618,7 @@ impl Timeline {
             for ((positions, velocities), slots) in states.zip(slots.as_chunks::<LANES>().0) {
                 fetch(done + FETCHED_AHEAD..done + FETCHED_AHEAD + LANES);
                 let flights = Flights::of_each(simd, slots.map(|slot| &self.bodies[slot as usize]));
-                [*positions, *velocities] =
-                    flights.states_at(simd, acceleration, 0.5 * period, time);
+                [*positions, *velocities] = flights.states_at(simd, acceleration, period, time);
                 done += LANES;
             }
         }

@@ -59,10 +59,16 @@ impl Vicinity {
     #[inline(always)]
     pub fn in_fours(&mut self) -> &[[Neighbour; LANES]] {
         let end = self.len.next_multiple_of(LANES);
-        if self.buffer.len() < end {
-            self.buffer.resize(end, Neighbour::default());
-        }
+        self.make_room(end);
         self.buffer[..end].as_chunks().0
+    }
+
+    /// Makes sure that something stands up to `end`.
+    #[inline(always)]
+    fn make_room(&mut self, end: usize) {
+        if self.buffer.len() < end {
+            self.buffer.resize(end, Neighbour::NOBODY);
+        }
     }
 
     pub fn push(&mut self, neighbour: Neighbour) {
@@ -114,7 +120,7 @@ impl Vicinity {
     #[inline(always)]
     fn filled_up(&mut self) -> &[[Neighbour; LINE]] {
         let end = self.len.next_multiple_of(LINE);
-        self.buffer.resize(self.buffer.len().max(end), Neighbour::NOBODY);
+        self.make_room(end);
         self.buffer[self.len..end].fill(Neighbour::NOBODY);
         self.buffer[..end].as_chunks().0
     }
@@ -131,9 +137,7 @@ impl Vicinity {
     pub fn retain_from(&mut self, start: usize, kept: impl Fn(&[Neighbour; LANES]) -> u64) {
         let count = self.len - start;
         let room = start + count.next_multiple_of(LANES);
-        if self.buffer.len() < room {
-            self.buffer.resize(room, Neighbour::default());
-        }
+        self.make_room(room);
         let mut end = start;
         for first in (start..self.len).step_by(BITS) {
             let last = usize::min(first + BITS, self.len);
