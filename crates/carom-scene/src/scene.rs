@@ -190,10 +190,10 @@ pub enum Boundary {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Exact {
-    /// How long a contact lasts, in s, > 0: bodies that would meet again sooner stay together.
+    /// How long a contact lasts at least, in s, > 0: bodies that would meet again sooner stay together.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub contact_duration: f64,
-    /// Impacts per sphere in a frame, >= 1; more are refused.
+    /// Impacts and other work per sphere in a frame, >= 1; more is refused.
     #[schemars(range(min = 1))]
     pub max_impacts: u32,
 }

@@ -34,19 +34,40 @@ pub enum Error {
         /// Start of the refused step \[s\].
         time: f64,
     },
-    /// More impacts in a step than [`Exact::max_impacts`](crate::Exact::max_impacts) allows.
+    /// More work in a step than [`Exact::max_impacts`](crate::Exact::max_impacts) allows.
     #[error(
-        "sphere {sphere}: more impacts than the {limit} per sphere that `max_impacts` allows in \
-         the step that starts at {time} s; the state before the step was kept"
+        "sphere {sphere}{}, at {at} s: more impacts and other work than the {limit} per sphere and \
+         frame that `max_impacts` allows; the state before the step, at {time} s, was kept. Shorter \
+         frames, a longer `contact_duration`, a smaller `restitution` or a larger `max_impacts` may \
+         help", in_contact_with(*companions)
     )]
     TooManyImpacts {
         /// A sphere that was at work then.
         sphere: SphereId,
         /// The bound.
         limit: u32,
+        /// How many spheres it was in persistent contact with, directly or through others.
+        companions: usize,
+        /// When the bound was reached \[s\].
+        at: f64,
         /// Start of the refused step \[s\].
         time: f64,
     },
+    /// A [`StopRequest`](crate::StopRequest) ended the step.
+    #[error("the step that starts at {time} s was stopped; the state before it was kept")]
+    Stopped {
+        /// Start of the step \[s\].
+        time: f64,
+    },
+}
+
+/// What a sphere is in contact with, for a message.
+fn in_contact_with(companions: usize) -> String {
+    match companions {
+        0 => String::new(),
+        1 => ", in contact with another".to_owned(),
+        more => format!(", in contact with {more} others"),
+    }
 }
 
 /// What an error is about.

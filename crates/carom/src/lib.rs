@@ -50,6 +50,7 @@ mod sum;
 mod surface;
 mod system;
 mod validate;
+mod work;
 mod world;
 
 pub use glam::{DQuat, DVec3};
@@ -68,4 +69,5 @@ pub use report::{
 pub use respond::ImpactLaw;
 pub use rule::{Bisect, Exact, Rule, WindBack};
 pub use settings::{Boundary, RestitutionRule, Settings};
+pub use work::StopRequest;
 pub use world::{Snapshot, World};

@@ -13,10 +13,11 @@ use crate::error::{Error, Subject};
 use crate::forces::Force;
 use crate::numbered::Numbered;
 use crate::report::StepReport;
-use crate::rule::exact::{self, Span, Timeline, TooManyImpacts};
+use crate::rule::exact::{self, Span, Timeline, Unfinished};
 use crate::settings::Settings;
 use crate::system::System;
 use crate::validate;
+use crate::work::Work;
 
 /// Everything a world's future depends on.
 #[derive(Debug, Clone, Default)]
@@ -149,15 +150,21 @@ impl State {
     }
 
     /// Takes a part of a frame by the rule `exact`.
-    pub fn advance_exactly(&mut self, span: Span, report: &mut StepReport) -> Result<(), Error> {
+    pub fn advance_exactly(
+        &mut self,
+        span: Span,
+        work: &Work,
+        report: &mut StepReport,
+    ) -> Result<(), Error> {
         let Some(mut timeline) = self.timeline.take() else { return Ok(()) };
         let (system, _) = self.split();
-        let advanced = exact::advance(&system, &mut timeline, span, report);
+        let advanced = exact::advance(&system, &mut timeline, span, work, report);
         self.timeline = Some(timeline);
-        advanced.map_err(|TooManyImpacts { sphere, limit }| Error::TooManyImpacts {
-            sphere,
-            limit,
-            time: span.start,
+        advanced.map_err(|unfinished| match unfinished {
+            Unfinished::Stopped => Error::Stopped { time: span.start },
+            Unfinished::TooManyImpacts { sphere, limit, companions, time } => {
+                Error::TooManyImpacts { sphere, limit, companions, at: time, time: span.start }
+            }
         })
     }
 
@@ -165,14 +172,15 @@ impl State {
     ///
     /// # Errors
     /// [`Error::NonFiniteState`] if one is nowhere; then none is moved.
-    pub fn end_frame(&mut self, end: f64) -> Result<(), Error> {
-        let Some(timeline) = &self.timeline else { return Ok(()) };
-        if let Some((index, quantity)) = timeline.lost(end) {
+    pub fn end_frame(&mut self, span: Span) -> Result<(), Error> {
+        let Some(timeline) = self.timeline.take() else { return Ok(()) };
+        if let Some((index, quantity)) = timeline.lost(span.end) {
             let (sphere, time) = (self.spheres.ids()[index], self.clock.seconds());
             return Err(Error::NonFiniteState { sphere, quantity, time });
         }
-        let period = self.settings.boundary.period();
-        timeline.write_motion(&mut self.spheres.motion, period, end);
+        let (system, motion) = self.split();
+        exact::write_motion(&system, &timeline, motion, span);
+        self.timeline = Some(timeline);
         Ok(())
     }
 

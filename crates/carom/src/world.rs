@@ -20,6 +20,7 @@ use crate::rule::{self, Rule, Scratch};
 use crate::settings::Settings;
 use crate::state::State;
 use crate::validate;
+use crate::work::{StopRequest, Work};
 
 /// Spheres, what acts on them, and what they bounce off.
 ///
@@ -46,6 +47,8 @@ pub struct World {
     search: Search,
     /// Motion at the start of the step, to return to if it fails.
     start: Motion,
+    /// Asked while a step is at work.
+    stop_request: Option<StopRequest>,
 }
 
 /// The state of a world at one moment, to return to.
@@ -89,7 +92,8 @@ impl World {
     /// # Errors
     /// [`Error::Invalid`] if `dt` is not positive and finite, an emitter runs away or a periodic
     /// box is too small for the spheres; [`Error::NonFiniteState`] if a number would overflow;
-    /// [`Error::TooManyImpacts`] under the rule `exact`. The state before the step is kept.
+    /// [`Error::TooManyImpacts`] under the rule `exact`; [`Error::Stopped`] on a request
+    /// ([`Self::set_stop_request`]). The state before the step is kept.
     pub fn step(&mut self, dt: f64) -> Result<&StepReport, Error> {
         validate::positive("dt", dt).map_err(|invalid| invalid.about(Subject::Step))?;
         self.report.clear();
@@ -99,13 +103,21 @@ impl World {
         validate::require(clock.seconds().is_finite(), "dt", requirement, dt)
             .map_err(|invalid| invalid.about(Subject::Step))?;
 
+        let stop_request = self.stop_request.clone();
+        if stop_request.as_ref().is_some_and(StopRequest::is_made) {
+            return Err(Error::Stopped { time: self.time() });
+        }
+        let work = Work::new(stop_request.as_ref());
+
         let is_exact = matches!(self.state.settings.rule, Rule::Exact(_));
         let last_emission = if is_exact { clock.seconds() } else { self.time() };
         self.state.check_emitters(last_emission)?;
 
         let mut before_emission = None;
         let moved = match self.state.settings.rule {
-            Rule::Exact(_) => self.advance_exactly(dt, clock.seconds(), &mut before_emission),
+            Rule::Exact(_) => {
+                self.advance_exactly(dt, clock.seconds(), &work, &mut before_emission)
+            }
             Rule::Discrete | Rule::Bisect(_) => self.advance_by_frame(dt, &mut before_emission),
         };
         if let Err(error) = moved {
@@ -152,6 +164,7 @@ impl World {
         &mut self,
         length: f64,
         end: f64,
+        work: &Work,
         before: &mut Option<BeforeEmission>,
     ) -> Result<(), Error> {
         let start = self.time();
@@ -160,13 +173,13 @@ impl World {
         loop {
             let due = emitter::next_due(&self.state.emitters);
             let span = Span { start, length, end: due.min(end) };
-            self.state.advance_exactly(span, &mut self.report)?;
+            self.state.advance_exactly(span, work, &mut self.report)?;
             if due >= end {
                 break;
             }
             self.emit(due, before);
         }
-        self.state.end_frame(end)
+        self.state.end_frame(Span { start, length, end })
     }
 
     /// Emits the spheres that are due at `time` \[s\]; notes what was before, the first time.
@@ -178,6 +191,13 @@ impl World {
         let emission = self.state.emit(time);
         self.report.emitted.extend(emission.emitted);
         self.report.retired.extend(emission.retired);
+    }
+
+    /// Has steps end early once a request is made; `None` takes the request back. Under the rule
+    /// `exact` a step looks at it every few milliseconds, under the others before it begins. It is no
+    /// part of a snapshot; copies of the world have it, too.
+    pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
+        self.stop_request = request;
     }
 
     /// What happened in the last step.

@@ -13,8 +13,9 @@
 use glam::DVec3;
 
 use super::face::Face;
-use super::order_free;
+use super::order_free::{self, Steps};
 use super::problem::{Link, Problem, Tolerance, push};
+use crate::work::Work;
 
 /// How a solution ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,6 +58,9 @@ const STEP_LENGTH: f64 = 1.9;
 /// Iterations without progress after which a solution within the coarse tolerance is taken.
 const PATIENCE: usize = 4;
 
+/// Multiplications of a factor that take as long as one unit of work.
+const UNITS_PER_FACTOR: u64 = 30;
+
 /// What is done where a step would take an impulse below zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Leaving {
@@ -64,6 +68,16 @@ enum Leaving {
     Projected,
     /// It ends there; other contacts are taken up only once all that have impulses are right.
     Stopped,
+}
+
+/// A way down to the minimum.
+#[derive(Debug, Clone, Copy)]
+struct Descent {
+    leaving: Leaving,
+    /// Iterations at most.
+    bound: usize,
+    /// Units of work of one iteration.
+    units: u64,
 }
 
 /// Working memory of [`Solver::solve`].
@@ -96,7 +110,7 @@ pub(super) struct Solver {
     moved: Vec<DVec3>,
     /// Direction times image.
     curvature: f64,
-    steps: Vec<[i128; 3]>,
+    steps: Vec<[Steps; 3]>,
     /// Number of contacts of each body, and the largest of their scales.
     crowds: Vec<(f64, f64)>,
     /// Length of a step along the gradient that never overshoots.
@@ -112,11 +126,13 @@ impl Solver {
     pub fn solve(
         &mut self,
         problem: &Problem,
+        work: &Work,
         velocities: &mut [DVec3],
         impulses: &mut Vec<f64>,
     ) -> Outcome {
         impulses.clear();
         if let [link] = problem.links[..] {
+            work.spend(1);
             impulses.push(solve_one(&link, &problem.inverse_masses, velocities));
             return Outcome::Solved;
         }
@@ -126,11 +142,16 @@ impl Solver {
         } else {
             (QUICK_WORK / links, 0)
         };
+        let units = links as u64;
+        let quick = Descent { leaving: Leaving::Projected, bound: quick, units };
+        // Its factor costs the square of the contacts times the bodies, of which there are as many.
+        let units = units * units * units / UNITS_PER_FACTOR;
+        let careful = Descent { leaving: Leaving::Stopped, bound: careful, units };
         self.prepare(problem);
         self.measure(problem, velocities);
-        let mut outcome = self.descend(problem, velocities, Leaving::Projected, quick);
+        let mut outcome = self.descend(problem, work, velocities, quick);
         if outcome == Outcome::Unfinished {
-            outcome = self.descend(problem, velocities, Leaving::Stopped, careful);
+            outcome = self.descend(problem, work, velocities, careful);
         }
         impulses.extend(self.x.iter().zip(&self.scales).map(|(x, scale)| x * scale));
         outcome
@@ -140,9 +161,9 @@ impl Solver {
     fn descend(
         &mut self,
         problem: &Problem,
+        work: &Work,
         velocities: &mut [DVec3],
-        leaving: Leaving,
-        bound: usize,
+        Descent { leaving, bound, units }: Descent,
     ) -> Outcome {
         let Tolerance { fine, coarse } = problem.tolerance;
         let mut best = f64::INFINITY;
@@ -150,6 +171,9 @@ impl Solver {
         // Whether the direction is already the one to go on with.
         let mut conjugate = false;
         for _ in 0..bound {
+            if !work.spend(units) {
+                return Outcome::Unfinished;
+            }
             let violation = self.violation();
             if violation < best {
                 (best, without_progress) = (violation, 0);
@@ -209,7 +233,7 @@ impl Solver {
         self.moved.clear();
         self.moved.resize(bodies, DVec3::ZERO);
         self.steps.clear();
-        self.steps.resize(bodies, [0; 3]);
+        self.steps.resize(bodies, Default::default());
         self.face.clear();
         self.step_length = STEP_LENGTH / self.norm_bound(problem);
     }

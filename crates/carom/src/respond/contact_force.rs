@@ -7,6 +7,7 @@ use super::group::{Group, speed_scale, tolerance};
 use super::project::Projector;
 use super::resolve::unit_of;
 use super::touching::TouchingContact;
+use crate::work::Work;
 
 /// Forces at the contacts of a group.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -49,12 +50,24 @@ pub fn contact_forces(
     accelerations: &mut [DVec3],
     normal_acceleration_bias: &[f64],
 ) -> ContactForces {
+    let work = Work::unlimited();
+    contact_forces_within(&work, contacts, masses, accelerations, normal_acceleration_bias)
+}
+
+/// [`contact_forces`] as part of the work of a step. If that has to end, the forces are any.
+pub(crate) fn contact_forces_within(
+    work: &Work,
+    contacts: &[TouchingContact],
+    masses: &[f64],
+    accelerations: &mut [DVec3],
+    normal_acceleration_bias: &[f64],
+) -> ContactForces {
     let biases = normal_acceleration_bias.iter().map(|bias| DVec3::X * *bias);
     let Some(unit) = unit_of(accelerations.iter().copied().chain(biases)) else {
         let forces = vec![0.0; contacts.len()];
         return ContactForces { forces, resolution: 0.0, complete: true };
     };
-    let mut group = Group::new(contacts, masses, 1.0);
+    let mut group = Group::new(contacts, masses, 1.0, work);
     for link in &mut group.links {
         link.surface_velocity = DVec3::ZERO;
     }

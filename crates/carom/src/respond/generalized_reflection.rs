@@ -103,7 +103,7 @@ fn reflect(group: &Group, parts: &[f64], start: &[DVec3], projector: &mut Projec
         for (contact, closing) in closing.iter_mut().enumerate() {
             *closing = group.is_closing(contact, &answer.motion.velocities);
         }
-        if !closing.contains(&true) {
+        if !closing.contains(&true) || !group.work.spend(parts.len() as u64) {
             if !all_elastic {
                 let impulses = &answer.motion.impulses;
                 let work = group.work(impulses, start, &answer.motion.velocities);

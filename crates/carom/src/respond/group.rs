@@ -7,6 +7,7 @@ use super::order_free;
 use super::problem::{self, Link, Tolerance};
 use super::project::Projector;
 use super::touching::TouchingContact;
+use crate::work::Work;
 
 /// Speeds are told apart down to these multiples of the rounding of the largest speed. A velocity
 /// that went through a handful of operations is off by a few roundings: below `FINE` an iteration
@@ -23,6 +24,8 @@ pub(super) struct Group<'a> {
     pub restitutions: Vec<f64>,
     /// \[kg\], one per body.
     pub masses: &'a [f64],
+    /// Work of the step: solvers count their own, and end early when told to.
+    pub work: &'a Work<'a>,
 }
 
 /// Velocities, and the impulses that led to them.
@@ -46,7 +49,12 @@ pub(super) struct Answer {
 
 impl<'a> Group<'a> {
     /// The group with all speeds divided by the `unit`.
-    pub fn new(contacts: &[TouchingContact], masses: &'a [f64], unit: f64) -> Self {
+    pub fn new(
+        contacts: &[TouchingContact],
+        masses: &'a [f64],
+        unit: f64,
+        work: &'a Work<'a>,
+    ) -> Self {
         let links = contacts.iter().map(|contact| Link {
             first: contact.first.map(|body| body as u32),
             second: contact.second as u32,
@@ -58,7 +66,7 @@ impl<'a> Group<'a> {
             target: 0.0,
         });
         let restitutions = contacts.iter().map(|contact| contact.restitution.clamp(0.0, 1.0));
-        Self { links: links.collect(), restitutions: restitutions.collect(), masses }
+        Self { links: links.collect(), restitutions: restitutions.collect(), masses, work }
     }
 
     /// Rate of opening of a contact.
@@ -98,7 +106,8 @@ impl<'a> Group<'a> {
 
     /// Gives the bodies these impulses, one per contact.
     pub fn push(&self, impulses: &[f64], velocities: &mut [DVec3]) {
-        let (mut steps, mut moved) = (vec![[0; 3]; self.masses.len()], velocities.to_vec());
+        let (mut steps, mut moved) =
+            (vec![Default::default(); self.masses.len()], velocities.to_vec());
         let inverse_mass = |body: usize| 1.0 / self.masses[body];
         problem::push(&self.links, inverse_mass, |i| impulses[i], &mut steps, &mut moved);
         for (velocity, moved) in velocities.iter_mut().zip(moved) {

@@ -16,11 +16,13 @@ mod sequential;
 mod simultaneous;
 mod touching;
 
+pub(crate) use contact_force::contact_forces_within;
 pub use contact_force::{ContactForces, contact_forces};
 pub(crate) use group::rounding_of;
 pub use line_of_centres::line_of_centres;
 pub use reflection::reflection;
 pub use resolve::resolve;
+pub(crate) use resolve::resolve_within;
 pub use touching::{GroupResponse, ImpactLaw, TouchingContact};
 
 use crate::bodies::Motion;

@@ -4,48 +4,85 @@
 //! would round differently; a sum of integers does not. The idea of rounding all terms to one
 //! grid first: Demmel and Nguyen, "Fast reproducible floating-point summation", ARITH 21 (2013).
 
-/// Bits of a magnitude that a sum may use: those of an `i128`, less the sign and one to spare for
-/// a term that rounding carries past `largest`.
-const BITS: i32 = 126;
+/// Bits of a double-precision number.
+const DIGITS: i32 = f64::MANTISSA_DIGITS as i32;
 
-/// A grid of numbers whose multiples are added as integers, exactly and in any order.
+/// Numbers beyond these powers of two are scaled for the sum, so that nothing overflows on the way and
+/// little is lost.
+const LARGEST_EXPONENT: i32 = 800;
+
+/// Two grids whose multiples are added in double precision without any rounding, so in any order.
+///
+/// A term is split into a multiple of the coarse grid, a multiple of the fine one, and a rest that is
+/// left out. The grids are so coarse that no sum of all terms rounds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Grid {
-    step: f64,
-    steps_per_unit: f64,
+    /// A power of two, as a rule 1.
+    scale: f64,
+    /// Its inverse.
+    unscale: f64,
+    /// Added and subtracted, they round to multiples of the grids.
+    coarse: f64,
+    fine: f64,
+}
+
+/// A sum on a [`Grid`]: its multiples of the coarse and of the fine grid.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Steps {
+    coarse: f64,
+    fine: f64,
 }
 
 impl Grid {
     /// For sums of up to `terms` terms, none larger in magnitude than `largest`.
     ///
-    /// A term is cut off at `terms · largest / 2^126`: with a thousand terms, at 10⁻³⁵ of the
-    /// largest.
+    /// What is left out of a term is below `terms² · largest / 2^100`: with a thousand terms, 10⁻²⁴ of
+    /// the largest.
     pub fn new(largest: f64, terms: usize) -> Self {
         let growth = (usize::BITS - terms.leading_zeros()) as i32;
-        // Within what a power of two can be; terms below 2^-1000 are lost, which is far below
-        // what a sum of speeds or impulses can tell.
-        let exponent = (exponent_of(largest) + 1 + growth - BITS).clamp(-1000, 1000);
-        Self { step: power_of_two(exponent), steps_per_unit: power_of_two(-exponent) }
+        let exponent = exponent_of(largest);
+        let shift = exponent - exponent.clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT);
+        // Terms are below 2^top, sums below 2^(top + growth), which is 2^52 coarse steps.
+        let top = exponent - shift + 1;
+        let coarse = top + growth - (DIGITS - 1);
+        let fine = coarse + growth - (DIGITS - 1);
+        // One and a half times 2^52 steps: next to it, numbers are a step apart.
+        let rounding_to = |step: i32| 1.5 * power_of_two(step + DIGITS - 1);
+        Self {
+            scale: power_of_two(-shift),
+            unscale: power_of_two(shift),
+            coarse: rounding_to(coarse),
+            fine: rounding_to(fine),
+        }
     }
 
-    /// A term, in steps of the grid; cut off towards zero, so `-term` gives minus the same.
-    pub fn steps(&self, term: f64) -> i128 {
-        (term * self.steps_per_unit) as i128
+    /// Adds a term.
+    #[inline(always)]
+    pub fn add(&self, sum: &mut Steps, term: f64) {
+        let term = term * self.scale;
+        let coarse = (term + self.coarse) - self.coarse;
+        let rest = term - coarse;
+        sum.coarse += coarse;
+        sum.fine += (rest + self.fine) - self.fine;
     }
 
-    /// The number that lies so many steps from zero, rounded once.
-    pub fn value(&self, steps: i128) -> f64 {
-        steps as f64 * self.step
+    /// The value of a sum, rounded once.
+    #[inline(always)]
+    pub fn value(&self, sum: Steps) -> f64 {
+        (sum.coarse + sum.fine) * self.unscale
     }
 }
 
 /// Sum of the terms, as good as if it had been rounded once, whatever their order.
+#[inline]
 pub(super) fn sum(terms: impl Iterator<Item = f64> + Clone) -> f64 {
     let (largest, count) = terms
         .clone()
         .fold((0.0_f64, 0), |(largest, count), term| (largest.max(term.abs()), count + 1));
     let grid = Grid::new(largest, count);
-    grid.value(terms.fold(0, |total: i128, term| total.wrapping_add(grid.steps(term))))
+    let mut sum = Steps::default();
+    terms.for_each(|term| grid.add(&mut sum, term));
+    grid.value(sum)
 }
 
 /// The largest power of two not above x, as its exponent; for normal numbers.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::order_free::Grid;
+use super::order_free::{Grid, Steps};
 
 /// One contact of a problem: what its impulse moves, and the rate it asks for.
 #[derive(Debug, Clone, Copy)]
@@ -52,26 +52,25 @@ pub(super) fn push(
     links: &[Link],
     inverse_mass: impl Fn(usize) -> f64,
     impulse: impl Fn(usize) -> f64,
-    steps: &mut [[i128; 3]],
+    steps: &mut [[Steps; 3]],
     moved: &mut [DVec3],
 ) {
     let count = links.len();
     let largest = (0..count).map(|i| impulse(i).abs()).fold(0.0, f64::max);
     let grid = Grid::new(largest, count);
-    steps.fill([0; 3]);
+    steps.fill(Default::default());
     for (i, link) in links.iter().enumerate() {
-        let given = (impulse(i) * link.normal).to_array().map(|part| grid.steps(part));
-        for (axis, given) in given.into_iter().enumerate() {
-            let second = &mut steps[link.second as usize][axis];
-            *second = second.wrapping_add(given);
+        let given = impulse(i) * link.normal;
+        for axis in 0..3 {
+            grid.add(&mut steps[link.second as usize][axis], given[axis]);
             if let Some(first) = link.first {
-                let first = &mut steps[first as usize][axis];
-                *first = first.wrapping_sub(given);
+                grid.add(&mut steps[first as usize][axis], -given[axis]);
             }
         }
     }
     for (body, moved) in moved.iter_mut().enumerate() {
-        let momentum = DVec3::from_array(steps[body].map(|steps| grid.value(steps)));
+        let [x, y, z] = steps[body];
+        let momentum = DVec3::new(grid.value(x), grid.value(y), grid.value(z));
         *moved = inverse_mass(body) * momentum;
     }
 }

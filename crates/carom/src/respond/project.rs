@@ -123,7 +123,7 @@ impl Projector {
         self.resolution = self.resolution.max(self.problem.tolerance.coarse);
 
         let impulses = &mut self.component_impulses;
-        let outcome = self.solver.solve(&self.problem, &mut self.velocities, impulses);
+        let outcome = self.solver.solve(&self.problem, group.work, &mut self.velocities, impulses);
         for (local, &body) in self.bodies.iter().enumerate() {
             self.local[body as usize] = NONE;
             velocities[body as usize] = self.velocities[local];

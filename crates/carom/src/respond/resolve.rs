@@ -6,6 +6,7 @@ use super::group::{Answer, Group, speed_scale, tolerance};
 use super::project::Projector;
 use super::touching::{GroupResponse, ImpactLaw, TouchingContact};
 use super::{generalized_reflection, order_free, sequential, simultaneous};
+use crate::work::Work;
 
 /// Answers the impacts of one instant in a group of touching bodies: gives the spheres the
 /// velocities after it, and tells by what impulses.
@@ -31,12 +32,23 @@ pub fn resolve(
     masses: &[f64],
     velocities: &mut [DVec3],
 ) -> GroupResponse {
+    resolve_within(&Work::unlimited(), law, contacts, masses, velocities)
+}
+
+/// [`resolve`] as part of the work of a step. If that has to end, the answer is any.
+pub(crate) fn resolve_within(
+    work: &Work,
+    law: ImpactLaw,
+    contacts: &[TouchingContact],
+    masses: &[f64],
+    velocities: &mut [DVec3],
+) -> GroupResponse {
     let surfaces = contacts.iter().filter(|contact| contact.first.is_none());
     let speeds = velocities.iter().copied().chain(surfaces.map(|it| it.surface_velocity));
     let Some(unit) = unit_of(speeds) else {
         return GroupResponse { impulses: vec![0.0; contacts.len()], ..GroupResponse::default() };
     };
-    let group = Group::new(contacts, masses, unit);
+    let group = Group::new(contacts, masses, unit, work);
     let start: Vec<DVec3> = velocities.iter().map(|velocity| *velocity / unit).collect();
     let mut projector = Projector::default();
     let Answer { motion, energy, complete } = answer(law, &group, &start, &mut projector);
@@ -45,14 +57,14 @@ pub fn resolve(
         *velocity = unit * *scaled;
     }
     let impulses: Vec<f64> = motion.impulses.iter().map(|impulse| unit * impulse).collect();
-    let work = |(contact, impulse): (&TouchingContact, &f64)| match contact.first {
+    let surface_work = |(contact, impulse): (&TouchingContact, &f64)| match contact.first {
         Some(_) => 0.0,
         None => impulse * contact.normal.dot(contact.surface_velocity),
     };
     let speed = speed_scale(motion.velocities.iter().chain(&start).copied());
     GroupResponse {
         restitution_energy: energy * unit * unit,
-        surface_work: order_free::sum(contacts.iter().zip(&impulses).map(work)),
+        surface_work: order_free::sum(contacts.iter().zip(&impulses).map(surface_work)),
         resolution: unit * tolerance(speed).coarse.max(projector.resolution()),
         cut_short: !complete,
         impulses,

@@ -20,6 +20,9 @@ const MAX_SWEEPS: usize = 1000;
 pub(super) fn resolve(group: &Group, start: &[DVec3], projector: &mut Projector) -> Answer {
     let mut answer = Answer::unchanged(group, start);
     for _ in 0..MAX_SWEEPS {
+        if !group.work.spend(group.links.len() as u64) {
+            break;
+        }
         let mut calm = true;
         for contact in 0..group.links.len() {
             if group.is_closing(contact, &answer.motion.velocities) {

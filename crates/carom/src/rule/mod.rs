@@ -43,13 +43,15 @@ impl Default for Rule {
 /// Parameters of the rule `exact`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exact {
-    /// How long a contact lasts \[s\], > 0. Two bodies that would be back in contact sooner, under
-    /// the forces that press them together, stay in contact; and an impact of two spheres that both
-    /// were hit within that time gives nothing back, unless it is elastic. So no sequence of ever
-    /// shorter bounces stops the clock.
+    /// How long a contact lasts at least \[s\], > 0. Two bodies that would be back in contact sooner,
+    /// under the forces that press them together, stay in contact; and an impact of two spheres that
+    /// both were hit within that time gives nothing back, unless it is elastic. So no sequence of ever
+    /// shorter bounces stops the clock. A contact lasts longer where bounces of that length cannot be
+    /// resolved: `docs/physics.md`, "Contact duration".
     pub contact_duration: f64,
-    /// Impacts of one sphere in a frame, its contacts that had to be looked at again included; more
-    /// are refused as an error, so that a step ends.
+    /// Work of one sphere in a frame: its impacts, other events of its flight, and the work of the
+    /// groups it is in, in units of an impact. More is refused as an error, so that a step ends within
+    /// seconds.
     pub max_impacts: u32,
 }
 

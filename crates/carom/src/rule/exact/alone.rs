@@ -76,6 +76,11 @@ impl<'a> Touched<'a> {
         Some(())
     }
 
+    /// Whether one of the contacts is on a curve.
+    pub fn is_curved(&self) -> bool {
+        self.round.is_some()
+    }
+
     /// The contacts of a sphere about `center` \[m\], ascending by surface.
     pub fn contacts(&self, center: DVec3) -> [Option<Contact>; MOST_TOUCHED] {
         let planes = self.corner.planes().map(|plane| {
@@ -152,7 +157,7 @@ fn bounces_off(
     let approach_speed = -velocity.dot(round.normal);
     let restitution = restitution_of(timeline, stage, slot, round.surfaces[0], time);
     let pull = support::free_acceleration(member).norm() + velocity.length_squared() / kind.radius;
-    let duration = stage.parameters.contact_duration;
+    let duration = stage.duration_of(&member.scale(true), time);
     approach_speed > respond::rounding_of(velocity)
         && !support::is_back_within(duration, restitution * approach_speed, pull)
 }
@@ -167,5 +172,5 @@ pub(super) fn restitution_of(
 ) -> f64 {
     let bodies = Bodies::Surface { sphere: timeline.index_of[slot as usize], surface };
     let restitution = respond::restitution_of(bodies, stage.system);
-    stage.restitution_at([&timeline.bodies[slot as usize]], restitution, time)
+    stage.restitution_at(timeline, [slot], restitution, time)
 }

@@ -51,10 +51,14 @@ impl Kind {
         self.acceleration == DVec3::ZERO && self.drag_rate == 0.0
     }
 
-    /// Whether two spheres see each other move in a straight line at constant speed.
+    /// Whether two spheres see each other move in a straight line at constant speed, and no
+    /// persistent contact holds both of them.
     #[inline(always)]
     pub fn flies_like(&self, other: &Self) -> bool {
-        self.acceleration == other.acceleration && self.drag_rate == 0.0 && other.drag_rate == 0.0
+        self.acceleration == other.acceleration
+            && self.drag_rate == 0.0
+            && other.drag_rate == 0.0
+            && (self.cluster.is_none() || other.cluster.is_none())
     }
 }
 
@@ -93,8 +97,9 @@ impl Body {
         self.flights |= 1;
     }
 
-    /// Whether an impact began the flight, less than `duration` before `time` \[s\].
-    pub fn was_struck(&self, time: f64, duration: f64) -> bool {
-        self.flights & 1 == 1 && time - self.time < duration
+    /// Whether an impact began the flight.
+    #[inline(always)]
+    pub fn is_struck(&self) -> bool {
+        self.flights & 1 == 1
     }
 }

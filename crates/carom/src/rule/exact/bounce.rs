@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::alone::{Alone, MOST_TOUCHED, Touched, alone, restitution_of};
 use super::carry::{self, Carried};
 use super::group::{self, Member};
-use super::predict;
+use super::predict::{self, Unresolved};
 use super::stage::Stage;
 use super::support::{REST, Support};
 use super::timeline::Timeline;
@@ -29,7 +29,8 @@ pub(super) fn answer(
     };
     let fastest = member.velocity.norm();
     let struck = strike(timeline, stage, &touched, &mut member, time);
-    let (corner, contact_duration) = (&touched.corner, stage.parameters.contact_duration);
+    let contact_duration = stage.duration_of(&member.scale(touched.is_curved()), time);
+    let corner = &touched.corner;
     let carried = carry::carry(&member, corner, contact_duration, timeline.horizon() - time);
     if let Some(carried) = &carried {
         let is_at_rest = carried.velocity.norm() <= REST * fastest;
@@ -54,8 +55,9 @@ pub(super) fn answer(
     if let Some(surface) = surface
         && !is_answered
     {
-        let met = Bodies::Surface { sphere, surface };
-        predict::pause(timeline, slot, met, time + contact_duration);
+        let bodies = Bodies::Surface { sphere, surface };
+        let until = time + contact_duration;
+        predict::pass_over(timeline, slot, &[Unresolved { bodies, until }]);
     }
 }
 

@@ -49,6 +49,11 @@ impl Clusters {
         }
     }
 
+    /// The clusters that there are.
+    pub fn iter(&self) -> impl Iterator<Item = &Cluster> {
+        self.clusters.iter().filter(|cluster| !cluster.members.is_empty())
+    }
+
     /// Removes a cluster, if it was not removed before.
     pub fn remove(&mut self, number: u32) {
         let cluster = &mut self.clusters[number as usize];

@@ -4,11 +4,13 @@
 use glam::DVec3;
 
 use super::body::Kind;
+use super::contact_duration::ContactScale;
+use super::predict::{self, Unresolved};
 use super::stage::Stage;
 use super::support::{self, Support};
 use super::timeline::Timeline;
 use super::touch::{self, Touch};
-use super::{periodic, predict};
+use super::{UNITS_PER_FLIGHT, follow_up, periodic, settle};
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
 use crate::norm::Norm;
@@ -40,7 +42,38 @@ pub(super) struct Member {
     pub kind: Kind,
 }
 
+impl Group {
+    /// Place among the members of the sphere at an index of the world's arrays.
+    pub fn place_of(&self, timeline: &Timeline, index: u32) -> Option<usize> {
+        let index_of = |member: &Member| timeline.index_of[member.slot as usize];
+        self.members.binary_search_by_key(&index, index_of).ok()
+    }
+
+    /// What can be resolved of a contact of the group. Where one contact is curved, the spheres that it
+    /// moves have the error of its path in all their contacts.
+    pub fn scale(&self, touch: &Touch) -> ContactScale {
+        let spheres = touch.first.into_iter().chain([touch.second]);
+        let is_curved = self.touches.iter().any(Touch::bends);
+        spheres
+            .map(|place| &self.members[place])
+            .fold(ContactScale { is_curved, ..ContactScale::default() }, |scale, member| {
+                scale.with(member.position, member.velocity, &member.kind)
+            })
+    }
+
+    /// Whether two bodies touch in the group.
+    pub fn has(&self, bodies: Bodies) -> bool {
+        self.touches.binary_search_by_key(&bodies, |touch| touch.bodies).is_ok()
+    }
+}
+
 impl Member {
+    /// What can be resolved of the contacts of this sphere with surfaces, some of them curved or none.
+    pub fn scale(&self, is_curved: bool) -> ContactScale {
+        let scale = ContactScale { is_curved, ..ContactScale::default() };
+        scale.with(self.position, self.velocity, &self.kind)
+    }
+
     /// The sphere after `h` \[s\] under this acceleration of everything but drag \[m/s²\].
     pub fn after(&self, acceleration: DVec3, h: f64) -> Self {
         let Self { position, velocity, kind, .. } = *self;
@@ -59,26 +92,73 @@ pub(super) fn answer(
     surface: Option<u32>,
     time: f64,
 ) {
-    let mut group = touch::gather(timeline, stage, seeds, surface, time);
-    support::settle(&mut group);
-    let struck = respond_to_impacts(timeline, stage, &mut group);
+    let work_before = stage.work.done();
+    stage.work.allow(UNITS_PER_FLIGHT * (u64::from(stage.parameters.max_impacts) + 1));
+    let mut merged = Vec::new();
+    let (mut group, answer) = loop {
+        let mut group = touch::gather(timeline, stage, seeds, surface, &merged, time);
+        settle::settle(timeline, stage, &mut group);
+        let answer = respond_to_impacts(timeline, stage, &mut group, &merged);
+        let found = follow_up::follow_ups(timeline, stage, &group, &answer.struck(&group));
+        if found.is_empty() || !stage.work.spend(group.members.len() as u64) {
+            break (group, answer);
+        }
+        merged.extend(found);
+    };
+    record(stage, &group, &answer);
+    let struck = answer.struck(&group);
     let supports = support::find(stage, &mut group);
-    let held = supports.iter().flat_map(|support| &support.contacts).copied();
-    let answered: Vec<Bodies> = struck.iter().copied().chain(held).collect();
+    let held: Vec<Bodies> =
+        supports.iter().flat_map(|support| &support.contacts).copied().collect();
     begin_flights(timeline, &group, &struck, supports);
     for member in &group.members {
         predict::predict(timeline, stage, member.slot, group.time);
     }
-    // Who met, and whoever else touches there and was predicted anew, perhaps to meet at once.
-    let touching = group.touches.iter().map(|touch| touch.bodies);
-    let until = time + stage.parameters.contact_duration;
-    for bodies in touching.chain(met(timeline, seeds, surface)) {
-        if !answered.contains(&bodies) {
-            for index in bodies.spheres() {
-                predict::pause(timeline, timeline.slot_of[index as usize], bodies, until);
-            }
-        }
+    let work = (stage.work.done() - work_before) / UNITS_PER_FLIGHT;
+    timeline.charge(group.members.iter().map(|member| member.slot), work);
+    stage.work.allow(u64::MAX);
+    // Bodies that touch and part, or still close by rounding, may be predicted to meet at once.
+    let unresolved = unresolved(timeline, stage, &group, &held, met(timeline, seeds, surface));
+    for member in &group.members {
+        predict::pass_over(timeline, member.slot, &unresolved);
     }
+}
+
+/// The bodies that touch and are not `held` in persistent contact, and those whose meeting was
+/// predicted though they do not touch.
+fn unresolved(
+    timeline: &Timeline,
+    stage: &Stage,
+    group: &Group,
+    held: &[Bodies],
+    met: Option<Bodies>,
+) -> Vec<Unresolved> {
+    let parting = group.touches.iter().filter(|touch| !held.contains(&touch.bodies));
+    let unresolved = parting.map(|touch| Unresolved {
+        bodies: touch.bodies,
+        until: group.time + unresolved_time(timeline, stage, group, touch),
+    });
+    let apart = met
+        .filter(|&bodies| !group.has(bodies))
+        .map(|bodies| Unresolved { bodies, until: group.time + stage.parameters.contact_duration });
+    unresolved.chain(apart).collect()
+}
+
+/// How long \[s\] bodies that touch and are not in persistent contact close by less than the gap at
+/// which they count as touching.
+fn unresolved_time(timeline: &Timeline, stage: &Stage, group: &Group, touch: &Touch) -> f64 {
+    let acceleration = |place: usize| {
+        let Member { slot, velocity, kind, .. } = group.members[place];
+        timeline.kind_of(slot).acceleration - kind.drag_rate * velocity
+    };
+    let first = touch.first.map_or(DVec3::ZERO, acceleration);
+    let pull = (first - acceleration(touch.second)).dot(touch.normal).max(0.0);
+    let closing = (-touch.normal_velocity(&group.members)).max(0.0);
+    let scale = group.scale(touch);
+    let gap = scale.resolved_gap();
+    let speed = touch.relative_velocity(&group.members).norm();
+    let closed = 2.0 * gap / (closing + (closing * closing + 2.0 * pull * gap).sqrt());
+    closed.min(scale.resolved_time(speed)).max(stage.parameters.contact_duration)
 }
 
 /// The two bodies whose meeting was predicted, if any was.
@@ -91,29 +171,74 @@ fn met(timeline: &Timeline, seeds: &[u32], surface: Option<u32>) -> Option<Bodie
     }
 }
 
-/// Gives every closing contact its impulse, by the impact law, and writes them down; tells who got
-/// one.
-fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group) -> Vec<Bodies> {
-    let is_closing = |touch: &Touch| touch.normal_velocity(&group.members) < 0.0;
-    if !group.touches.iter().any(is_closing) {
-        return Vec::new();
+/// What impacts did to a group.
+struct Answer {
+    /// One per touch: speed of approach before all impacts \[m/s\].
+    approach_speeds: Vec<f64>,
+    /// One per touch \[N s\].
+    impulses: Vec<f64>,
+    /// What the impacts did to momentum and energy of the spheres.
+    account: ImpactGroup,
+}
+
+impl Answer {
+    /// The touches that got an impulse.
+    fn struck(&self, group: &Group) -> Vec<Bodies> {
+        let touches = group.touches.iter().zip(&self.impulses);
+        touches.filter(|(_, impulse)| **impulse > 0.0).map(|(touch, _)| touch.bodies).collect()
     }
-    let contacts = contacts_of(timeline, stage, group);
-    let approach: Vec<f64> =
-        group.touches.iter().map(|touch| -touch.normal_velocity(&group.members)).collect();
+}
+
+/// Gives every closing contact its impulse, by the impact law. What of the `merged` contacts still
+/// closes then is answered plastically, together with all others.
+fn respond_to_impacts(
+    timeline: &Timeline,
+    stage: &Stage,
+    group: &mut Group,
+    merged: &[Bodies],
+) -> Answer {
+    let count = group.touches.len();
+    let speeds = group.touches.iter().map(|touch| -touch.normal_velocity(&group.members));
+    let approach_speeds: Vec<f64> = speeds.collect();
+    let (mut impulses, mut energy_demanded) = (vec![0.0; count], 0.0);
+    if !approach_speeds.iter().any(|&speed| speed > 0.0) {
+        return Answer { approach_speeds, impulses, account: ImpactGroup::default() };
+    }
     let masses: Vec<f64> = group.members.iter().map(|member| member.kind.mass).collect();
     let before: Vec<DVec3> = group.members.iter().map(|member| member.velocity).collect();
     let mut after = before.clone();
-    let response =
-        respond::resolve(stage.system.settings.impact_law, &contacts, &masses, &mut after);
+    let contacts = contacts_of(timeline, stage, group);
+    let law = stage.system.settings.impact_law;
+    let mut resolve = |places: &[usize], contacts: &[TouchingContact]| {
+        let response = respond::resolve_within(stage.work, law, contacts, &masses, &mut after);
+        energy_demanded += response.restitution_energy;
+        for (&place, impulse) in places.iter().zip(response.impulses) {
+            impulses[place] += impulse;
+        }
+    };
+    let is_merged = |place: &usize| merged.contains(&group.touches[*place].bodies);
+    let touching: Vec<usize> = (0..count).filter(|place| !is_merged(place)).collect();
+    let given: Vec<_> = touching.iter().map(|&place| contacts[place]).collect();
+    resolve(&touching, &given);
+    if !merged.is_empty() {
+        let plastic = |contact: &TouchingContact| TouchingContact { restitution: 0.0, ..*contact };
+        let all: Vec<usize> = (0..count).collect();
+        resolve(&all, &contacts.iter().map(plastic).collect::<Vec<_>>());
+    }
     for (member, velocity) in group.members.iter_mut().zip(&after) {
         member.velocity = *velocity;
     }
-    let mut account = account_of([&before, &after], &masses);
-    account.energy_demanded = response.restitution_energy;
-    let (mut impacts, mut struck): (Vec<Impact>, _) = (Vec::new(), Vec::new());
-    for ((touch, &impulse), approach_speed) in
-        group.touches.iter().zip(&response.impulses).zip(approach)
+    let account = ImpactGroup { energy_demanded, ..account_of([&before, &after], &masses) };
+    Answer { approach_speeds, impulses, account }
+}
+
+/// Writes down the impacts of a group.
+fn record(stage: &mut Stage, group: &Group, answer: &Answer) {
+    let Answer { approach_speeds, impulses, .. } = answer;
+    let mut account = answer.account;
+    let mut impacts: Vec<Impact> = Vec::new();
+    for ((touch, &impulse), &approach_speed) in
+        group.touches.iter().zip(impulses).zip(approach_speeds)
     {
         if impulse <= 0.0 {
             continue;
@@ -122,7 +247,6 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
             account.momentum_after -= impulse * touch.normal;
             account.energy_after -= impulse * touch.normal.dot(touch.surface_velocity);
         }
-        struck.push(touch.bodies);
         let between = Participants::of(touch.bodies, stage.system);
         let point = periodic::folded(touch.point, stage.period);
         // Faces of a box share edges and corners, where a sphere meets several at one place.
@@ -144,23 +268,22 @@ fn respond_to_impacts(timeline: &Timeline, stage: &mut Stage, group: &mut Group)
     if !impacts.is_empty() {
         stage.record(impacts, account);
     }
-    struck
 }
 
 /// The touches as the impact laws take them.
 fn contacts_of(timeline: &Timeline, stage: &Stage, group: &Group) -> Vec<TouchingContact> {
-    let body = |place: usize| &timeline.bodies[group.members[place].slot as usize];
+    let slot = |place: usize| group.members[place].slot;
     let contact = |touch: &Touch| {
         let own = |place: usize| group.members[place].kind.restitution;
         let restitution = match (touch.first, touch.bodies) {
             (Some(first), _) => {
                 let restitution = stage.restitution_rule().combine(own(first), own(touch.second));
-                let bodies = [body(first), body(touch.second)];
-                stage.restitution_at(bodies, restitution, group.time)
+                let slots = [slot(first), slot(touch.second)];
+                stage.restitution_at(timeline, slots, restitution, group.time)
             }
             (None, bodies) => {
                 let restitution = respond::restitution_of(bodies, stage.system);
-                stage.restitution_at([body(touch.second)], restitution, group.time)
+                stage.restitution_at(timeline, [slot(touch.second)], restitution, group.time)
             }
         };
         TouchingContact { restitution, ..touch.contact() }

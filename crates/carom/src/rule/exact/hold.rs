@@ -85,7 +85,9 @@ fn carried(
     for contact in &cluster.contacts {
         corner.add(plane_of(contact)?)?;
     }
-    let carried = carry::carry(member, &corner, parameters.contact_duration, duration)?;
+    let scale = member.scale(false);
+    let contact_duration = scale.duration(parameters.contact_duration, timeline.frame[0]);
+    let carried = carry::carry(member, &corner, contact_duration, duration)?;
     Some((number, carried))
 }
 

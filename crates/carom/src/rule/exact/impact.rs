@@ -102,8 +102,7 @@ impl PairImpact {
         let normal = offset / offset.norm();
         let [e1, e2] = kinds.map(|kind| kind.restitution);
         let restitution = stage.restitution_rule().combine(e1, e2);
-        let bodies = slots.map(|slot| &timeline.bodies[slot as usize]);
-        let restitution = stage.restitution_at(bodies, restitution, time);
+        let restitution = stage.restitution_at(timeline, slots, restitution, time);
         let masses = kinds.map(|kind| kind.mass);
         let answer = respond::line_of_centres([v1, v2], masses, normal, restitution);
         Self {

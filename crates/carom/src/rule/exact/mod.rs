@@ -13,8 +13,10 @@ mod bounce;
 mod carry;
 mod cells;
 mod cluster;
+mod contact_duration;
 mod corner;
 mod flights;
+mod follow_up;
 mod grid;
 mod group;
 mod hold;
@@ -28,6 +30,7 @@ mod periodic;
 mod predict;
 mod queue;
 mod room;
+mod settle;
 mod sight;
 mod stage;
 mod support;
@@ -42,9 +45,10 @@ use stage::Stage;
 pub(crate) use timeline::Timeline;
 
 use super::Rule;
-use crate::bodies::SphereId;
+use crate::bodies::{Motion, SphereId};
 use crate::report::StepReport;
 use crate::system::System;
+use crate::work::Work;
 
 /// A step, or its part up to some time, on the world's clock \[s\].
 #[derive(Debug, Clone, Copy)]
@@ -57,13 +61,41 @@ pub(crate) struct Span {
     pub end: f64,
 }
 
-/// More happened in a frame than the parameters allow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct TooManyImpacts {
-    /// A sphere that was at work then.
-    pub sphere: SphereId,
-    /// The bound per sphere.
-    pub limit: u32,
+/// Units of work that count as much as one flight of a sphere.
+const UNITS_PER_FLIGHT: u64 = 32;
+
+/// Why a part of a frame was not taken to its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Unfinished {
+    /// A sphere took more work than the parameters allow.
+    TooManyImpacts {
+        /// A sphere that was at work then.
+        sphere: SphereId,
+        /// The bound per sphere.
+        limit: u32,
+        /// How many spheres it was in persistent contact with, directly or through others.
+        companions: usize,
+        /// When it happened, on the world's clock \[s\].
+        time: f64,
+    },
+    /// It was asked to stop.
+    Stopped,
+}
+
+/// Writes where all spheres are at the end of a part of a step, and how they move there.
+pub(crate) fn write_motion(
+    system: &System,
+    timeline: &Timeline,
+    motion: &mut Motion,
+    Span { start, length, end }: Span,
+) {
+    let period = system.settings.boundary.period();
+    timeline.write_motion(motion, period, end);
+    let Rule::Exact(parameters) = system.settings.rule else { return };
+    let (around, report) = (Default::default(), &mut StepReport::default());
+    let work = &Work::unlimited();
+    let stage = Stage { system, parameters, report, work, start, length, period, around };
+    settle::write_motion(timeline, &stage, motion, end);
 }
 
 /// Advances all spheres to `end` \[s\] on the world's clock, in the step that began at `start`
@@ -72,13 +104,17 @@ pub(crate) fn advance(
     system: &System,
     timeline: &mut Timeline,
     Span { start, length, end }: Span,
+    work: &Work,
     report: &mut StepReport,
-) -> Result<(), TooManyImpacts> {
+) -> Result<(), Unfinished> {
     let Rule::Exact(parameters) = system.settings.rule else { return Ok(()) };
     let period = system.settings.boundary.period();
     let around = Default::default();
-    let mut stage = Stage { system, parameters, report, start, length, period, around };
+    let mut stage = Stage { system, parameters, report, work, start, length, period, around };
     while let Some((slot, next)) = timeline.next(system, end) {
+        if !work.spend(UNITS_PER_FLIGHT) {
+            return Err(Unfinished::Stopped);
+        }
         let event = match next {
             Next::Event(event) => event,
             Next::Departure(time) => {
@@ -99,9 +135,16 @@ pub(crate) fn advance(
             }
             Upon::Cluster => bounce::answer(timeline, &mut stage, slot, None, event.time),
         }
-        if timeline.flights_in_frame(slot) > parameters.max_impacts {
-            let limit = parameters.max_impacts;
-            return Err(TooManyImpacts { sphere: stage.id_of(timeline, slot), limit });
+        if work.is_stopped() {
+            return Err(Unfinished::Stopped);
+        }
+        if timeline.work_in_frame(slot) > u64::from(parameters.max_impacts) {
+            return Err(Unfinished::TooManyImpacts {
+                sphere: stage.id_of(timeline, slot),
+                limit: parameters.max_impacts,
+                companions: timeline.companions(slot),
+                time: event.time,
+            });
         }
     }
     Ok(())

@@ -81,21 +81,40 @@ fn outlook_after(
     Outlook { ahead, departure }
 }
 
-/// Lets a sphere pass over a meeting that is due before `until` \[s\], to begin another flight then.
+/// Two bodies that touch, and for how long a meeting of them has nothing to answer.
 ///
 /// Two bodies that hardly touch may meet, by the rounding of one formula, and have nothing to
-/// answer, by that of another. Whatever they are in doubt about is over within a contact's duration.
-pub(super) fn pause(timeline: &mut Timeline, slot: u32, bodies: Bodies, until: f64) {
-    let event = timeline.outlooks[slot as usize].event();
+/// answer, by that of another.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Unresolved {
+    pub bodies: Bodies,
+    /// On the world's clock \[s\].
+    pub until: f64,
+}
+
+/// Lets a sphere pass over meetings that have nothing to answer, to begin another flight after them.
+/// What else it meets before comes as predicted.
+pub(super) fn pass_over(timeline: &mut Timeline, slot: u32, meetings: &[Unresolved]) {
     let sphere = timeline.index_of[slot as usize];
-    let again = match event.target.upon() {
-        Upon::Sphere(other) => Bodies::pair([sphere, timeline.index_of[other as usize]]),
-        Upon::Surface(surface) => Bodies::Surface { sphere, surface },
-        Upon::Cluster | Upon::Restart => return,
+    let unresolved_until = |event: &Event| {
+        let bodies = match event.target.upon() {
+            Upon::Sphere(other) => Bodies::pair([sphere, timeline.index_of[other as usize]]),
+            Upon::Surface(surface) => Bodies::Surface { sphere, surface },
+            Upon::Cluster | Upon::Restart => return None,
+        };
+        let meeting = meetings.iter().find(|meeting| meeting.bodies == bodies)?;
+        (event.time < meeting.until).then_some(meeting.until)
     };
-    if again == bodies && event.time < until {
-        let restart = Event { time: until, target: Target::RESTART, flights: 0 };
-        timeline.reschedule(slot, Ahead::only(restart));
+    let predicted = timeline.outlooks[slot as usize].ahead;
+    let mut ahead = Some(predicted);
+    let mut restart = Event { time: f64::INFINITY, target: Target::RESTART, flights: 0 };
+    while let Some(until) = ahead.and_then(|ahead| unresolved_until(&ahead.first)) {
+        restart.time = restart.time.min(until);
+        ahead = ahead.and_then(Ahead::without_first);
+    }
+    if ahead != Some(predicted) {
+        let next = ahead.map(|ahead| ahead.first).filter(|next| next.time < restart.time);
+        timeline.reschedule(slot, Ahead::only(next.unwrap_or(restart)));
     }
 }
 

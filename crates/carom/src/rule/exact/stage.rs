@@ -2,22 +2,26 @@
 
 use glam::DVec3;
 
-use super::body::Body;
+use super::contact_duration::ContactScale;
 use super::surroundings::Surroundings;
 use super::timeline::Timeline;
 use crate::bodies::SphereId;
 use crate::detect::sphere_surface;
+use crate::norm::Norm;
 use crate::report::{Impact, ImpactGroup, StepReport};
 use crate::rule::Exact;
 use crate::settings::RestitutionRule;
 use crate::surface::{Form, SurfaceMotion};
 use crate::system::System;
+use crate::work::Work;
 
 /// The world in one frame, and the report of the frame.
 pub(super) struct Stage<'a> {
     pub system: &'a System<'a>,
     pub parameters: Exact,
     pub report: &'a mut StepReport,
+    /// Counted and bounded.
+    pub work: &'a Work<'a>,
     /// Start of the step, on the world's clock \[s\]: impacts count their time from there, and there
     /// surfaces are where the system says.
     pub start: f64,
@@ -51,13 +55,29 @@ impl Stage<'_> {
     /// back all, which leaves spheres that are wedged in to bounce without end.
     pub fn restitution_at<const N: usize>(
         &self,
-        bodies: [&Body; N],
+        timeline: &Timeline,
+        slots: [u32; N],
         restitution: f64,
         time: f64,
     ) -> f64 {
-        let duration = self.parameters.contact_duration;
-        let were_struck = || bodies.iter().all(|body| body.was_struck(time, duration));
-        if restitution < 1.0 && were_struck() { 0.0 } else { restitution }
+        let bodies = slots.map(|slot| &timeline.bodies[slot as usize]);
+        if restitution == 1.0 || !bodies.iter().all(|body| body.is_struck()) {
+            return restitution;
+        }
+        let scale = timeline.contact_scale(&slots, time);
+        let velocity = |slot: u32| timeline.state_of(slot, time).1;
+        let speed = match slots[..] {
+            [first, second] => (velocity(second) - velocity(first)).norm(),
+            _ => slots.iter().map(|&slot| velocity(slot).norm()).sum(),
+        };
+        let least = self.parameters.contact_duration;
+        let duration = self.duration_of(&scale, time).min(scale.resolved_time(speed)).max(least);
+        if bodies.iter().all(|body| time - body.time < duration) { 0.0 } else { restitution }
+    }
+
+    /// How long a contact of this scale lasts \[s\], at `time` \[s\].
+    pub fn duration_of(&self, scale: &ContactScale, time: f64) -> f64 {
+        scale.duration(self.parameters.contact_duration, time)
     }
 
     /// Writes down impacts that were answered together.

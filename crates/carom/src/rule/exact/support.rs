@@ -5,14 +5,17 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::axis_motion::AxisMotion;
+use super::contact_duration::ContactScale;
 use super::group::{Group, Member};
 use super::stage::Stage;
-use super::touch::{Touch, beyond};
+use super::touch::{TOUCHING, Touch, beyond};
 use crate::detect::contact::Bodies;
+use crate::flight::Propagator;
 use crate::norm::Norm;
-use crate::respond::contact_forces;
+use crate::respond::contact_forces_within;
 use crate::sum::Sum;
 use crate::surface::{Form, Rectangle};
+use crate::work::Work;
 
 /// A contact with a normal acceleration below this part of the free accelerations neither presses
 /// nor opens, but for rounding.
@@ -28,6 +31,14 @@ const TURN: f64 = 1e-3;
 /// common edge, what tells them apart is rounding: a gap of 1e-16 m would be closed by a way as long
 /// as it divided by that.
 const SAME_NORMAL: f64 = 1e-8;
+/// Part of a radius by which a piece of path may close the gap of a persistent contact: more than what
+/// rounding opens.
+const MOST_CLOSED: f64 = 1e-10;
+/// Part of a radius by which a piece of path may miss a contact at its end before that is corrected.
+const MOST_OFF: f64 = 1e-7;
+/// A force that is found from the gap at the end of a turn differs from that of the middle by no more
+/// than this part of the accelerations at work.
+const MOST_CORRECTED: f64 = 1e-2;
 /// Below this turn \[rad\] a force that ends within a piece of the path ends at its beginning.
 const SHORTEST_TURN: f64 = 1e-6;
 
@@ -47,24 +58,30 @@ pub(super) struct Support {
 /// velocities to zero.
 pub(super) fn find(stage: &Stage, group: &mut Group) -> Vec<Support> {
     let slow = slow(stage, group);
-    let mut lasting = staying(&group.members, &slow);
+    let (mut lasting, known_forces) = staying(stage.work, &group.members, &slow);
+    let mut known_forces = Some(known_forces);
     while !lasting.is_empty() {
-        correct(stage, group, &mut lasting);
-        let forces = forces(&group.members, &lasting);
+        let has_moved = correct(stage, group, &mut lasting);
+        // Contacts that push nothing were left out: the forces of the others are the same, unless drag
+        // has changed with the velocities.
+        let has_drag = group.members.iter().any(|member| member.kind.drag_rate > 0.0);
+        let known_forces = known_forces.take().filter(|_| !(has_moved || has_drag));
+        let forces = known_forces.unwrap_or_else(|| forces(stage.work, &group.members, &lasting));
+        let accelerations = rest(stage, group, borne(&group.members, &lasting, &forces));
         let frame_left = (stage.start + stage.length - group.time).max(0.0);
-        let (accelerations, hold) =
-            match turning_time(&group.members, &lasting, &forces, frame_left) {
-                f64::INFINITY => (borne(&group.members, &lasting, &forces), f64::INFINITY),
-                turning => match through_the_middle(stage, group, &lasting, &forces, turning) {
-                    Ok(found) => found,
-                    Err(released) => {
-                        let mut released = released.into_iter();
-                        lasting.retain(|_| !released.next().unwrap_or(false));
-                        continue;
-                    }
-                },
-            };
-        let accelerations = rest(group, accelerations, hold);
+        let turning = turning_time(&group.members, &lasting, &accelerations, frame_left);
+        let (accelerations, hold) = if turning == f64::INFINITY {
+            (accelerations, turning)
+        } else {
+            match through_the_middle(stage, group, &lasting, (&accelerations, &forces), turning) {
+                Ok((middle, hold)) => (rest(stage, group, middle), hold),
+                Err(released) => {
+                    let mut released = released.into_iter();
+                    lasting.retain(|_| !released.next().unwrap_or(false));
+                    continue;
+                }
+            }
+        };
         if hold < f64::INFINITY {
             lean(&group.members, &slow, &accelerations, &mut lasting);
         }
@@ -76,20 +93,6 @@ pub(super) fn find(stage: &Stage, group: &mut Group) -> Vec<Support> {
     Vec::new()
 }
 
-/// Takes from contacts that have lasted what normal velocity the last piece of their path left: it is
-/// of the third order in the turn, and neither an impact nor a parting.
-pub(super) fn settle(group: &mut Group) {
-    let Group { members, touches, fastest, .. } = group;
-    let most = TURN * TURN * *fastest;
-    let is_left_over = |touch: &&Touch| {
-        touch.has_lasted && touch.bends() && touch.normal_velocity(members).abs() <= most
-    };
-    let left_over: Vec<Touch> = touches.iter().filter(is_left_over).copied().collect();
-    if !left_over.is_empty() {
-        stop_along_normals(members, &left_over);
-    }
-}
-
 /// The touches that may stay closed: those whose bodies would be back in contact within a contact's
 /// duration.
 fn slow(stage: &Stage, group: &Group) -> Vec<Touch> {
@@ -98,18 +101,19 @@ fn slow(stage: &Stage, group: &Group) -> Vec<Touch> {
         let free = touch.first.map_or(DVec3::ZERO, |first| free_acceleration(&members[first]));
         let free = free.norm() + free_acceleration(&members[touch.second]).norm();
         let acceleration = free + bias(touch, members).abs();
-        let duration = stage.parameters.contact_duration;
+        let scale = ContactScale { acceleration, ..group.scale(touch) };
+        let duration = stage.duration_of(&scale, group.time);
         is_back_within(duration, touch.normal_velocity(members), acceleration)
     };
     group.touches.iter().filter(is_slow).copied().collect()
 }
 
-/// Of slow touches, those that stay closed: their forces press.
-fn staying(members: &[Member], slow: &[Touch]) -> Vec<Touch> {
+/// Of slow touches, those that stay closed, for their forces press; with the forces \[N\].
+fn staying(work: &Work, members: &[Member], slow: &[Touch]) -> (Vec<Touch>, Vec<f64>) {
     if slow.is_empty() {
-        return Vec::new();
+        return (Vec::new(), Vec::new());
     }
-    let forces = forces(members, slow);
+    let forces = forces(work, members, slow);
     let mut is_borne = vec![false; members.len()];
     for (touch, &force) in slow.iter().zip(&forces) {
         if force > 0.0 {
@@ -121,9 +125,9 @@ fn staying(members: &[Member], slow: &[Touch]) -> Vec<Touch> {
         let all_borne = is_borne[touch.second] && touch.first.is_none_or(|first| is_borne[first]);
         let scale = free_acceleration(&members[touch.second]).norm() + accelerations.largest;
         let is_idle = accelerations.along(&touch, members) <= IDLE * scale;
-        (force > 0.0 || (all_borne && is_idle)).then_some(touch)
+        (force > 0.0 || (all_borne && is_idle)).then_some((touch, force))
     };
-    slow.iter().zip(forces).filter_map(stays).collect()
+    slow.iter().zip(forces).filter_map(stays).unzip()
 }
 
 /// Adds slow touches that open now and would close under the accelerations of the middle of a turn:
@@ -174,12 +178,12 @@ fn bias(touch: &Touch, members: &[Member]) -> f64 {
 }
 
 /// Forces \[N\] of contacts, each >= 0.
-fn forces(members: &[Member], touches: &[Touch]) -> Vec<f64> {
+fn forces(work: &Work, members: &[Member], touches: &[Touch]) -> Vec<f64> {
     let contacts: Vec<_> = touches.iter().map(Touch::contact).collect();
     let masses: Vec<f64> = members.iter().map(|member| member.kind.mass).collect();
     let mut accelerations: Vec<DVec3> = members.iter().map(free_acceleration).collect();
     let bias: Vec<f64> = touches.iter().map(|touch| bias(touch, members)).collect();
-    contact_forces(&contacts, &masses, &mut accelerations, &bias).forces
+    contact_forces_within(work, &contacts, &masses, &mut accelerations, &bias).forces
 }
 
 /// Accelerations of the members of a group.
@@ -220,8 +224,12 @@ fn borne(members: &[Member], touches: &[Touch], forces: &[f64]) -> Accelerations
 
 /// Time \[s\] in which the normal of some contact turns by [`TURN`]; infinite where none does. How
 /// a surface turns is known for what is left of the frame \[s\].
-fn turning_time(members: &[Member], touches: &[Touch], forces: &[f64], frame_left: f64) -> f64 {
-    let accelerations = borne(members, touches, forces);
+fn turning_time(
+    members: &[Member],
+    touches: &[Touch],
+    accelerations: &Accelerations,
+    frame_left: f64,
+) -> f64 {
     let mut time = f64::INFINITY;
     for touch in touches {
         let spin = touch.surface_spin.norm();
@@ -243,8 +251,12 @@ fn turning_time(members: &[Member], touches: &[Touch], forces: &[f64], frame_lef
         if velocity.norm() > 0.0 {
             time = time.min(TURN * distance / velocity.norm());
         }
-        if acceleration.norm() > scale {
-            time = time.min((2.0 * TURN * distance / acceleration.norm()).sqrt());
+        if velocity.norm() > 0.0 || acceleration.norm() > scale {
+            let spheres = touch.first.into_iter().chain([touch.second]);
+            let radii = spheres.map(|place| members[place].kind.radius);
+            let length = 0.25 * radii.fold(distance, f64::min);
+            let acceleration = acceleration.norm().max(scale);
+            time = time.min((2.0 * TURN * length / acceleration).sqrt());
         }
     }
     time
@@ -256,10 +268,9 @@ fn through_the_middle(
     stage: &Stage,
     group: &Group,
     touches: &[Touch],
-    forces_before: &[f64],
+    (start, forces_before): (&Accelerations, &[f64]),
     turning: f64,
 ) -> Result<(Accelerations, f64), Vec<bool>> {
-    let start = borne(&group.members, touches, forces_before);
     let mut hold = turning;
     loop {
         let middle: Vec<Member> = group
@@ -272,7 +283,7 @@ fn through_the_middle(
         let measured: Vec<Option<Touch>> =
             touches.iter().map(|touch| touch.measured_at(stage, &middle, time)).collect();
         let still: Vec<Touch> = measured.iter().flatten().copied().collect();
-        let forces = forces(&middle, &still);
+        let forces = forces(stage.work, &middle, &still);
         let mut in_middle = forces.iter();
         let released: Vec<bool> = measured
             .iter()
@@ -282,29 +293,77 @@ fn through_the_middle(
                 None => true,
             })
             .collect();
+        let is_shortest = 0.5 * hold < turning * (SHORTEST_TURN / TURN);
         if !released.contains(&true) {
-            return Ok((borne(&middle, &still, &forces), hold));
-        }
-        hold *= 0.5;
-        if hold < turning * (SHORTEST_TURN / TURN) {
+            let middle = borne(&middle, &still, &forces);
+            let end = ending_in_contact(stage, group, touches, middle, hold);
+            if end.is_followed || is_shortest {
+                return Ok((end.accelerations, hold));
+            }
+        } else if is_shortest {
             return Err(released);
         }
+        hold *= 0.5;
     }
 }
 
-/// Stops what moves and accelerates by no more than rounding.
-fn rest(group: &mut Group, mut accelerations: Accelerations, hold: f64) -> Accelerations {
-    if hold < f64::INFINITY {
-        return accelerations;
-    }
-    let fastest = group.fastest;
-    for (member, acceleration) in group.members.iter_mut().zip(&mut accelerations.each) {
-        let scale = member.kind.acceleration.norm() + accelerations.largest;
-        if acceleration.norm() <= IDLE * scale {
-            *acceleration = DVec3::ZERO;
+/// A piece of path that ends in contact.
+struct Ending {
+    accelerations: Accelerations,
+    /// Whether the forces of the middle alone keep the contacts to a part of a radius, so that the
+    /// piece is short enough.
+    is_followed: bool,
+}
+
+/// Accelerations under which the gaps of contacts after `hold` \[s\] are what they are now, or a little
+/// less where they are open: constraint forces that are found from positions, as in SHAKE (Ryckaert,
+/// Ciccotti and Berendsen, J. Comput. Phys. 23, 327 (1977)).
+fn ending_in_contact(
+    stage: &Stage,
+    group: &Group,
+    touches: &[Touch],
+    mut accelerations: Accelerations,
+    hold: f64,
+) -> Ending {
+    let members = group.members.iter().zip(&accelerations.each);
+    let end: Vec<Member> =
+        members.map(|(member, &acceleration)| member.after(acceleration, hold)).collect();
+    let mut is_followed = true;
+    let mut at_end = |touch: &Touch| {
+        let after = touch.measured_at(stage, &end, group.time + hold)?;
+        let ContactScale { radius, length, .. } = group.scale(touch);
+        let closed = (0.5 * touch.gap).clamp(0.0, MOST_CLOSED * radius);
+        let excess = after.gap - (touch.gap - closed);
+        is_followed &= excess.abs() <= MOST_OFF * radius;
+        Some((after, if excess.abs() > TOUCHING * length { excess } else { 0.0 }))
+    };
+    let (touches, excess): (Vec<Touch>, Vec<f64>) = touches.iter().filter_map(&mut at_end).unzip();
+    let moves = corrections(stage.work, &end, &touches, &excess);
+    let needed =
+        |(way, member): (DVec3, &Member)| way / Propagator::over(hold, member.kind.drag_rate).fall;
+    let changes: Vec<DVec3> = moves.into_iter().zip(&end).map(needed).collect();
+    // Of the order of the turn; where contacts hardly differ, rounding may ask for any.
+    let is_small = |(member, change): (&Member, &DVec3)| {
+        change.norm() <= MOST_CORRECTED * (member.kind.acceleration.norm() + accelerations.largest)
+    };
+    if end.iter().zip(&changes).all(is_small) {
+        for (acceleration, change) in accelerations.each.iter_mut().zip(changes) {
+            *acceleration += change;
         }
-        if member.velocity.norm() <= REST * fastest {
-            member.velocity = DVec3::ZERO;
+    }
+    Ending { accelerations, is_followed }
+}
+
+/// Stops what moves and accelerates by no more than rounding.
+fn rest(stage: &Stage, group: &mut Group, mut accelerations: Accelerations) -> Accelerations {
+    let (fastest, time) = (group.fastest, group.time);
+    for (member, acceleration) in group.members.iter_mut().zip(&mut accelerations.each) {
+        let Member { position, velocity, kind, .. } = member;
+        let scale = kind.acceleration.norm() + accelerations.largest;
+        let contact = ContactScale::default().with(*position, *velocity, kind);
+        let gained = scale * stage.duration_of(&contact, time);
+        if acceleration.norm() <= IDLE * scale && velocity.norm() <= REST * (fastest + gained) {
+            (*velocity, *acceleration) = (DVec3::ZERO, DVec3::ZERO);
         }
     }
     accelerations
@@ -402,24 +461,41 @@ fn root_of(root: &[usize], mut place: usize) -> usize {
     place
 }
 
-/// Brings the gaps and the normal velocities of lasting contacts to zero, and measures them anew.
-fn correct(stage: &Stage, group: &mut Group, touches: &mut Vec<Touch>) {
-    if touches.iter().any(Touch::bends) {
-        let gaps: Vec<f64> = touches.iter().map(|touch| touch.gap).collect();
-        let moves = corrections(&group.members, touches, &gaps);
+/// Moves apart what overlaps in persistent contact, where normals turn, and brings normal velocities
+/// to zero; measures the contacts anew. Tells whether something was moved.
+pub(super) fn correct(stage: &Stage, group: &mut Group, touches: &mut Vec<Touch>) -> bool {
+    let overlaps = |touch: &Touch| touch.gap < -TOUCHING * group.scale(touch).length;
+    let moves_apart = touches.iter().any(Touch::bends) && touches.iter().any(overlaps);
+    if moves_apart {
+        let moves = separations(stage.work, &group.members, touches);
         for (member, by) in group.members.iter_mut().zip(moves) {
             member.position += by;
         }
         let (members, time) = (&group.members, group.time);
         *touches = touches.iter().filter_map(|it| it.measured_at(stage, members, time)).collect();
     }
-    stop_along_normals(&mut group.members, touches);
+    stop_along_normals(stage.work, &mut group.members, touches);
+    moves_apart
+}
+
+/// The least moves of the members, weighted by mass, after which none of the contacts overlaps: the
+/// problem of contact forces, with moves for accelerations.
+fn separations(work: &Work, members: &[Member], touches: &[Touch]) -> Vec<DVec3> {
+    let contacts: Vec<_> = touches.iter().map(Touch::contact).collect();
+    let masses: Vec<f64> = members.iter().map(|member| member.kind.mass).collect();
+    let gaps: Vec<f64> = touches.iter().map(|touch| touch.gap).collect();
+    let mut moves = vec![DVec3::ZERO; members.len()];
+    if contact_forces_within(work, &contacts, &masses, &mut moves, &gaps).complete {
+        moves
+    } else {
+        vec![DVec3::ZERO; members.len()]
+    }
 }
 
 /// Brings the normal velocities of contacts to zero.
-fn stop_along_normals(members: &mut [Member], touches: &[Touch]) {
+fn stop_along_normals(work: &Work, members: &mut [Member], touches: &[Touch]) {
     let speeds: Vec<f64> = touches.iter().map(|touch| touch.normal_velocity(members)).collect();
-    let changes = corrections(members, touches, &speeds);
+    let changes = corrections(work, members, touches, &speeds);
     for (member, by) in members.iter_mut().zip(changes) {
         member.velocity += by;
     }
@@ -427,7 +503,7 @@ fn stop_along_normals(members: &mut [Member], touches: &[Touch]) {
 
 /// The least change of the members, weighted by mass, that takes away `excess` along the normals:
 /// `M⁻¹ N λ` with `Nᵀ M⁻¹ N λ = -excess`, by conjugate gradients.
-fn corrections(members: &[Member], touches: &[Touch], excess: &[f64]) -> Vec<DVec3> {
+fn corrections(work: &Work, members: &[Member], touches: &[Touch], excess: &[f64]) -> Vec<DVec3> {
     let spread = |weights: &[f64]| {
         let mut changes = vec![DVec3::ZERO; members.len()];
         for (touch, weight) in touches.iter().zip(weights) {
@@ -462,7 +538,7 @@ fn corrections(members: &[Member], touches: &[Touch], excess: &[f64]) -> Vec<DVe
     // Of the squares: what is left is below the rounding of what was there.
     let enough = square * (f64::EPSILON * f64::EPSILON);
     for _ in 0..2 * touches.len() {
-        if square <= enough {
+        if square <= enough || !work.spend(touches.len() as u64) {
             break;
         }
         let image = along(&spread(&direction));

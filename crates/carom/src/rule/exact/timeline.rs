@@ -10,6 +10,7 @@ use prefetch_index::prefetch_index;
 
 use super::body::{Body, Kind};
 use super::cluster::{Cluster, Clusters};
+use super::contact_duration::ContactScale;
 use super::flights::Flights;
 use super::neighbours::{self, Contents, Neighbours};
 use super::outlook::{Ahead, Event, Next, Outlook, Target};
@@ -58,6 +59,8 @@ pub(crate) struct Timeline {
     spare_kinds: Vec<u32>,
     /// Number of each sphere's flight at the start of the frame, by slot.
     flights_before: Vec<u32>,
+    /// Work of the groups of each sphere in the frame, by slot, in flights; empty where there was none.
+    group_work: Vec<u64>,
     /// Place of each slot in the arrays of the world, and back.
     pub(super) index_of: Vec<u32>,
     pub(super) slot_of: Vec<u32>,
@@ -134,15 +137,33 @@ impl Timeline {
 
     /// Counts the flights of each sphere from here on.
     fn count_flights(&mut self) {
+        self.group_work.clear();
         self.flights_before.clear();
         self.flights_before.extend(self.bodies.iter().map(|body| body.flights));
     }
 
-    /// How many flights of a sphere began in this frame.
-    pub fn flights_in_frame(&self, slot: u32) -> u32 {
+    /// How many flights of a sphere began in this frame, and what its groups took besides.
+    #[inline]
+    pub fn work_in_frame(&self, slot: u32) -> u64 {
         let before = self.flights_before[slot as usize];
         // Each adds two, or one if an impact began the flight before it.
-        self.bodies[slot as usize].flights.wrapping_sub(before).div_ceil(2)
+        let flights = self.bodies[slot as usize].flights.wrapping_sub(before).div_ceil(2);
+        let of_groups = self.group_work.get(slot as usize).copied().unwrap_or(0);
+        u64::from(flights) + of_groups
+    }
+
+    /// Counts the work of a group for each of its spheres.
+    pub fn charge(&mut self, slots: impl Iterator<Item = u32>, work: u64) {
+        if self.group_work.is_empty() {
+            self.group_work.resize(self.bodies.len(), 0);
+        }
+        slots.for_each(|slot| self.group_work[slot as usize] += work);
+    }
+
+    /// How many other spheres are in persistent contact with a sphere, directly or through others.
+    pub fn companions(&self, slot: u32) -> usize {
+        let cluster = self.kind_of(slot).cluster;
+        cluster.map_or(0, |number| self.clusters.get(number).members.len() - 1)
     }
 
     /// Gathers the spheres into kinds; gives the kind of each.
@@ -479,6 +500,14 @@ impl Timeline {
     pub fn state_of(&self, slot: u32, time: f64) -> (DVec3, DVec3) {
         let body = &self.bodies[slot as usize];
         body.state_at(&self.kinds[body.kind as usize], time)
+    }
+
+    /// What rounding can resolve of a contact of spheres at `time` \[s\].
+    pub(super) fn contact_scale(&self, slots: &[u32], time: f64) -> ContactScale {
+        slots.iter().fold(ContactScale::default(), |scale, &slot| {
+            let (position, velocity) = self.state_of(slot, time);
+            scale.with(position, velocity, self.free_kind_of(slot))
+        })
     }
 
     /// Begins another flight of a sphere from this state at `time` \[s\].

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use super::cluster::Cluster;
 use super::group::{Group, Member};
 use super::periodic;
 use super::stage::Stage;
@@ -17,10 +18,10 @@ use crate::surface::{Form, Rectangle, Surface, SurfaceMotion};
 
 /// Bodies touch when the gap between them is below this many roundings of their coordinates: what
 /// the time of an impact and the way to it leave uncertain.
-const TOUCHING: f64 = 256.0 * f64::EPSILON;
+pub(super) const TOUCHING: f64 = 256.0 * f64::EPSILON;
 /// Relative rounding of a time at which two bodies may be said to meet: that of the clock, and of the
 /// sums that lead to it.
-const CLOCK_ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(super) const CLOCK_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Two bodies that touch.
 #[derive(Debug, Clone, Copy)]
@@ -247,12 +248,13 @@ fn is_above(form: &Form, point: DVec3, height: f64) -> bool {
 }
 
 /// Gathers the spheres at `seeds`, whatever touches them at `time` \[s\], what touches that, and so
-/// on, clusters as a whole.
+/// on, clusters as a whole. `merged` contacts count as touching, too.
 pub(super) fn gather(
     timeline: &Timeline,
     stage: &Stage,
     seeds: &[u32],
     surface: Option<u32>,
+    merged: &[Bodies],
     time: f64,
 ) -> Group {
     let mut gathering = Gathering { timeline, stage, time, ..Gathering::empty(timeline, stage) };
@@ -263,11 +265,29 @@ pub(super) fn gather(
     if let (Some(surface), [slot]) = (surface, seeds) {
         gathering.connect_surface(*slot, surface, true);
     }
+    for &bodies in merged {
+        gathering.connect_bodies(bodies);
+        for index in bodies.spheres() {
+            gathering.join(timeline.slot_of[index as usize]);
+        }
+    }
     while let Some(slot) = gathering.frontier.pop() {
         gathering.touch_spheres(slot);
         gathering.touch_surfaces(slot);
         gathering.join_cluster(slot);
     }
+    gathering.finish()
+}
+
+/// A cluster at `time` \[s\]: its spheres and their persistent contacts.
+pub(super) fn gather_cluster(
+    timeline: &Timeline,
+    stage: &Stage,
+    cluster: &Cluster,
+    time: f64,
+) -> Group {
+    let mut gathering = Gathering { time, ..Gathering::empty(timeline, stage) };
+    gathering.join_members(cluster);
     gathering.finish()
 }
 
@@ -389,17 +409,21 @@ impl<'a> Gathering<'a> {
     fn join_cluster(&mut self, slot: u32) {
         let timeline = self.timeline;
         let Some(number) = timeline.kind_of(slot).cluster else { return };
-        let cluster = timeline.clusters.get(number);
+        self.join_members(timeline.clusters.get(number));
+    }
+
+    fn join_members(&mut self, cluster: &Cluster) {
         cluster.members.iter().for_each(|&member| self.join(member));
-        let slot_of = |index: u32| timeline.slot_of[index as usize];
-        for &bodies in &cluster.contacts {
-            match bodies {
-                Bodies::Pair(first, second) => {
-                    self.connect_nearest(slot_of(first), slot_of(second));
-                }
-                Bodies::Surface { sphere, surface } => {
-                    self.connect_surface(slot_of(sphere), surface, false);
-                }
+        cluster.contacts.iter().for_each(|&bodies| self.connect_bodies(bodies));
+    }
+
+    /// Notes that two bodies touch, whatever the gap between them.
+    fn connect_bodies(&mut self, bodies: Bodies) {
+        let slot_of = |index: u32| self.timeline.slot_of[index as usize];
+        match bodies {
+            Bodies::Pair(first, second) => self.connect_nearest(slot_of(first), slot_of(second)),
+            Bodies::Surface { sphere, surface } => {
+                self.connect_surface(slot_of(sphere), surface, false);
             }
         }
     }

@@ -1,0 +1,60 @@
+//! Heaps of three to forty balls under the rule `exact` come to rest: every frame ends, no energy
+//! appears. The files are scenes that once stopped the clock.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use carom::StopRequest;
+use carom_scene::Scene;
+
+/// What a heap may take, on a machine that is busy and in a debug build.
+const PATIENCE: Duration = Duration::from_secs(600);
+
+/// Runs a heap for ten seconds; the root of the mean of its squared speeds at the end \[m/s\].
+fn speed_at_the_end(name: &str) -> f64 {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/heaps/{name}.toml"));
+    let mut world = Scene::from_file(&path, &[]).unwrap().world().unwrap();
+    let began = Instant::now();
+    world.set_stop_request(Some(StopRequest::new(move || began.elapsed() > PATIENCE)));
+    let mut energy = world.total_energy();
+    let mut largest = energy;
+    while world.time() < 10.0 {
+        world.step(1.0 / 60.0).unwrap();
+        let now = world.total_energy();
+        largest = largest.max(now);
+        assert!(now - energy < 1e-8 * largest, "{name} gains {:e} J", now - energy);
+        energy = now;
+    }
+    // On curves, paths are followed to some billionths of a radius.
+    assert!(world.overlaps(1e-6 * 0.5).is_empty(), "{name}");
+    let velocities = world.spheres().velocities();
+    let squares: f64 = velocities.iter().map(|velocity| velocity.length_squared()).sum();
+    (squares / velocities.len() as f64).sqrt()
+}
+
+#[test]
+fn three_to_five_balls_come_to_rest() {
+    for name in ["small-3balls-e0.8", "small-4balls-e0.0", "small-5balls-e0.5"] {
+        assert_eq!(speed_at_the_end(name), 0.0, "{name}");
+    }
+}
+
+#[test]
+fn twenty_balls_on_a_lattice_come_to_rest() {
+    for name in ["lattice-20-e0.0", "lattice-20-e0.5"] {
+        assert_eq!(speed_at_the_end(name), 0.0, "{name}");
+    }
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn heaps_of_twenty_and_forty_balls_come_to_rest() {
+    for name in ["random-20-e0.0", "lattice-20-e0.8", "lattice-40-e0.0"] {
+        assert_eq!(speed_at_the_end(name), 0.0, "{name}");
+    }
+    // Without friction, a ball that lies in a layer by itself goes on sliding between its neighbours,
+    // ever slower.
+    for name in ["random-20-e0.5", "random-20-e0.8"] {
+        assert!(speed_at_the_end(name) < 1e-2, "{name}");
+    }
+}

@@ -1,0 +1,66 @@
+//! How long a contact lasts: a setting, and what rounding can resolve.
+
+use glam::DVec3;
+
+use super::body::Kind;
+use super::touch::{CLOCK_ROUNDING, TOUCHING};
+use crate::norm::Norm;
+
+/// A persistent contact of spheres, or on a curve, is followed to this part of the radius: the error
+/// of the third order in the turn of its normal.
+const CURVE_RESOLUTION: f64 = 1e-9;
+/// Impacts between which the bodies move by more than this part of a radius count as separate, however
+/// short the time between them is.
+pub(super) const RESOLVED_PATH: f64 = 1e-6;
+
+/// What can be resolved of the motion of two bodies near contact.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct ContactScale {
+    /// Coordinates and radii that the gap is computed from \[m\].
+    pub length: f64,
+    /// Accelerations that may press the bodies together \[m/s²\].
+    pub acceleration: f64,
+    /// Radius of the smallest sphere \[m\].
+    pub radius: f64,
+    /// Whether the contact is part of a path along a curve, which has an error of its own.
+    pub is_curved: bool,
+}
+
+impl ContactScale {
+    /// The scale with one more sphere, at a place \[m\] with a velocity \[m/s\].
+    pub fn with(self, position: DVec3, velocity: DVec3, kind: &Kind) -> Self {
+        let free = kind.acceleration - kind.drag_rate * velocity;
+        let is_first = self.radius == 0.0;
+        Self {
+            length: self.length + position.norm() + kind.radius,
+            acceleration: self.acceleration + free.norm(),
+            radius: if is_first { kind.radius } else { self.radius.min(kind.radius) },
+            is_curved: self.is_curved || !is_first,
+        }
+    }
+
+    /// A gap \[m\] that cannot be told from none.
+    pub fn resolved_gap(&self) -> f64 {
+        let rounding = TOUCHING * self.length;
+        if self.is_curved { rounding.max(CURVE_RESOLUTION * self.radius) } else { rounding }
+    }
+
+    /// How long a contact lasts \[s\]: at least the setting, and the rounding of the clock at `time`
+    /// \[s\].
+    ///
+    /// A bounce of the duration t under the acceleration A is `A t²/8` high. One that is no higher
+    /// than the resolved gap cannot be told from a contact that persists: `t = √(8 gap/A)` is the
+    /// shortest bounce.
+    pub fn duration(&self, setting: f64, time: f64) -> f64 {
+        let least = setting.max(CLOCK_ROUNDING * time.abs());
+        if self.acceleration <= 0.0 {
+            return least;
+        }
+        least.max((8.0 * self.resolved_gap() / self.acceleration).sqrt())
+    }
+
+    /// The time \[s\] after which impacts of bodies with this relative speed \[m/s\] count as separate.
+    pub fn resolved_time(&self, speed: f64) -> f64 {
+        RESOLVED_PATH * self.radius / speed
+    }
+}

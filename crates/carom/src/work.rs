@@ -1,0 +1,117 @@
+//! The work of a step: counted, bounded, and stopped on request.
+
+use std::cell::Cell;
+use std::fmt::{self, Debug};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Units of work between two looks at a stop request: some milliseconds.
+const UNITS_PER_LOOK: u64 = 50_000;
+
+/// Asks a step to end before it is done: a signal was caught, a window is closing, time is up.
+///
+/// A step looks at it every few milliseconds, and ends with [`Error::Stopped`](crate::Error::Stopped)
+/// once it says yes. The world is then as it was before the step.
+///
+/// ```
+/// use std::sync::Arc;
+/// use std::sync::atomic::{AtomicBool, Ordering};
+///
+/// use carom::{Error, Settings, StopRequest, World};
+///
+/// let is_stopping = Arc::new(AtomicBool::new(false));
+/// let mut world = World::new(Settings::default())?;
+/// world.set_stop_request(Some(StopRequest::from(is_stopping.clone())));
+/// // As a signal handler or another thread would.
+/// is_stopping.store(true, Ordering::Relaxed);
+/// assert!(matches!(world.step(1.0), Err(Error::Stopped { .. })));
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone)]
+pub struct StopRequest(Arc<dyn Fn() -> bool + Send + Sync>);
+
+impl StopRequest {
+    /// A request that stands whenever `is_made` says so. It is called often, and should be quick.
+    pub fn new(is_made: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        Self(Arc::new(is_made))
+    }
+
+    /// Whether a step is to end.
+    pub fn is_made(&self) -> bool {
+        (self.0)()
+    }
+}
+
+impl From<Arc<AtomicBool>> for StopRequest {
+    /// A request that stands while the flag is set.
+    fn from(flag: Arc<AtomicBool>) -> Self {
+        Self::new(move || flag.load(Ordering::Relaxed))
+    }
+}
+
+impl Debug for StopRequest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("StopRequest")
+    }
+}
+
+/// The work done in a step so far. A unit is what one contact costs in one iteration of a solver, some
+/// tens of nanoseconds.
+#[derive(Debug, Default)]
+pub(crate) struct Work<'a> {
+    stop: Option<&'a StopRequest>,
+    /// Units done.
+    done: Cell<u64>,
+    /// Units up to which nothing has to be asked.
+    next_look: Cell<u64>,
+    /// Units after which it ends in any case.
+    limit: Cell<u64>,
+    is_stopped: Cell<bool>,
+}
+
+impl<'a> Work<'a> {
+    /// Work that a request may stop.
+    pub fn new(stop: Option<&'a StopRequest>) -> Self {
+        Self { stop, limit: Cell::new(u64::MAX), ..Self::default() }
+    }
+
+    /// Work that goes on to its end.
+    pub fn unlimited() -> Self {
+        Self::new(None)
+    }
+
+    /// Units done so far.
+    pub fn done(&self) -> u64 {
+        self.done.get()
+    }
+
+    /// Lets at most so many units be done from here on.
+    pub fn allow(&self, units: u64) {
+        self.limit.set(self.done.get().saturating_add(units));
+    }
+
+    /// Counts units of work. Tells whether to go on; if not, what is at work ends as soon as it can,
+    /// with any result.
+    #[inline]
+    pub fn spend(&self, units: u64) -> bool {
+        let done = self.done.get() + units;
+        self.done.set(done);
+        done < self.next_look.get() || self.look(done)
+    }
+
+    #[inline(never)]
+    fn look(&self, done: u64) -> bool {
+        let is_stopped = self.is_stopped.get() || self.stop.is_some_and(StopRequest::is_made);
+        self.is_stopped.set(is_stopped);
+        let is_over = is_stopped || done >= self.limit.get();
+        if !is_over {
+            self.next_look.set((done + UNITS_PER_LOOK).min(self.limit.get()));
+        }
+        !is_over
+    }
+
+    /// Whether a request has stopped the work.
+    pub fn is_stopped(&self) -> bool {
+        self.is_stopped.get()
+    }
+}
