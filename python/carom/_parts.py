@@ -274,9 +274,9 @@ class Exact(Part):
     """Parameters of the rule ``exact``.
 
     Attributes:
-        contact_duration: How long a contact lasts [s], > 0: bodies that would meet again sooner
+        contact_duration: How long a contact lasts at least [s], > 0: bodies that would meet sooner
             stay together.
-        max_impacts: Impacts per sphere in a frame, >= 1; more are refused.
+        max_impacts: Impacts and other work per sphere in a frame, >= 1; more is refused.
     """
 
     contact_duration: float | None = None

@@ -67,6 +67,38 @@ def test_a_run_is_stopped_by_ctrl_c() -> None:
     assert world.time > stopped
 
 
+def test_a_frame_of_minutes_is_stopped_by_ctrl_c() -> None:
+    world = gas()
+    before = world.state_hash
+    with pytest.raises(KeyboardInterrupt), ctrl_c(after=0.5):
+        world.step(1e6)
+    assert world.time == 0
+    assert world.state_hash == before
+    world.step()
+    assert world.time > 0
+
+
+def test_a_signal_handler_in_the_middle_of_a_step_is_not_kept_waiting() -> None:
+    world, other = gas(), gas()
+    seen: list[str] = []
+
+    def look(*_: object) -> None:
+        seen.append(f"{other.time}")
+        with pytest.raises(RuntimeError) as error:
+            seen.append(f"{world.time}")
+        seen.append(str(error.value))
+        raise InterruptedError
+
+    before = signal.signal(signal.SIGALRM, look)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with pytest.raises(InterruptedError):
+            world.step(1e6)
+    finally:
+        signal.signal(signal.SIGALRM, before)
+    assert seen == ["0.0", "this world is in the middle of a step"]
+
+
 def test_a_signal_handler_may_ask_the_world_how_far_it_is() -> None:
     world = gas()
     seen: list[float] = []

@@ -75,6 +75,7 @@ impl From<SessionError> for Failure {
             SessionError::Time { .. } | SessionError::TooFar { .. } => {
                 Self::Usage(error.to_string())
             }
+            SessionError::World(error) => error.into(),
             _ => Self::Fault(error.to_string()),
         }
     }
@@ -91,7 +92,10 @@ impl From<LinkError> for Failure {
 
 impl From<carom::Error> for Failure {
     fn from(error: carom::Error) -> Self {
-        Self::Fault(error.to_string())
+        match error {
+            carom::Error::Stopped { .. } => Self::Interrupted,
+            error => Self::Fault(error.to_string()),
+        }
     }
 }
 

@@ -1,12 +1,11 @@
-//! Ctrl-C.
+//! Ctrl-C and SIGTERM.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::failure::Failure;
 
-/// Becomes true when the user asks to stop: after the frame at work. Asked again, the program
-/// stops at once.
+/// Becomes true on Ctrl-C or SIGTERM. On a second one the program ends at once.
 pub fn interruption() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let handler_flag = Arc::clone(&flag);

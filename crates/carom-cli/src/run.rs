@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use carom::World;
+use carom::{StopRequest, World};
 use carom_scene::Library;
 use carom_scene::recording::{ImpactTable, LedgerTable, Trajectory};
 use carom_scene::scene::Rule;
@@ -25,6 +25,7 @@ pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
 
     let mut outputs = Outputs::create(args, replay.simulation().rule)?;
     let interrupted = interruption()?;
+    replay.set_stop_request(Some(StopRequest::from(interrupted.clone())));
     let mut observer = Observer::new(replay.world());
     let progress = Progress::new(frames);
     let mut result = Ok(());
@@ -38,6 +39,10 @@ pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
         if result.is_err() || interrupted.load(Ordering::Relaxed) {
             break;
         }
+    }
+    if matches!(result, Err(Failure::Interrupted)) {
+        // The frame at work was given up; what was before it counts.
+        result = Ok(());
     }
     drop(progress);
     // Whatever happened, what was written so far is made readable.

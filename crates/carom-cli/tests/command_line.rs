@@ -359,6 +359,76 @@ fn ctrl_c_ends_the_run_with_what_was_written_readable() {
     }
 }
 
+/// A pile whose one frame would take minutes.
+#[cfg(unix)]
+const PILE: &str = r#"
+name = "pile"
+[simulation]
+frame_time = 60.0
+duration = 600.0
+exact = { max_impacts = 4_000_000_000 }
+[[forces]]
+gravity = { acceleration = [0.0, -9.81, 0.0] }
+[[colliders]]
+shape = { sphere = { radius = 12.0 } }
+position = [3.0, -12.0, 3.0]
+restitution = 0.5
+[[generators]]
+[generators.random]
+count = 300
+min = [0.0, 1.0, 0.0]
+max = [6.0, 40.0, 6.0]
+seed = 7
+sphere = { radius = 0.5, mass = 1.0, restitution = 0.5 }
+"#;
+
+#[test]
+#[cfg(unix)]
+fn signals_end_a_frame_of_minutes_with_a_summary_and_readable_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("pile.toml");
+    let text = PILE.to_owned() + &walls();
+    std::fs::write(&scene, text).unwrap();
+    for signal in ["-INT", "-TERM"] {
+        let file = folder.path().join(format!("t{signal}.csv"));
+        let child = carom()
+            .arg("run")
+            .arg(&scene)
+            .arg("--out")
+            .arg(&file)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_secs(3));
+        let killed = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+        assert!(killed.success(), "the frame has ended before {signal}");
+        let began = std::time::Instant::now();
+        let output = child.wait_with_output().unwrap();
+        // A second is what a user may wait; a busy machine gets a little more.
+        assert!(began.elapsed().as_secs_f64() < 3.0, "{signal}: {:?}", began.elapsed());
+        assert_eq!(output.status.code(), Some(130));
+        let summary = stdout(&output);
+        assert!(summary.contains("state hash") && summary.contains("in 0 frames"), "{summary}");
+        assert!(std::fs::read_to_string(&file).unwrap().starts_with("t,ball,"));
+    }
+}
+
+/// Four walls about the pile.
+#[cfg(unix)]
+fn walls() -> String {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let sides = [(0.0, 0.0, [0.0, -half]), (6.0, 0.0, [0.0, half]), (0.0, 0.0, [half, 0.0])];
+    let sides = sides.into_iter().chain([(0.0, 6.0, [-half, 0.0])]);
+    let wall = |(x, z, [about_x, about_z]): (f64, f64, [f64; 2])| {
+        format!(
+            "[[colliders]]\nshape = \"half-space\"\nposition = [{x:?}, 0.0, {z:?}]\n\
+             rotation = [{about_x:?}, 0.0, {about_z:?}, {half:?}]\nrestitution = 0.5\n"
+        )
+    };
+    sides.map(wall).collect()
+}
+
 #[test]
 #[cfg(target_os = "linux")]
 fn an_error_stream_that_is_gone_is_no_panic() {

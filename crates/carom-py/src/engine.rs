@@ -17,6 +17,7 @@ use crate::arrays::{self, Arrays, Quantity};
 
 use crate::failure::Failure;
 use crate::snapshot::Snapshot;
+use crate::stop;
 use crate::tables::Table;
 
 /// What `carom.World` stands on: a world, and the arrays that Python sees of it.
@@ -74,6 +75,7 @@ impl Inner {
     /// Takes one frame.
     pub fn take_frame(&mut self, dt: f64) -> Result<(), carom::Error> {
         let start = self.world.time();
+        self.world.set_stop_request(Some(stop::on_signal()));
         self.world.step(dt)?;
         self.frame_start = start;
         Ok(())
@@ -86,8 +88,13 @@ impl Inner {
 }
 
 impl Engine {
-    /// Waits until no other thread is at work on this world.
+    /// Waits until no other thread is at work on this world. The handler of a signal that comes in the
+    /// middle of a step of this world would wait for itself.
     pub fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
+        if stop::is_in_handler() {
+            let at_work = |_| PyRuntimeError::new_err("this world is in the middle of a step");
+            return self.0.try_lock().map_err(at_work);
+        }
         let broken = |_| PyRuntimeError::new_err("the engine of this world has failed before");
         self.0.lock_py_attached(py).map_err(broken)
     }
@@ -128,6 +135,7 @@ impl Engine {
     ///     CaromError: If `dt` is not positive and finite, an emitter runs away, or a periodic box
     ///         is too small for the spheres.
     ///     StepError: If a number would overflow, or there are too many impacts.
+    ///     KeyboardInterrupt: On Ctrl-C, within half a second, however long the frame.
     #[pyo3(signature = (dt = None, *, frames = None), text_signature = "($self, dt=None, *, frames=1)")]
     fn step(
         &self,

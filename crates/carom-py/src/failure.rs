@@ -6,6 +6,8 @@ use carom_scene::part::PartError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
+use crate::stop;
+
 /// Why a call was refused: an exception of `carom.errors`, in the words of the engine.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failure {
@@ -28,6 +30,8 @@ enum Kind {
     Unknown,
     /// A step that cannot be taken.
     Step,
+    /// A step that a handler of a signal ended.
+    Stopped,
     /// Nothing can be drawn here.
     #[cfg(feature = "pictures")]
     Graphics,
@@ -39,7 +43,7 @@ impl Kind {
             Self::Value => "CaromError",
             Self::Scene => "SceneError",
             Self::Unknown => "UnknownError",
-            Self::Step => "StepError",
+            Self::Step | Self::Stopped => "StepError",
             #[cfg(feature = "pictures")]
             Self::Graphics => "GraphicsError",
         }
@@ -96,6 +100,7 @@ impl From<carom::Error> for Failure {
         let (kind, field) = match &error {
             carom::Error::Invalid { source, .. } => (Kind::Value, Some(source.field.to_owned())),
             carom::Error::Unknown(_) => (Kind::Unknown, None),
+            carom::Error::Stopped { .. } => (Kind::Stopped, None),
             _ => (Kind::Step, None),
         };
         Self { field, ..Self::new(kind, error) }
@@ -147,7 +152,10 @@ impl From<serde_json::Error> for Failure {
 
 impl From<Failure> for PyErr {
     fn from(failure: Failure) -> Self {
-        Python::attach(|py| exception(py, &failure).unwrap_or_else(|error| error))
+        let raised = if failure.kind == Kind::Stopped { stop::raised() } else { None };
+        raised.unwrap_or_else(|| {
+            Python::attach(|py| exception(py, &failure).unwrap_or_else(|error| error))
+        })
     }
 }
 

@@ -36,6 +36,7 @@ mod recording;
 mod running;
 mod scenes;
 mod snapshot;
+mod stop;
 mod tables;
 mod threads;
 

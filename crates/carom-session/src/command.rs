@@ -55,6 +55,12 @@ impl Command {
         }
     }
 
+    /// Whether a frame at work is given up for it.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn stops_frame(&self) -> bool {
+        matches!(self, Self::Pause | Self::StepBack) || self.goes_elsewhere()
+    }
+
     /// One command instead of this one and a `later` one right after it; `None` if it takes both.
     pub(crate) fn merged(&self, later: &Self) -> Option<Self> {
         match (self, later) {

@@ -1,6 +1,6 @@
 //! One scene under two rules, side by side.
 
-use carom::{Boundary, DVec3, SphereId, World};
+use carom::{Boundary, DVec3, SphereId, StopRequest, World};
 use carom_scene::SceneError;
 use carom_scene::scene::{Rule, Scene};
 
@@ -97,6 +97,12 @@ impl Comparison {
     pub fn set_memory(&mut self, bytes: usize) {
         self.first.set_memory(bytes / 2);
         self.second.set_memory(bytes / 2);
+    }
+
+    /// Has steps of both end early once a request is made; see [`World::set_stop_request`].
+    pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
+        self.first.set_stop_request(request.clone());
+        self.second.set_stop_request(request);
     }
 
     /// How far apart they are now.

@@ -3,6 +3,13 @@
 use carom_scene::SceneError;
 use thiserror::Error;
 
+impl SessionError {
+    /// Whether a request ended the step, which is no fault.
+    pub fn is_stop(&self) -> bool {
+        matches!(self, Self::World(carom::Error::Stopped { .. }))
+    }
+}
+
 /// Why something could not be done. The session is as it was before, unless said otherwise.
 #[derive(Debug, Error)]
 #[non_exhaustive]

@@ -52,7 +52,7 @@ mod worker;
 
 use std::sync::Arc;
 
-use carom::{DVec3, SphereId, StateHash, World};
+use carom::{DVec3, SphereId, StateHash, StopRequest, World};
 use carom_scene::SceneError;
 use carom_scene::scene::Scene;
 
@@ -311,6 +311,11 @@ impl Session {
     /// What was changed from outside, ascending by frame, the future included.
     pub fn changes(&self) -> &Arc<Vec<PastChange>> {
         self.history.changes()
+    }
+
+    /// Has steps end early once a request is made; see [`World::set_stop_request`].
+    pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
+        self.world.set_stop_request(request);
     }
 
     /// The world at present.

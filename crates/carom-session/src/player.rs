@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use carom::StopRequest;
+
 use crate::Session;
 use crate::command::Command;
 use crate::comparison::Comparison;
@@ -18,6 +20,8 @@ pub(crate) struct Player {
     pace: Pace,
     pub queue: Queue,
     shows_state_hash: bool,
+    /// Ends a frame at work early.
+    stop_request: Option<StopRequest>,
     error: Option<Arc<SessionError>>,
     /// Whether anything changed since [`Self::fill`].
     has_news: bool,
@@ -25,8 +29,22 @@ pub(crate) struct Player {
 
 impl Player {
     pub fn new(watched: Watched) -> Self {
-        let (pace, queue) = (Pace::new(), Queue::default());
-        Self { watched, pace, queue, shows_state_hash: false, error: None, has_news: true }
+        Self {
+            watched,
+            pace: Pace::new(),
+            queue: Queue::default(),
+            shows_state_hash: false,
+            stop_request: None,
+            error: None,
+            has_news: true,
+        }
+    }
+
+    /// Has frames that come by themselves end early once a request is made. Those that a command takes
+    /// are taken whole, for commands are obeyed in the order in which they are sent.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn set_stop_request(&mut self, request: StopRequest) {
+        self.stop_request = Some(request);
     }
 
     /// Obeys what waits and takes the frames that are due now that `wall_seconds` have gone by, at
@@ -130,8 +148,11 @@ impl Player {
         }
     }
 
+    /// Pauses if something went wrong. A frame that was stopped waits for the command that stopped it.
     fn stop_on_error(&mut self, result: Result<(), SessionError>) {
-        if let Err(error) = result {
+        if let Err(error) = result
+            && !error.is_stop()
+        {
             self.pace.set_playing(false);
             self.error = Some(Arc::new(error));
         }
@@ -139,6 +160,7 @@ impl Player {
 
     fn take_due_frames(&mut self, wall_seconds: f64, time_is_up: &mut dyn FnMut() -> bool) {
         let due = self.pace.frames_due(wall_seconds, self.watched.session().frame_time());
+        self.watched.set_stop_request(self.stop_request.clone());
         for taken in 1..=due {
             self.has_news = true;
             if let Err(error) = self.watched.step() {
@@ -151,6 +173,7 @@ impl Player {
                 break;
             }
         }
+        self.watched.set_stop_request(None);
     }
 
     /// Whether anything changed since [`Self::fill`].

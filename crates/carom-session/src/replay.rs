@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom::World;
+use carom::{StopRequest, World};
 use carom_scene::SceneError;
 use carom_scene::scene::{Scene, Simulation};
 
@@ -74,6 +74,11 @@ impl Replay {
         self.world.step(self.setup.simulation.frame_time)?;
         self.frame += 1;
         self.make_changes()
+    }
+
+    /// Has steps end early once a request is made; see [`World::set_stop_request`].
+    pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
+        self.world.set_stop_request(request);
     }
 
     /// The world at present.

@@ -1,6 +1,6 @@
 //! What a driver drives: one session, or two side by side.
 
-use carom::{SphereId, StateHash};
+use carom::{SphereId, StateHash, StopRequest};
 
 use crate::Session;
 use crate::comparison::Comparison;
@@ -35,6 +35,14 @@ impl Watched {
         match self {
             Self::One(session) => session,
             Self::Two(comparison) => comparison.first(),
+        }
+    }
+
+    /// See [`Session::set_stop_request`].
+    pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
+        match self {
+            Self::One(session) => session.set_stop_request(request),
+            Self::Two(comparison) => comparison.set_stop_request(request),
         }
     }
 

@@ -1,8 +1,11 @@
 //! A thread that moves a session by its own clock.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+
+use carom::StopRequest;
 
 use crate::command::Command;
 use crate::error::SessionError;
@@ -32,6 +35,8 @@ pub(crate) struct Worker {
 /// What both threads see.
 #[derive(Debug, Default)]
 struct Shared {
+    /// Set while something waits that a frame at work must not hold up.
+    stops_frame: Arc<AtomicBool>,
     inbox: Mutex<Inbox>,
     has_mail: Condvar,
     outbox: Mutex<Outbox>,
@@ -52,9 +57,10 @@ struct Outbox {
 
 impl Worker {
     /// Starts the thread.
-    pub fn start(player: Player, on_news: Box<dyn Fn() + Send>) -> Result<Self, SessionError> {
+    pub fn start(mut player: Player, on_news: Box<dyn Fn() + Send>) -> Result<Self, SessionError> {
         let shared = Arc::new(Shared::default());
         let theirs = shared.clone();
+        player.set_stop_request(StopRequest::from(shared.stops_frame.clone()));
         let builder = thread::Builder::new().name("carom session".to_owned());
         let thread = builder.spawn(move || work(player, &theirs, &on_news))?;
         Ok(Self { shared, thread, view_made: Instant::now() })
@@ -65,7 +71,13 @@ impl Worker {
         if self.thread.is_finished() {
             return Err(SessionError::Ended);
         }
-        lock(&self.shared.inbox).queue.push(command)?;
+        let stops_frame = command.stops_frame();
+        let mut inbox = lock(&self.shared.inbox);
+        inbox.queue.push(command)?;
+        if stops_frame {
+            self.shared.stops_frame.store(true, Ordering::Relaxed);
+        }
+        drop(inbox);
         self.shared.has_mail.notify_one();
         Ok(())
     }
@@ -92,6 +104,7 @@ impl Worker {
 impl Drop for Worker {
     fn drop(&mut self) {
         lock(&self.shared.inbox).is_closed = true;
+        self.shared.stops_frame.store(true, Ordering::Relaxed);
         self.shared.has_mail.notify_one();
     }
 }
@@ -123,6 +136,7 @@ impl Shared {
             if inbox.is_closed {
                 return false;
             }
+            self.stops_frame.store(false, Ordering::Relaxed);
             let has_mail = !inbox.queue.is_empty();
             player.queue.take_from(&mut inbox.queue);
             let Some(time) = time_to_work(player, published) else {

@@ -1,5 +1,6 @@
 //! What can be filmed.
 
+use carom::StopRequest;
 use carom_render::{Bounds, Drawing};
 use carom_scene::Scene;
 
@@ -12,6 +13,10 @@ pub trait Footage: Send {
 
     /// The scene that says where from and in which light it is seen.
     fn scene(&self) -> &Scene;
+
+    /// Has frames of the physics end early once a request is made; footage without any has nothing to
+    /// stop.
+    fn set_stop_request(&mut self, _request: StopRequest) {}
 
     /// Draws what is to be seen at a time \[s\] that is not before the last one.
     ///

@@ -1,6 +1,6 @@
 //! A world on its way: stepped by frames, seen at any time.
 
-use carom::{Boundary, DVec3, Pose, SphereId, World};
+use carom::{Boundary, DVec3, Pose, SphereId, StopRequest, World};
 use carom_scene::{Scene, SceneError};
 
 /// A frame counts as that of a time if it is no farther away than this \[s\]: sums of frame times
@@ -51,6 +51,11 @@ impl Running {
     /// The world in the frame of the time that was asked for last, or the first one after it.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// Has frames end early once a request is made.
+    pub fn set_stop_request(&mut self, request: StopRequest) {
+        self.world.set_stop_request(Some(request));
     }
 
     /// Takes one frame.

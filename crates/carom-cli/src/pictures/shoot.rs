@@ -2,9 +2,11 @@
 
 use std::io::{self, Write};
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use carom::StopRequest;
 use carom_render::FilmSummary;
 
 use super::film::{Filming, Order};
@@ -21,9 +23,10 @@ pub fn shoot(
     order: Order,
     (mut footage, seconds): (Box<dyn Footage>, f64),
     studio: &mut Studio,
-    interrupted: &AtomicBool,
+    interrupted: &Arc<AtomicBool>,
 ) -> Result<(), Failure> {
     let began = Instant::now();
+    footage.set_stop_request(StopRequest::from(Arc::clone(interrupted)));
     let path = order.path;
     // A film of nothing is none: the first frame is in it.
     let frames = whole_frames(seconds, 1.0 / f64::from(order.fps))?.max(1);

@@ -1,5 +1,6 @@
 //! A scene being stepped, as footage.
 
+use carom::StopRequest;
 use carom_render::Drawing;
 use carom_scene::{Palette, Scene, SceneError};
 
@@ -37,6 +38,10 @@ impl Stepped {
 }
 
 impl Footage for Stepped {
+    fn set_stop_request(&mut self, request: StopRequest) {
+        self.running.set_stop_request(request);
+    }
+
     fn title(&self) -> &str {
         title(&self.scene)
     }
