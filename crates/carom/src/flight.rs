@@ -42,9 +42,9 @@ impl Flight {
     #[inline]
     pub fn after(&self, t: f64) -> (DVec3, DVec3) {
         if self.drag_rate * t == 0.0 {
-            let [position, velocity, acceleration] =
-                [self.position, self.velocity, self.acceleration].map(Vector::from);
-            let (position, velocity) = without_drag(t, position, velocity, acceleration);
+            let Self { position, velocity, acceleration, .. } = *self;
+            let (position, velocity) =
+                without_drag(t, position.into(), velocity.into(), acceleration.into());
             return (position.into(), velocity.into());
         }
         let Propagator { decay, drift, fall } = Propagator::over(t, self.drag_rate);

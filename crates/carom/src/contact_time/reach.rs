@@ -52,6 +52,16 @@ impl Reach {
         }
     }
 
+    /// Whether the sphere certainly does not meet another one within their horizons, shifted by this
+    /// \[m\].
+    #[inline]
+    pub fn misses_sphere(&self, other: &Self, shift: DVec3) -> bool {
+        let offset = other.flight.position + shift - self.flight.position;
+        let size = self.radius + other.radius;
+        let margin = MARGIN * (offset.abs().element_sum() + size);
+        offset.norm() > size + self.way + other.way + margin
+    }
+
     /// A rectangle meets only centres in front of its plane.
     #[inline]
     fn misses_rectangle(&self, position: DVec3, rectangle: &Rectangle) -> bool {

@@ -68,7 +68,7 @@ fn outlook_after(
 ) -> Outlook {
     let body = &timeline.bodies[slot as usize];
     let kind = &timeline.kinds[body.kind as usize];
-    let (neighbours, horizon) = (&timeline.neighbours, timeline.horizon());
+    let (neighbours, horizon) = (&timeline.neighbours, timeline.flight_end(kind));
     let stays = horizon < f64::INFINITY && neighbours.stays(slot, body, kind, horizon);
     if !(system.surfaces.is_empty() || (stays && timeline.has_room(slot))) {
         meet_surfaces(timeline, system, slot, body, kind, &mut ahead);
@@ -149,9 +149,9 @@ fn meet_surfaces(
     kind: &Kind,
     ahead: &mut Ahead,
 ) {
-    let horizon = timeline.horizon();
-    let is_limited = horizon < f64::INFINITY;
-    let reach = is_limited.then(|| Reach::of(body.flight(kind), kind.radius, horizon - body.time));
+    let (horizon, flight_end) = (timeline.horizon(), timeline.flight_end(kind));
+    let reach = (flight_end < f64::INFINITY)
+        .then(|| Reach::of(body.flight(kind), kind.radius, flight_end - body.time));
     for (number, shift) in timeline.surfaces_near(slot) {
         let surface = &system.surfaces[number as usize];
         let is_at_rest = surface.motion.is_at_rest();

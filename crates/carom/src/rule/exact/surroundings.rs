@@ -9,7 +9,7 @@ use super::outlook::Ahead;
 use super::sight::Look;
 use super::timeline::Timeline;
 use super::vicinity::Vicinity;
-use crate::contact_time;
+use crate::contact_time::{self, Reach};
 use crate::detect::contact::Bodies;
 
 /// Who is near a sphere, and whom of them it may meet.
@@ -132,6 +132,17 @@ fn meeting_of_others(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f6
         return f64::INFINITY;
     }
     let shift = timeline.neighbours.shift_of(slot, neighbour);
+    let [end, other_end] = kinds.map(|kind| timeline.flight_end(kind));
+    let end = end.min(other_end);
+    if end < f64::INFINITY {
+        let reach = |one: usize| {
+            let (body, kind) = (bodies[one], kinds[one]);
+            Reach::of(body.flight(kind), kind.radius, end - body.time)
+        };
+        if reach(0).misses_sphere(&reach(1), shift) {
+            return f64::INFINITY;
+        }
+    }
     if index < other_index {
         meeting(bodies, kinds, shift)
     } else {

@@ -527,6 +527,14 @@ impl Timeline {
         if self.holds_forces { self.frame[1] } else { f64::INFINITY }
     }
 
+    /// Until when a sphere of this kind stays on its flight at most, on the world's clock \[s\]: until
+    /// the forces of its persistent contacts are found anew, or all flights begin anew.
+    #[inline]
+    pub(super) fn flight_end(&self, kind: &Kind) -> f64 {
+        let renewal = kind.cluster.map(|number| self.clusters.get(number).renewal);
+        renewal.map_or(self.horizon(), |renewal| renewal.min(self.horizon()))
+    }
+
     /// Puts the sphere at an index of the world's arrays elsewhere at `time` \[s\]. What was predicted
     /// is not predicted anew.
     pub fn place(&mut self, index: usize, position: DVec3, velocity: DVec3, time: f64) {

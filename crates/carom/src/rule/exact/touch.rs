@@ -329,6 +329,11 @@ impl<'a> Gathering<'a> {
         self.frontier.push(slot);
     }
 
+    /// Whether the box is periodic along an axis.
+    fn has_images(&self) -> bool {
+        self.stage.period != DVec3::INFINITY
+    }
+
     /// Notes that two spheres touch, with the shift from where the second one counts to where the
     /// first does.
     fn connect(&mut self, slots: [u32; 2], shift: DVec3) {
@@ -341,15 +346,24 @@ impl<'a> Gathering<'a> {
     /// Two spheres touch, whatever rounding says: those that were predicted to meet now, or stay in
     /// contact. In a periodic box, the nearest images do.
     fn connect_nearest(&mut self, first: u32, second: u32) {
-        let place = |slot| self.timeline.state_of(slot, self.time).0;
-        let offset = place(second) - place(first);
-        let shift = periodic::folded(offset, self.stage.period) - offset;
+        let shift = if self.has_images() {
+            let place = |slot| self.timeline.state_of(slot, self.time).0;
+            let offset = place(second) - place(first);
+            periodic::folded(offset, self.stage.period) - offset
+        } else {
+            DVec3::ZERO
+        };
         self.connect([first, second], shift);
     }
 
     /// Likewise for a sphere and a surface.
     fn connect_surface(&mut self, slot: u32, surface: u32, is_given: bool) {
         let sphere = self.timeline.index_of[slot as usize];
+        let bodies = Bodies::Surface { sphere, surface };
+        if !self.has_images() {
+            self.touches.entry(bodies).or_insert(Found { shift: DVec3::ZERO, is_given });
+            return;
+        }
         let place = self.timeline.state_of(slot, self.time).0;
         let distance = |shift: DVec3| {
             let (form, _) = self.stage.surface_at(surface, self.time);
@@ -359,7 +373,6 @@ impl<'a> Gathering<'a> {
         let images = self.timeline.surfaces_near(slot).filter(|near| near.0 == surface);
         let nearest = images.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
         if let Some((_, shift)) = nearest {
-            let bodies = Bodies::Surface { sphere, surface };
             self.touches.entry(bodies).or_insert(Found { shift: -shift, is_given });
         }
     }
