@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use super::contact_duration::ContactScale;
 use super::corner::{Corner, MOST_PLANES, Plane};
 use super::group::Member;
 use super::impact::NEARBY;
@@ -157,7 +158,8 @@ fn bounces_off(
     let approach_speed = -velocity.dot(round.normal);
     let restitution = restitution_of(timeline, stage, slot, round.surfaces[0], time);
     let pull = support::free_acceleration(member).norm() + velocity.length_squared() / kind.radius;
-    let duration = stage.duration_of(&member.scale(true), time);
+    let scale = ContactScale { is_elastic: restitution == 1.0, ..member.scale(true) };
+    let duration = stage.duration_of(&scale, time);
     approach_speed > respond::rounding_of(velocity)
         && !support::is_back_within(duration, restitution * approach_speed, pull)
 }

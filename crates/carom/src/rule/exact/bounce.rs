@@ -42,23 +42,27 @@ pub(super) fn answer(
         timeline.bodies[slot as usize].strike();
     }
     let sphere = timeline.index_of[slot as usize];
-    let mut is_answered = surface.is_none_or(|surface| touched.is_struck(&struck, surface));
     if let Some(Carried { acceleration, hold, lasts, .. }) = carried {
         let lasting = corner.planes().zip(lasts).filter(|it| it.1).map(|it| it.0.surface);
         let contacts = lasting.map(|surface| Bodies::Surface { sphere, surface }).collect();
         let support =
             Support { members: vec![(slot, acceleration)], contacts, renewal: time + hold };
         timeline.set_supported(support);
-        is_answered |= surface.is_some_and(|surface| timeline.is_held_by(slot, surface));
     }
     predict::predict(timeline, stage, slot, time);
-    if let Some(surface) = surface
-        && !is_answered
-    {
-        let bodies = Bodies::Surface { sphere, surface };
-        let until = time + contact_duration;
-        predict::pass_over(timeline, slot, &[Unresolved { bodies, until }]);
-    }
+    let is_answered = |timeline: &Timeline, surface: u32| {
+        touched.is_struck(&struck, surface) || timeline.is_held_by(slot, surface)
+    };
+    let Some(met) = surface.filter(|&surface| !is_answered(timeline, surface)) else { return };
+    // Others may be closed by rounding, too: passed over one at a time, they would take turns.
+    let contacts = touched.contacts(member.position).into_iter().flatten();
+    let others = contacts.map(|contact| contact.surface).filter(|&it| !is_answered(timeline, it));
+    let unresolved: Vec<Unresolved> = others
+        .chain([met])
+        .map(|surface| Bodies::Surface { sphere, surface })
+        .map(|bodies| Unresolved { bodies, until: time + contact_duration })
+        .collect();
+    predict::pass_over(timeline, slot, &unresolved);
 }
 
 /// Gives a sphere the impulses of the surfaces that it closes on, by Newton's law, which is what all

@@ -9,6 +9,9 @@ use crate::norm::Norm;
 /// A persistent contact of spheres, or on a curve, is followed to this part of the radius: the error
 /// of the third order in the turn of its normal.
 const CURVE_RESOLUTION: f64 = 1e-9;
+/// Part of a radius by which a piece of path along a curve may miss its contacts at its end, before that
+/// is corrected. A bounce that is lower cannot be told from it.
+pub(super) const MOST_MISSED: f64 = 1e-7;
 /// Impacts between which the bodies move by more than this part of a radius count as separate, however
 /// short the time between them is.
 pub(super) const RESOLVED_PATH: f64 = 1e-6;
@@ -24,6 +27,8 @@ pub(super) struct ContactScale {
     pub radius: f64,
     /// Whether the contact is part of a path along a curve, which has an error of its own.
     pub is_curved: bool,
+    /// Whether an impact gives back all: its bounces never end, however low they are.
+    pub is_elastic: bool,
 }
 
 impl ContactScale {
@@ -36,6 +41,7 @@ impl ContactScale {
             acceleration: self.acceleration + free.norm(),
             radius: if is_first { kind.radius } else { self.radius.min(kind.radius) },
             is_curved: self.is_curved || !is_first,
+            is_elastic: self.is_elastic,
         }
     }
 
@@ -48,15 +54,21 @@ impl ContactScale {
     /// How long a contact lasts \[s\]: at least the setting, and the rounding of the clock at `time`
     /// \[s\].
     ///
-    /// A bounce of the duration t under the acceleration A is `A t²/8` high. One that is no higher
-    /// than the resolved gap cannot be told from a contact that persists: `t = √(8 gap/A)` is the
-    /// shortest bounce.
+    /// A bounce of the duration t under the acceleration A is `A t²/8` high: `t = √(8 h/A)` is the
+    /// shortest one, where h is the lowest bounce that can be told from a contact that persists.
     pub fn duration(&self, setting: f64, time: f64) -> f64 {
         let least = setting.max(CLOCK_ROUNDING * time.abs());
         if self.acceleration <= 0.0 {
             return least;
         }
-        least.max((8.0 * self.resolved_gap() / self.acceleration).sqrt())
+        least.max((8.0 * self.lowest_bounce() / self.acceleration).sqrt())
+    }
+
+    /// Height \[m\] of the lowest bounce that can be told from a contact that persists.
+    fn lowest_bounce(&self) -> f64 {
+        let gap = self.resolved_gap();
+        let is_missed = self.is_curved && !self.is_elastic;
+        if is_missed { gap.max(MOST_MISSED * self.radius) } else { gap }
     }
 
     /// The time \[s\] after which impacts of bodies with this relative speed \[m/s\] count as separate.

@@ -47,6 +47,8 @@ pub(super) fn settle(timeline: &Timeline, stage: &Stage, group: &mut Group) {
             cluster.is_curved |= touch.bends();
             if touch.first.is_none() {
                 cluster.hold_along(touch.normal);
+                // On the piece of path its normal was in the plane of the sliding.
+                cluster.hold_along(touch.sliding(members));
             }
             cluster.gets_work |=
                 touch.surface_velocity != DVec3::ZERO || touch.surface_spin != DVec3::ZERO;
@@ -94,9 +96,9 @@ struct Cluster {
 }
 
 impl Cluster {
-    /// Notes that a surface holds it along a unit normal.
-    fn hold_along(&mut self, normal: DVec3) {
-        let rest = across(&self.held, normal);
+    /// Notes that a surface holds it along a direction; none is zero.
+    fn hold_along(&mut self, direction: DVec3) {
+        let rest = across(&self.held, direction.normalize_or_zero());
         if rest.norm() > SAME_DIRECTION {
             self.held.push(rest / rest.norm());
         }

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::axis_motion::AxisMotion;
-use super::contact_duration::ContactScale;
+use super::contact_duration::{ContactScale, MOST_MISSED};
 use super::group::{Group, Member};
 use super::stage::Stage;
 use super::touch::{TOUCHING, Touch, beyond};
 use crate::detect::contact::Bodies;
 use crate::flight::Propagator;
 use crate::norm::Norm;
-use crate::respond::contact_forces_within;
+use crate::respond::{contact_forces_within, restitution_of};
 use crate::sum::Sum;
 use crate::surface::{Form, Rectangle};
 use crate::work::Work;
@@ -34,8 +34,6 @@ const SAME_NORMAL: f64 = 1e-8;
 /// Part of a radius by which a piece of path may close the gap of a persistent contact: more than what
 /// rounding opens.
 const MOST_CLOSED: f64 = 1e-10;
-/// Part of a radius by which a piece of path may miss a contact at its end before that is corrected.
-const MOST_OFF: f64 = 1e-7;
 /// A force that is found from the gap at the end of a turn differs from that of the middle by no more
 /// than this part of the accelerations at work.
 const MOST_CORRECTED: f64 = 1e-2;
@@ -101,7 +99,8 @@ fn slow(stage: &Stage, group: &Group) -> Vec<Touch> {
         let free = touch.first.map_or(DVec3::ZERO, |first| free_acceleration(&members[first]));
         let free = free.norm() + free_acceleration(&members[touch.second]).norm();
         let acceleration = free + bias(touch, members).abs();
-        let scale = ContactScale { acceleration, ..group.scale(touch) };
+        let is_elastic = restitution_of(touch.bodies, stage.system) == 1.0;
+        let scale = ContactScale { acceleration, is_elastic, ..group.scale(touch) };
         let duration = stage.duration_of(&scale, group.time);
         is_back_within(duration, touch.normal_velocity(members), acceleration)
     };
@@ -334,7 +333,7 @@ fn ending_in_contact(
         let ContactScale { radius, length, .. } = group.scale(touch);
         let closed = (0.5 * touch.gap).clamp(0.0, MOST_CLOSED * radius);
         let excess = after.gap - (touch.gap - closed);
-        is_followed &= excess.abs() <= MOST_OFF * radius;
+        is_followed &= excess.abs() <= MOST_MISSED * radius;
         Some((after, if excess.abs() > TOUCHING * length { excess } else { 0.0 }))
     };
     let (touches, excess): (Vec<Touch>, Vec<f64>) = touches.iter().filter_map(&mut at_end).unzip();

@@ -90,6 +90,13 @@ impl Touch {
         self.relative_velocity(members).dot(self.normal)
     }
 
+    /// Velocity of sliding along which its normal turns \[m/s\]: zero on a plane.
+    pub fn sliding(&self, members: &[Member]) -> DVec3 {
+        let velocity = self.relative_velocity(members);
+        let tangential = velocity - velocity.dot(self.normal) * self.normal;
+        self.bend.turning(tangential).map_or(DVec3::ZERO, |(velocity, _)| velocity)
+    }
+
     /// Whether its normal turns, because bodies slide along each other or the surface turns.
     pub fn bends(&self) -> bool {
         self.bend != Bend::Flat || self.surface_spin != DVec3::ZERO
