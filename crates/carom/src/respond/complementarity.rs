@@ -99,8 +99,9 @@ struct Descent {
 /// iteration, which keeps them right even where large impulses on a light body nearly cancel.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Solver {
-    /// Power of two near `1/√A_ii`, which evens out masses without rounding anything.
+    /// Power of two near `1/√A_ii`, which evens out masses without rounding anything; and its inverse.
     scales: Vec<f64>,
+    inverse_scales: Vec<f64>,
     /// Scaled impulses and rates, one per contact.
     x: Vec<f64>,
     gradient: Vec<f64>,
@@ -110,7 +111,9 @@ pub(super) struct Solver {
     moved: Vec<DVec3>,
     /// Direction times image.
     curvature: f64,
-    steps: Vec<[Steps; 3]>,
+    steps: Vec<Steps<DVec3>>,
+    /// Terms of a sum, one per contact.
+    terms: Vec<f64>,
     /// Number of contacts of each body, and the largest of their scales.
     crowds: Vec<(f64, f64)>,
     /// Length of a step along the gradient that never overshoots.
@@ -226,6 +229,8 @@ impl Solver {
             let diagonal = inverse_mass(link.second) + link.first.map_or(0.0, inverse_mass);
             order_free::power_of_two(-(order_free::exponent_of(diagonal) >> 1))
         }));
+        self.inverse_scales.clear();
+        self.inverse_scales.extend(self.scales.iter().map(|scale| 1.0 / scale));
         for array in [&mut self.x, &mut self.gradient, &mut self.direction, &mut self.image] {
             array.clear();
             array.resize(links, 0.0);
@@ -272,43 +277,34 @@ impl Solver {
 
     /// By how much rates miss the conditions, at worst.
     fn violation(&self) -> f64 {
-        let missed = |(i, g): (usize, &f64)| {
-            let missed = if self.x[i] > 0.0 { g.abs() } else { (-g).max(0.0) };
-            missed / self.scales[i]
-        };
-        self.gradient.iter().enumerate().map(missed).fold(0.0, f64::max)
-    }
-
-    /// Rate of a contact that has an impulse, else zero.
-    fn free(&self, i: usize) -> f64 {
-        if self.x[i] > 0.0 { self.gradient[i] } else { 0.0 }
-    }
-
-    /// Rate of a contact that closes and has no impulse, else zero.
-    fn closing(&self, i: usize) -> f64 {
-        if self.x[i] > 0.0 { 0.0 } else { self.gradient[i].min(0.0) }
+        let missed = |(x, g): (&f64, &f64)| if *x > 0.0 { g.abs() } else { -g };
+        let missed = self.x.iter().zip(&self.gradient).map(missed);
+        largest(missed.zip(&self.inverse_scales).map(|(missed, inverse)| missed * inverse))
     }
 
     /// By how much rates of contacts with impulses differ from zero, at worst.
     fn violation_on_face(&self) -> f64 {
-        let missed = |i: usize| self.free(i).abs() / self.scales[i];
-        (0..self.x.len()).map(missed).fold(0.0, f64::max)
+        let missed = self.x.iter().zip(&self.gradient).map(|(x, g)| free(*x, *g).abs());
+        largest(missed.zip(&self.inverse_scales).map(|(missed, inverse)| missed * inverse))
     }
 
     /// Whether more is to be gained among contacts with impulses than by taking up others.
-    fn is_proportional(&self) -> bool {
-        let count = self.x.len();
-        let free = order_free::sum((0..count).map(|i| {
-            let reduced = self.free(i).min(self.x[i] / self.step_length);
-            reduced * self.free(i)
-        }));
-        let closing = order_free::sum((0..count).map(|i| self.closing(i) * self.closing(i)));
-        closing <= free
+    fn is_proportional(&mut self) -> bool {
+        let Self { x, gradient, terms, step_length, .. } = self;
+        let reduced = |(x, g): (&f64, &f64)| {
+            let (free, most) = (free(*x, *g), *x / *step_length);
+            if free < most { free * free } else { most * free }
+        };
+        let closing = |(x, g): (&f64, &f64)| closing(*x, *g) * closing(*x, *g);
+        let pairs = || x.iter().zip(&*gradient);
+        let gained_on_face = sum_of(terms, pairs().map(reduced));
+        sum_of(terms, pairs().map(closing)) <= gained_on_face
     }
 
     fn direction_of_closing(&mut self) {
-        for i in 0..self.x.len() {
-            self.direction[i] = self.closing(i);
+        let Self { x, gradient, direction, .. } = self;
+        for ((direction, x), g) in direction.iter_mut().zip(x).zip(gradient) {
+            *direction = closing(*x, *g);
         }
     }
 
@@ -319,8 +315,9 @@ impl Solver {
     }
 
     fn direction_of_free(&mut self) {
-        for i in 0..self.x.len() {
-            self.direction[i] = self.free(i);
+        let Self { x, gradient, direction, .. } = self;
+        for ((direction, x), g) in direction.iter_mut().zip(x).zip(gradient) {
+            *direction = free(*x, *g);
         }
     }
 
@@ -342,17 +339,18 @@ impl Solver {
 
     /// Length of the step along the direction to the minimum; none if it moves nothing.
     fn best_length(&mut self) -> Option<f64> {
-        let dot = |a: &[f64], b: &[f64]| order_free::sum(a.iter().zip(b).map(|(a, b)| a * b));
-        self.curvature = dot(&self.direction, &self.image);
-        let standstill = STANDSTILL * dot(&self.direction, &self.direction);
-        (self.curvature > standstill).then(|| dot(&self.gradient, &self.direction) / self.curvature)
+        let Self { direction, image, gradient, terms, curvature, .. } = self;
+        let mut dot = |a: &[f64], b: &[f64]| sum_of(terms, a.iter().zip(b).map(|(a, b)| a * b));
+        *curvature = dot(direction, image);
+        let standstill = STANDSTILL * dot(direction, direction);
+        (*curvature > standstill).then(|| dot(gradient, direction) / *curvature)
     }
 
     /// The longest step along the direction that leaves no impulse below zero.
     fn reach(&self) -> f64 {
         let pairs = self.x.iter().zip(&self.direction);
         let lengths = pairs.map(|(x, p)| if *p > 0.0 { x / p } else { f64::INFINITY });
-        lengths.fold(f64::INFINITY, f64::min)
+        lengths.fold(f64::INFINITY, |least, length| if length < least { length } else { least })
     }
 
     fn advance(&mut self, length: f64, velocities: &mut [DVec3]) {
@@ -370,7 +368,7 @@ impl Solver {
     fn project(&mut self, problem: &Problem, velocities: &mut [DVec3]) {
         for i in 0..self.x.len() {
             // Not the difference of the rounded impulses: large ones would drown small changes.
-            let change = (self.step_length * self.free(i)).min(self.x[i]);
+            let change = (self.step_length * free(self.x[i], self.gradient[i])).min(self.x[i]);
             self.direction[i] = change;
             self.x[i] -= change;
         }
@@ -382,13 +380,36 @@ impl Solver {
 
     /// The next direction: the free gradient, made conjugate to the last direction.
     fn make_conjugate(&mut self) {
-        let count = self.x.len();
-        let overlap = order_free::sum((0..count).map(|i| self.free(i) * self.image[i]));
-        let part = overlap / self.curvature;
-        for i in 0..count {
-            self.direction[i] = self.free(i) - part * self.direction[i];
+        let Self { x, gradient, direction, image, terms, curvature, .. } = self;
+        let rates = || x.iter().zip(&*gradient).map(|(x, g)| free(*x, *g));
+        let overlap = sum_of(terms, rates().zip(&*image).map(|(free, image)| free * image));
+        let part = overlap / *curvature;
+        for (direction, free) in direction.iter_mut().zip(rates()) {
+            *direction = free - part * *direction;
         }
     }
+}
+
+/// Rate of a contact that has an impulse x, else zero.
+fn free(x: f64, rate: f64) -> f64 {
+    if x > 0.0 { rate } else { 0.0 }
+}
+
+/// Rate of a contact that closes and has no impulse, else zero.
+fn closing(x: f64, rate: f64) -> f64 {
+    if x > 0.0 || rate > 0.0 { 0.0 } else { rate }
+}
+
+/// Sum of the terms, by way of working memory.
+fn sum_of(memory: &mut Vec<f64>, terms: impl Iterator<Item = f64>) -> f64 {
+    memory.clear();
+    memory.extend(terms);
+    order_free::total(memory)
+}
+
+/// The largest of the values, or zero.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |largest, value| if value > largest { value } else { largest })
 }
 
 /// A single contact, in closed form; gives the impulse.

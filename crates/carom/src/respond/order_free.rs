@@ -4,6 +4,11 @@
 //! would round differently; a sum of integers does not. The idea of rounding all terms to one
 //! grid first: Demmel and Nguyen, "Fast reproducible floating-point summation", ARITH 21 (2013).
 
+use std::array;
+use std::ops::{Add, Mul, Sub};
+
+use glam::DVec3;
+
 /// Bits of a double-precision number.
 const DIGITS: i32 = f64::MANTISSA_DIGITS as i32;
 
@@ -26,11 +31,23 @@ pub(super) struct Grid {
     fine: f64,
 }
 
-/// A sum on a [`Grid`]: its multiples of the coarse and of the fine grid.
+/// A term or a sum on a [`Grid`]: its multiples of the coarse and of the fine grid.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Steps {
-    coarse: f64,
-    fine: f64,
+pub(super) struct Steps<T> {
+    coarse: T,
+    fine: T,
+}
+
+impl Steps<DVec3> {
+    pub fn add(&mut self, other: Self) {
+        self.coarse += other.coarse;
+        self.fine += other.fine;
+    }
+
+    pub fn subtract(&mut self, other: Self) {
+        self.coarse -= other.coarse;
+        self.fine -= other.fine;
+    }
 }
 
 impl Grid {
@@ -56,33 +73,63 @@ impl Grid {
         }
     }
 
-    /// Adds a term.
+    /// A term on the grid.
     #[inline(always)]
-    pub fn add(&self, sum: &mut Steps, term: f64) {
+    pub fn split<T>(&self, term: T) -> Steps<T>
+    where
+        T: Copy
+            + Mul<f64, Output = T>
+            + Add<f64, Output = T>
+            + Sub<f64, Output = T>
+            + Sub<Output = T>,
+    {
         let term = term * self.scale;
         let coarse = (term + self.coarse) - self.coarse;
-        let rest = term - coarse;
-        sum.coarse += coarse;
-        sum.fine += (rest + self.fine) - self.fine;
+        let fine = ((term - coarse) + self.fine) - self.fine;
+        Steps { coarse, fine }
     }
 
     /// The value of a sum, rounded once.
     #[inline(always)]
-    pub fn value(&self, sum: Steps) -> f64 {
+    pub fn value<T>(&self, sum: Steps<T>) -> T
+    where
+        T: Add<Output = T> + Mul<f64, Output = T>,
+    {
         (sum.coarse + sum.fine) * self.unscale
     }
 }
 
+/// Sums that are kept side by side, for the processor to add several terms at once.
+const LANES: usize = 8;
+
 /// Sum of the terms, as good as if it had been rounded once, whatever their order.
-#[inline]
-pub(super) fn sum(terms: impl Iterator<Item = f64> + Clone) -> f64 {
-    let (largest, count) = terms
-        .clone()
-        .fold((0.0_f64, 0), |(largest, count), term| (largest.max(term.abs()), count + 1));
-    let grid = Grid::new(largest, count);
-    let mut sum = Steps::default();
-    terms.for_each(|term| grid.add(&mut sum, term));
-    grid.value(sum)
+pub(super) fn total(terms: &[f64]) -> f64 {
+    let (whole, rest) = terms.as_chunks::<LANES>();
+    let mut last = [0.0; LANES];
+    last[..rest.len()].copy_from_slice(rest);
+    let mut largest = [0.0; LANES];
+    for chunk in whole.iter().chain([&last]) {
+        // Not a number counts as none.
+        largest = array::from_fn(|lane| {
+            let size = chunk[lane].abs();
+            if size > largest[lane] { size } else { largest[lane] }
+        });
+    }
+    let grid = Grid::new(largest.into_iter().fold(0.0, f64::max), terms.len());
+    let (mut coarse, mut fine) = ([0.0; LANES], [0.0; LANES]);
+    for chunk in whole.iter().chain([&last]) {
+        let scaled: [f64; LANES] = array::from_fn(|lane| chunk[lane] * grid.scale);
+        let steps: [f64; LANES] = array::from_fn(|lane| (scaled[lane] + grid.coarse) - grid.coarse);
+        let rests: [f64; LANES] = array::from_fn(|lane| scaled[lane] - steps[lane]);
+        coarse = array::from_fn(|lane| coarse[lane] + steps[lane]);
+        fine = array::from_fn(|lane| fine[lane] + ((rests[lane] + grid.fine) - grid.fine));
+    }
+    grid.value(Steps { coarse: coarse.iter().sum(), fine: fine.iter().sum() })
+}
+
+/// [`total`] of terms that are not in memory.
+pub(super) fn sum(terms: impl Iterator<Item = f64>) -> f64 {
+    total(&terms.collect::<Vec<f64>>())
 }
 
 /// The largest power of two not above x, as its exponent; for normal numbers.

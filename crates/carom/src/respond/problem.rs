@@ -52,7 +52,7 @@ pub(super) fn push(
     links: &[Link],
     inverse_mass: impl Fn(usize) -> f64,
     impulse: impl Fn(usize) -> f64,
-    steps: &mut [[Steps; 3]],
+    steps: &mut [Steps<DVec3>],
     moved: &mut [DVec3],
 ) {
     let count = links.len();
@@ -60,17 +60,13 @@ pub(super) fn push(
     let grid = Grid::new(largest, count);
     steps.fill(Default::default());
     for (i, link) in links.iter().enumerate() {
-        let given = impulse(i) * link.normal;
-        for axis in 0..3 {
-            grid.add(&mut steps[link.second as usize][axis], given[axis]);
-            if let Some(first) = link.first {
-                grid.add(&mut steps[first as usize][axis], -given[axis]);
-            }
+        let given = grid.split(impulse(i) * link.normal);
+        steps[link.second as usize].add(given);
+        if let Some(first) = link.first {
+            steps[first as usize].subtract(given);
         }
     }
-    for (body, moved) in moved.iter_mut().enumerate() {
-        let [x, y, z] = steps[body];
-        let momentum = DVec3::new(grid.value(x), grid.value(y), grid.value(z));
-        *moved = inverse_mass(body) * momentum;
+    for (body, (moved, steps)) in moved.iter_mut().zip(steps).enumerate() {
+        *moved = inverse_mass(body) * grid.value(*steps);
     }
 }
