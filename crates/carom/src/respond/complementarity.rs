@@ -13,7 +13,7 @@
 use glam::DVec3;
 
 use super::face::Face;
-use super::order_free::{self, Steps};
+use super::order_free::{self, Steps, sum_of};
 use super::problem::{Link, Problem, Tolerance, push};
 use crate::work::Work;
 
@@ -398,13 +398,6 @@ fn free(x: f64, rate: f64) -> f64 {
 /// Rate of a contact that closes and has no impulse, else zero.
 fn closing(x: f64, rate: f64) -> f64 {
     if x > 0.0 || rate > 0.0 { 0.0 } else { rate }
-}
-
-/// Sum of the terms, by way of working memory.
-fn sum_of(memory: &mut Vec<f64>, terms: impl Iterator<Item = f64>) -> f64 {
-    memory.clear();
-    memory.extend(terms);
-    order_free::total(memory)
 }
 
 /// The largest of the values, or zero.

@@ -67,10 +67,7 @@ pub(crate) fn contact_forces_within(
         let forces = vec![0.0; contacts.len()];
         return ContactForces { forces, resolution: 0.0, complete: true };
     };
-    let mut group = Group::new(contacts, masses, 1.0, work);
-    for link in &mut group.links {
-        link.surface_velocity = DVec3::ZERO;
-    }
+    let group = Group::at_rest(contacts, masses, work);
     let free: Vec<DVec3> = accelerations.iter().map(|a| *a / unit).collect();
     let mut held = free.clone();
     let mut projector = Projector::default();

@@ -69,6 +69,13 @@ impl<'a> Group<'a> {
         Self { links: links.collect(), restitutions: restitutions.collect(), masses, work }
     }
 
+    /// The group where velocities of surfaces do not count.
+    pub fn at_rest(contacts: &[TouchingContact], masses: &'a [f64], work: &'a Work<'a>) -> Self {
+        let mut group = Self::new(contacts, masses, 1.0, work);
+        group.links.iter_mut().for_each(|link| link.surface_velocity = DVec3::ZERO);
+        group
+    }
+
     /// Rate of opening of a contact.
     pub fn rate(&self, contact: usize, velocities: &[DVec3]) -> f64 {
         self.links[contact].rate(velocities)

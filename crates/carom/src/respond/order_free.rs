@@ -127,6 +127,13 @@ pub(super) fn total(terms: &[f64]) -> f64 {
     grid.value(Steps { coarse: coarse.iter().sum(), fine: fine.iter().sum() })
 }
 
+/// [`total`] of terms that are put in working memory.
+pub(super) fn sum_of(memory: &mut Vec<f64>, terms: impl Iterator<Item = f64>) -> f64 {
+    memory.clear();
+    memory.extend(terms);
+    total(memory)
+}
+
 /// [`total`] of terms that are not in memory.
 pub(super) fn sum(terms: impl Iterator<Item = f64>) -> f64 {
     total(&terms.collect::<Vec<f64>>())

@@ -12,8 +12,7 @@ use super::touch::{TOUCHING, Touch, beyond};
 use crate::detect::contact::Bodies;
 use crate::flight::Propagator;
 use crate::norm::Norm;
-use crate::respond::{contact_forces_within, restitution_of};
-use crate::sum::Sum;
+use crate::respond::{contact_forces_within, least_change, restitution_of};
 use crate::surface::{Form, Rectangle};
 use crate::work::Work;
 
@@ -27,10 +26,6 @@ pub(super) const REST: f64 = 1e-12;
 /// between is a parabola through the middle of the turn; its gap to the true one is of the third
 /// order, below 1e-10 of the radius of the curve.
 const TURN: f64 = 1e-3;
-/// Where contacts differ by less than that in their normals \[rad\], as the faces of a box do in their
-/// common edge, what tells them apart is rounding: a gap of 1e-16 m would be closed by a way as long
-/// as it divided by that.
-const SAME_NORMAL: f64 = 1e-8;
 /// Part of a radius by which a piece of path may close the gap of a persistent contact: more than what
 /// rounding opens.
 const MOST_CLOSED: f64 = 1e-10;
@@ -500,63 +495,9 @@ fn stop_along_normals(work: &Work, members: &mut [Member], touches: &[Touch]) {
     }
 }
 
-/// The least change of the members, weighted by mass, that takes away `excess` along the normals:
-/// `M⁻¹ N λ` with `Nᵀ M⁻¹ N λ = -excess`, by conjugate gradients.
+/// The least change of the members, weighted by mass, that takes away `excess` along the normals.
 fn corrections(work: &Work, members: &[Member], touches: &[Touch], excess: &[f64]) -> Vec<DVec3> {
-    let spread = |weights: &[f64]| {
-        let mut changes = vec![DVec3::ZERO; members.len()];
-        for (touch, weight) in touches.iter().zip(weights) {
-            changes[touch.second] += weight / members[touch.second].kind.mass * touch.normal;
-            if let Some(first) = touch.first {
-                changes[first] -= weight / members[first].kind.mass * touch.normal;
-            }
-        }
-        changes
-    };
-    let along = |changes: &[DVec3]| -> Vec<f64> {
-        let of = |touch: &Touch| {
-            let first = touch.first.map_or(DVec3::ZERO, |first| changes[first]);
-            (changes[touch.second] - first).dot(touch.normal)
-        };
-        touches.iter().map(of).collect()
-    };
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).collect::<Sum>().value();
-    // What the curvature would be if no contact shared a sphere with another.
-    let each_alone = |weights: &[f64]| -> f64 {
-        let inverse_mass = |place: usize| 1.0 / members[place].kind.mass;
-        let of = |(touch, weight): (&Touch, &f64)| {
-            let both = inverse_mass(touch.second) + touch.first.map_or(0.0, inverse_mass);
-            weight * weight * both
-        };
-        touches.iter().zip(weights).map(of).sum()
-    };
-    let mut weights = vec![0.0; touches.len()];
-    let mut residual: Vec<f64> = excess.iter().map(|excess| -excess).collect();
-    let mut direction = residual.clone();
-    let mut square = dot(&residual, &residual);
-    // Of the squares: what is left is below the rounding of what was there.
-    let enough = square * (f64::EPSILON * f64::EPSILON);
-    for _ in 0..2 * touches.len() {
-        if square <= enough || !work.spend(touches.len() as u64) {
-            break;
-        }
-        let image = along(&spread(&direction));
-        let curvature = dot(&direction, &image);
-        if curvature <= SAME_NORMAL * SAME_NORMAL * each_alone(&direction) {
-            break;
-        }
-        let step = square / curvature;
-        for (weight, part) in weights.iter_mut().zip(&direction) {
-            *weight += step * part;
-        }
-        for (residual, part) in residual.iter_mut().zip(&image) {
-            *residual -= step * part;
-        }
-        let next = dot(&residual, &residual);
-        for (part, residual) in direction.iter_mut().zip(&residual) {
-            *part = residual + next / square * *part;
-        }
-        square = next;
-    }
-    spread(&weights)
+    let contacts: Vec<_> = touches.iter().map(Touch::contact).collect();
+    let masses: Vec<f64> = members.iter().map(|member| member.kind.mass).collect();
+    least_change(work, &contacts, &masses, excess)
 }
