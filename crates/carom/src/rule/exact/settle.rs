@@ -50,8 +50,7 @@ pub(super) fn settle(timeline: &Timeline, stage: &Stage, group: &mut Group) {
                 // On the piece of path its normal was in the plane of the sliding.
                 cluster.hold_along(touch.sliding(members));
             }
-            cluster.gets_work |=
-                touch.surface_velocity != DVec3::ZERO || touch.surface_spin != DVec3::ZERO;
+            cluster.gets_work |= touch.does_work();
         }
     }
     let is_restored = |cluster: &&Cluster| cluster.is_curved && !cluster.gets_work;

@@ -13,6 +13,7 @@ use crate::detect::contact::Bodies;
 use crate::flight::Propagator;
 use crate::norm::Norm;
 use crate::respond::{contact_forces_within, least_change, restitution_of};
+use crate::sum::Sum;
 use crate::surface::{Form, Rectangle};
 use crate::work::Work;
 
@@ -32,6 +33,8 @@ const MOST_CLOSED: f64 = 1e-10;
 /// A force that is found from the gap at the end of a turn differs from that of the middle by no more
 /// than this part of the accelerations at work.
 const MOST_CORRECTED: f64 = 1e-2;
+/// Part of the kinetic energy at the end of a piece of path that may be its error.
+const MOST_GAINED: f64 = 0.1;
 /// Below this turn \[rad\] a force that ends within a piece of the path ends at its beginning.
 const SHORTEST_TURN: f64 = 1e-6;
 
@@ -291,8 +294,16 @@ fn through_the_middle(
         if !released.contains(&true) {
             let middle = borne(&middle, &still, &forces);
             let end = ending_in_contact(stage, group, touches, middle, hold);
-            if end.is_followed || is_shortest {
+            if end.keeps_energy && end.is_followed {
                 return Ok((end.accelerations, hold));
+            }
+            if is_shortest {
+                let is_jammed = !end.keeps_energy && is_at_rest(&group.members, touches);
+                return Ok(if is_jammed {
+                    (stopped(end.accelerations, touches), f64::INFINITY)
+                } else {
+                    (end.accelerations, hold)
+                });
             }
         } else if is_shortest {
             return Err(released);
@@ -307,6 +318,25 @@ struct Ending {
     /// Whether the forces of the middle alone keep the contacts to a part of a radius, so that the
     /// piece is short enough.
     is_followed: bool,
+    /// Whether no energy appears on it.
+    keeps_energy: bool,
+}
+
+/// Whether no sphere in contact moves.
+fn is_at_rest(members: &[Member], touches: &[Touch]) -> bool {
+    let places = touches.iter().flat_map(|touch| touch.first.into_iter().chain([touch.second]));
+    places.into_iter().all(|place| members[place].velocity == DVec3::ZERO)
+}
+
+/// The accelerations where spheres in contact have none: a motion that from rest would gain energy is
+/// the rounding of a cluster that is jammed.
+fn stopped(mut accelerations: Accelerations, touches: &[Touch]) -> Accelerations {
+    for touch in touches {
+        for place in touch.first.into_iter().chain([touch.second]) {
+            accelerations.each[place] = DVec3::ZERO;
+        }
+    }
+    accelerations
 }
 
 /// Accelerations under which the gaps of contacts after `hold` \[s\] are what they are now, or a little
@@ -340,12 +370,41 @@ fn ending_in_contact(
     let is_small = |(member, change): (&Member, &DVec3)| {
         change.norm() <= MOST_CORRECTED * (member.kind.acceleration.norm() + accelerations.largest)
     };
+    let keeps = |each: &[DVec3]| keeps_energy(group, &touches, each, hold);
     if end.iter().zip(&changes).all(is_small) {
-        for (acceleration, change) in accelerations.each.iter_mut().zip(changes) {
-            *acceleration += change;
+        let pairs = accelerations.each.iter().zip(changes);
+        let corrected: Vec<DVec3> = pairs.map(|(middle, change)| middle + change).collect();
+        // Between contacts that all but lock each other, a gap of rounding asks for large moves.
+        if keeps(&corrected) {
+            accelerations.each = corrected;
+            return Ending { accelerations, is_followed, keeps_energy: true };
         }
     }
-    Ending { accelerations, is_followed }
+    let keeps_energy = keeps(&accelerations.each);
+    Ending { accelerations, is_followed, keeps_energy }
+}
+
+/// Whether spheres that fly so for `hold` \[s\] rise no higher than their kinetic energy lifts them, and
+/// gain or lose so little by the error of the path that it can be made up for in that. Contact forces
+/// at surfaces at rest do no work; where surfaces move, or with drag, nothing is asked.
+fn keeps_energy(group: &Group, touches: &[Touch], accelerations: &[DVec3], hold: f64) -> bool {
+    let has_drag = group.members.iter().any(|member| member.kind.drag_rate > 0.0);
+    if has_drag || touches.iter().any(Touch::does_work) {
+        return true;
+    }
+    let [mut before, mut after, mut lifted, mut moved] = [Sum::default(); 4];
+    for (member, &acceleration) in group.members.iter().zip(accelerations) {
+        let Member { position, velocity, kind, .. } = member;
+        let end = member.after(acceleration, hold);
+        let work = kind.mass * kind.acceleration.dot(end.position - *position);
+        before.add(0.5 * kind.mass * velocity.length_squared());
+        after.add(0.5 * kind.mass * end.velocity.length_squared());
+        lifted.add(-work);
+        moved.add(work.abs());
+    }
+    let [before, after, lifted, moved] = [before, after, lifted, moved].map(|sum| sum.value());
+    let gained = (after - before) + lifted;
+    lifted <= before + IDLE * moved && gained.abs() <= MOST_GAINED * after + IDLE * moved
 }
 
 /// Stops what moves and accelerates by no more than rounding.

@@ -102,6 +102,11 @@ impl Touch {
         self.bend != Bend::Flat || self.surface_spin != DVec3::ZERO
     }
 
+    /// Whether the surface moves, and so does work on the sphere.
+    pub fn does_work(&self) -> bool {
+        self.surface_velocity != DVec3::ZERO || self.surface_spin != DVec3::ZERO
+    }
+
     /// As the impact laws take it, restitution 0.
     pub fn contact(&self) -> TouchingContact {
         TouchingContact {
