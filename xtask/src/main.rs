@@ -23,7 +23,8 @@ Usage: cargo xtask COMMAND
 
   demo      set up, run every built-in scene, make pictures and a film in out/, open the window
   test      set up, then every check: format, clippy, tests, documents, schema, the JavaScript
-            package in Node.js, the Python package, the page in a browser
+            package in Node.js, the Python package, the page in a browser; `test --full` adds
+            the tests of the physics that take minutes
   web       make the page in web/dist and the JavaScript package; `web --serve [PORT]` makes the
             page and serves it on this machine, `web --sizes` says what takes its space, `web --test`
             tests it in a browser; `web --package` makes the package alone, `web --test-package`
@@ -40,6 +41,7 @@ fn main() -> ExitCode {
     let result = match arguments[..] {
         ["demo"] => demo::demo(),
         ["test"] => test::test(),
+        ["test", "--full"] => test::test().and_then(|()| test::long_tests()),
         ["web"] => web::build().and_then(|()| js_package::build()).map(drop),
         ["web", "--serve"] => web::serve(web::PORT),
         ["web", "--serve", port] => web::serve(port),

@@ -3,7 +3,18 @@
 use crate::shell::{Outcome, cargo, cargo_with};
 use crate::{architecture, js_package, python, setup, web};
 
-/// Runs every check.
+/// Runs the tests of the physics that take minutes, optimised.
+pub fn long_tests() -> Outcome {
+    let heaps = ["--test", "heaps", "--", "--ignored"];
+    for package in ["carom", "carom-scene"] {
+        let test = ["test", "--release", "--quiet", "--package", package];
+        cargo(&[&test[..], &heaps[..]].concat())?;
+    }
+    let verify = ["run", "--release", "--package", "carom-cli", "--no-default-features", "--quiet"];
+    cargo(&[&verify[..], &["--", "verify", "--full"]].concat())
+}
+
+/// Runs every check but these.
 pub fn test() -> Outcome {
     setup::toolchain()?;
     setup::graphics()?;

@@ -1,4 +1,4 @@
-//! Heaps of three to forty balls under the rule `exact` come to rest: every frame ends, no energy
+//! Heaps of three to fifty balls under the rule `exact` come to rest: every frame ends, no energy
 //! appears. The files are scenes that once stopped the clock.
 
 use std::path::Path;
@@ -22,7 +22,7 @@ fn speed_at_the_end(name: &str) -> f64 {
         world.step(1.0 / 60.0).unwrap();
         let now = world.total_energy();
         largest = largest.max(now);
-        assert!(now - energy < 1e-8 * largest, "{name} gains {:e} J", now - energy);
+        assert!(now - energy < 1e-9 * largest, "{name} gains {:e} J", now - energy);
         energy = now;
     }
     // On curves, paths are followed to some billionths of a radius.
@@ -48,13 +48,31 @@ fn twenty_balls_on_a_lattice_come_to_rest() {
 
 #[test]
 #[ignore = "takes minutes"]
-fn heaps_of_twenty_and_forty_balls_come_to_rest() {
-    for name in ["random-20-e0.0", "lattice-20-e0.8", "lattice-40-e0.0"] {
-        assert_eq!(speed_at_the_end(name), 0.0, "{name}");
+fn heaps_of_twenty_to_fifty_balls_come_to_rest() {
+    for name in [
+        "random-20-e0.0",
+        "random-20-e0.5",
+        "random-20-e0.8",
+        "lattice-20-e0.8",
+        "lattice-40-e0.0",
+        "lattice-40-e0.5",
+        "lattice-40-e0.8",
+        "random-40-e0.0",
+        "dome-50-e0.0",
+        "dome-50-e0.5",
+        "dome-50-e0.8",
+    ] {
+        assert!(speed_at_the_end(name) < 1e-6, "{name}");
     }
-    // Without friction, a ball that lies in a layer by itself goes on sliding between its neighbours,
-    // ever slower.
-    for name in ["random-20-e0.5", "random-20-e0.8"] {
-        assert!(speed_at_the_end(name) < 1e-2, "{name}");
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn heaps_without_friction_that_still_flow_do_so_slowly() {
+    // Nothing but impacts slows them down: after ten seconds the last balls still slide into place.
+    for name in
+        ["random-40-e0.5", "random-40-e0.8", "funnel-50-e0.0", "funnel-50-e0.5", "funnel-50-e0.8"]
+    {
+        assert!(speed_at_the_end(name) < 0.1, "{name}");
     }
 }
