@@ -12,6 +12,11 @@ use super::simultaneous;
 const MAX_REFLECTIONS: usize = 1000;
 const MAX_REFLECTIONS_PER_CONTACT: usize = 4;
 
+/// Units of work that reflections may take, besides and per pair of contacts: a row of n spheres needs
+/// about n² of them. In a lattice that is locked from all sides they have no end.
+const REFLECTION_WORK: u64 = 30_000;
+const REFLECTION_WORK_PER_PAIR: u64 = 4;
+
 /// Layers that restitution is divided into at most; each costs about one elastic answer.
 const MAX_LAYERS: usize = 8;
 
@@ -99,11 +104,14 @@ fn reflect(group: &Group, parts: &[f64], start: &[DVec3], projector: &mut Projec
     let all_elastic = parts.iter().all(|part| *part == 1.0);
     let mut answer = Answer::unchanged(group, start);
     let mut closing = vec![false; parts.len()];
+    let contacts = parts.len() as u64;
+    let most_work =
+        group.work.done() + REFLECTION_WORK + REFLECTION_WORK_PER_PAIR * contacts * contacts;
     for _ in 0..MAX_REFLECTIONS + MAX_REFLECTIONS_PER_CONTACT * parts.len() {
         for (contact, closing) in closing.iter_mut().enumerate() {
             *closing = group.is_closing(contact, &answer.motion.velocities);
         }
-        if !closing.contains(&true) || !group.work.spend(parts.len() as u64) {
+        if !closing.contains(&true) || !group.work.spend(contacts) {
             if !all_elastic {
                 let impulses = &answer.motion.impulses;
                 let work = group.work(impulses, start, &answer.motion.velocities);
@@ -118,6 +126,9 @@ fn reflect(group: &Group, parts: &[f64], start: &[DVec3], projector: &mut Projec
         };
         if outcome != Outcome::Solved {
             return Answer { complete: false, ..group.plastic(start, projector) };
+        }
+        if group.work.done() > most_work {
+            break;
         }
     }
     Answer { complete: false, ..simultaneous::resolve(group, parts, start, projector) }

@@ -176,7 +176,7 @@ pub(super) fn speed_scale(velocities: impl Iterator<Item = DVec3>) -> f64 {
 
 /// What can be told apart from zero where speeds are of this scale.
 pub(super) fn tolerance(speed: f64) -> Tolerance {
-    Tolerance { fine: FINE * speed, coarse: COARSE * speed }
+    Tolerance { scale: speed, fine: FINE * speed, coarse: COARSE * speed }
 }
 
 /// Closing speed \[m/s\] below which a contact of a sphere with this velocity \[m/s\] may close by

@@ -39,6 +39,8 @@ pub(super) struct Problem {
 /// Rates of opening that are told apart from zero.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Tolerance {
+    /// The largest speed of the problem.
+    pub scale: f64,
     /// Below this nothing is gained by going on.
     pub fine: f64,
     /// Below this it may be rounding, and is left where going on gains nothing.

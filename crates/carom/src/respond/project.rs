@@ -120,10 +120,10 @@ impl Projector {
             .extend(masses.map(|mass| (largest_mass / mass).min(MASS_RATIO)));
 
         self.problem.tolerance = tolerance(speed_scale(self.velocities.iter().copied()));
-        self.resolution = self.resolution.max(self.problem.tolerance.coarse);
-
         let impulses = &mut self.component_impulses;
         let outcome = self.solver.solve(&self.problem, group.work, &mut self.velocities, impulses);
+        let missed = if outcome == Outcome::Solved { self.solver.missed() } else { 0.0 };
+        self.resolution = self.resolution.max(self.problem.tolerance.coarse).max(missed);
         for (local, &body) in self.bodies.iter().enumerate() {
             self.local[body as usize] = NONE;
             velocities[body as usize] = self.velocities[local];

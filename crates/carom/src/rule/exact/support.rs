@@ -120,11 +120,16 @@ fn staying(work: &Work, members: &[Member], slow: &[Touch]) -> (Vec<Touch>, Vec<
     let accelerations = borne(members, slow, &forces);
     let stays = |(&touch, force): (&Touch, f64)| {
         let all_borne = is_borne[touch.second] && touch.first.is_none_or(|first| is_borne[first]);
-        let scale = free_acceleration(&members[touch.second]).norm() + accelerations.largest;
-        let is_idle = accelerations.along(&touch, members) <= IDLE * scale;
-        (force > 0.0 || (all_borne && is_idle)).then_some((touch, force))
+        let persists = force > 0.0 || (all_borne && is_idle(&accelerations, &touch, members));
+        persists.then_some((touch, force))
     };
     slow.iter().zip(forces).filter_map(stays).unzip()
+}
+
+/// Whether a contact does not open, but for rounding.
+fn is_idle(accelerations: &Accelerations, touch: &Touch, members: &[Member]) -> bool {
+    let scale = free_acceleration(&members[touch.second]).norm() + accelerations.largest;
+    accelerations.along(touch, members) <= IDLE * scale
 }
 
 /// Adds slow touches that open now and would close under the accelerations of the middle of a turn:
@@ -281,19 +286,21 @@ fn through_the_middle(
             touches.iter().map(|touch| touch.measured_at(stage, &middle, time)).collect();
         let still: Vec<Touch> = measured.iter().flatten().copied().collect();
         let forces = forces(stage.work, &middle, &still);
+        let accelerations = borne(&middle, &still, &forces);
+        // Where contacts are redundant one may do without a force, and does not open for that.
+        let opens = |touch: &Touch| !is_idle(&accelerations, touch, &middle);
         let mut in_middle = forces.iter();
         let released: Vec<bool> = measured
             .iter()
             .zip(forces_before)
             .map(|(measured, &before)| match measured {
-                Some(_) => in_middle.next() == Some(&0.0) && before > 0.0,
+                Some(touch) => in_middle.next() == Some(&0.0) && before > 0.0 && opens(touch),
                 None => true,
             })
             .collect();
         let is_shortest = 0.5 * hold < turning * (SHORTEST_TURN / TURN);
         if !released.contains(&true) {
-            let middle = borne(&middle, &still, &forces);
-            let end = ending_in_contact(stage, group, touches, middle, hold);
+            let end = ending_in_contact(stage, group, touches, accelerations, hold);
             if end.keeps_energy && end.is_followed {
                 return Ok((end.accelerations, hold));
             }
