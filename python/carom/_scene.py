@@ -34,7 +34,7 @@ class Scene(parts.Part):
     """Spheres, what acts on them, what they bounce off, and how to look at it.
 
     A scene is a value: it can be compared, copied and pickled. ``dataclasses.replace`` makes
-    another one of it, `with_changes` likewise by the paths of scene files.
+    another one of it; so does `with_changes`, by the paths of scene files.
 
     Attributes:
         name: Short name, to find it by.
@@ -263,7 +263,7 @@ class Scene(parts.Part):
             SceneError: If the scene makes no sense.
             GraphicsError: If this build has no window, or it cannot be opened here.
         """
-        # Not above: the process runs this module, which nobody may have imported before.
+        # Not above: the process runs this module, which may not have been imported before.
         from carom._window import open_window
 
         return open_window(self.to_toml())

@@ -53,9 +53,9 @@ LEDGER = np.dtype(
 ``group``                    number of the group in the frame
 ``group_size``               how many impacts it has
 ``momentum_before``          of its spheres [kg m/s]
-``momentum_after``           likewise, less what colliders gave
+``momentum_after``           momentum afterwards, less what colliders gave
 ``energy_before``            kinetic energy of its spheres [J]
-``energy_after``             likewise, less the work of moving colliders
+``energy_after``             kinetic energy afterwards, less the work of moving colliders
 ``energy_demanded``          change of kinetic energy that restitution demands [J], <= 0
 ============================ ===============================================================
 """

@@ -20,7 +20,7 @@ def toml_of(table: parts.Part) -> str:
 
     Raises:
         TypeError: For a value that no scene file can hold; the message names its field.
-        CaromError: For a whole number that is too large; likewise.
+        CaromError: For a whole number that is too large; the message names its field.
     """
     lines = [f"{key} = {toml_value(value, key)}" for key, value in _fields(table).items()]
     return "\n".join(lines) + "\n"
@@ -106,7 +106,7 @@ def read_part(key: str, text: str) -> Any:
 
 
 def read_parts(key: str, text: str) -> dict[int, Any]:
-    """Parts by their ids, likewise."""
+    """Parts of a scene, by their ids."""
     return {number: part_of(key, value) for number, value in json.loads(text)}
 
 

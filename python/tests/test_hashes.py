@@ -11,7 +11,7 @@ import carom
 NATIVE = os.environ.get("CAROM_NATIVE_HASHES")
 """What the native engine makes of each scene after 10 s; `cargo xtask python --test` writes it."""
 
-pytestmark = pytest.mark.skipif(NATIVE is None, reason="nobody has asked the native engine")
+pytestmark = pytest.mark.skipif(NATIVE is None, reason="no hashes of the native engine at hand")
 
 
 def native_hashes() -> dict[str, str]:

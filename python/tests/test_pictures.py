@@ -139,7 +139,7 @@ def test_what_is_added_is_drawn_in_its_own_colour() -> None:
     assert seen() == (False, False)
     world.add_emitter(carom.Emitter(carom.Sphere(radius=0.5, color=GREEN), period=1))
     world.step(0.01)
-    # The plate that nobody sees is there all the same: the ball appears within it.
+    # The plate is hidden and there all the same: the ball appears within it.
     assert seen() == (False, True)
 
 

@@ -1,4 +1,4 @@
-// Files for whoever watches.
+// Files for downloading.
 
 /** How long a browser may take to begin with a download [ms]. */
 const PATIENCE = 60_000;
@@ -11,7 +11,7 @@ const PATIENCE = 60_000;
  * @param {Uint8Array | Blob} content
  */
 export function save(name, type, content) {
-  // Copied: the module's memory is shared with nobody, whatever its type allows.
+  // Copied: the module's memory is not shared, whatever its type allows.
   const part = /** @type {BlobPart} */ (content);
   const url = URL.createObjectURL(new Blob([part], { type }));
   const link = document.createElement("a");

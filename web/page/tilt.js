@@ -20,7 +20,7 @@ let isUsed = false;
 let slope = null;
 
 /**
- * The slope when tilting began: nobody holds a telephone level.
+ * The slope when tilting began: a telephone is never held level.
  *
  * @type {Slope | null}
  */
@@ -64,7 +64,7 @@ export function tilt() {
   return [part(right), part(down)];
 }
 
-/** Some browsers ask whoever watches, and do so only in answer to a touch. */
+/** Some browsers ask for permission, and do so only in answer to a touch. */
 async function askForLeave() {
   const { requestPermission } = /** @type {{ requestPermission?: () => Promise<string> }} */ (
     /** @type {unknown} */ (DeviceOrientationEvent)

@@ -5,7 +5,7 @@ import { fileURLToPath } from "node:url";
 
 import { chromium } from "playwright-core";
 
-/** Pictures that tests leave, for whoever changes the page to look at. */
+/** Pictures that tests leave, to be looked at after a change of the page. */
 const RESULTS = fileURLToPath(new URL("../test-results/", import.meta.url));
 
 /** What a browser would ask of the network by itself. */
@@ -45,7 +45,7 @@ export function launch(graphics) {
 }
 
 /**
- * Collects what a page complains of, in its console or by errors that nobody caught.
+ * Collects what a page complains of, in its console or by errors that were not caught.
  *
  * @param {import("playwright-core").Page} page
  * @returns {string[]} grows as the page complains

@@ -70,7 +70,7 @@ describe("the page", () => {
     await context.close();
   });
 
-  test("asks nobody else for anything", async () => {
+  test("asks no other server for anything", async () => {
     /** @type {string[]} */
     const asked = [];
     const { close } = await open("", async (page) =>

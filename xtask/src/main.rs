@@ -15,6 +15,7 @@ mod wasm;
 mod wasm_toolchain;
 mod web;
 mod web_tools;
+mod words;
 
 use std::process::ExitCode;
 

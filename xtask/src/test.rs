@@ -1,7 +1,7 @@
 //! Every check, in the order in which they fail fastest.
 
 use crate::shell::{Outcome, cargo, cargo_with};
-use crate::{architecture, js_package, python, setup, web};
+use crate::{architecture, js_package, python, setup, web, words};
 
 /// Runs the tests of the physics that take minutes, optimised.
 pub fn long_tests() -> Outcome {
@@ -21,6 +21,7 @@ pub fn test() -> Outcome {
     setup::film_tests()?;
     cargo(&["fmt", "--all", "--check"])?;
     architecture::check()?;
+    words::check()?;
     cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "--deny", "warnings"])?;
     let documents = ["doc", "--workspace", "--no-deps", "--document-private-items", "--quiet"];
     cargo_with(&documents, &[("RUSTDOCFLAGS", "--deny warnings")])?;

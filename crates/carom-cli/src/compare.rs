@@ -55,7 +55,7 @@ struct Run {
     stepping: Duration,
     /// To the reference, now.
     now: Distance,
-    /// Likewise, the largest of all frames.
+    /// The largest distance of all frames.
     largest: Distance,
 }
 

@@ -13,7 +13,7 @@ pub enum Failure {
     Usage(String),
     /// Something went wrong on the way: code 1.
     Fault(String),
-    /// Whoever read the output has heard enough: code 0, silently.
+    /// The reader of the output has closed it: code 0, silently.
     OutputClosed,
     /// Stopped by the user; what was written is complete: code 130, as shells expect.
     Interrupted,
@@ -40,7 +40,7 @@ impl Failure {
     }
 }
 
-/// Writes a line to the standard error stream. If that is gone too, nobody is there to be told.
+/// Writes a line to the standard error stream. If that is gone too, the line is lost.
 pub fn complain(line: &str) {
     writeln!(io::stderr(), "{line}").ok();
 }

@@ -37,7 +37,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, registered: Vec<Scene
     let result = match Args::try_parse_from(arguments) {
         Ok(args) => obey(args, registered),
         Err(refusal) => {
-            // If the output is gone, nobody is there to be told.
+            // If the output is gone, the text is lost.
             refusal.print().ok();
             return refusal.exit_code().try_into().unwrap_or(failure::USAGE);
         }

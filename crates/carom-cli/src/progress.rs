@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 /// What takes less than this shows no progress bar.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A progress bar for those who wait; none where nobody watches.
+/// A progress bar on a terminal; none where the output is no terminal.
 pub struct Progress {
     bar: ProgressBar,
     began: Instant,

@@ -42,7 +42,7 @@ fn bad(arguments: &[&str], code: i32) -> String {
     errors
 }
 
-/// Likewise; says one line.
+/// Runs the command, which must fail and write one line to the standard error stream.
 #[track_caller]
 fn bad_line(arguments: &[&str], code: i32) -> String {
     let errors = bad(arguments, code);

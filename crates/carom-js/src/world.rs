@@ -61,7 +61,7 @@ impl World {
         &self.description.scene
     }
 
-    /// Likewise, to be changed together with the world.
+    /// The description of the world, to be changed together with the world itself.
     pub(crate) fn described_mut(&mut self) -> &mut Scene {
         Rc::make_mut(&mut self.description.scene)
     }

@@ -29,7 +29,7 @@ pub enum MazeError {
         /// Spheres in it; generators and emitters count too.
         count: usize,
     },
-    /// Nobody could win.
+    /// The maze has no wall to win at.
     #[error("scene \"{scene}\": no solid collider is named \"end wall\"")]
     NoEndWall {
         /// Name of the scene.

@@ -22,7 +22,7 @@ const BALL_COLOR: Color = [0.66, 0.24, 0.52];
 pub enum Role {
     /// The ball bounces off it.
     Wall,
-    /// Whoever touches it wins.
+    /// A ball that touches it wins.
     EndWall,
     /// The ball rolls on it.
     Ground,

@@ -5,7 +5,7 @@ use carom::{DQuat, DVec3};
 use crate::error::GameError;
 use crate::options::Options;
 
-/// The maze is not turned by less than that in a frame \[rad\]: nobody sees it, and a floor that
+/// The maze is not turned by less than that in a frame \[rad\]: it cannot be seen, and a floor that
 /// hardly turns cannot be told from one at rest.
 const FINEST_TURN: f64 = 2e-5;
 

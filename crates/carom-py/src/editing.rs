@@ -283,14 +283,14 @@ fn find_force(world: &World, number: u64) -> Result<(ForceId, usize), Failure> {
     found.ok_or_else(|| Failure::unknown("force", number))
 }
 
-/// Likewise of a collider.
+/// The id of the collider with this number, and its place in the description.
 fn find_collider(world: &World, number: u64) -> Result<(ColliderId, usize), Failure> {
     let place = world.colliders().position(|(id, _)| id.number() as u64 == number);
     let found = place.map(|place| (ColliderId::from_number(number as usize), place));
     found.ok_or_else(|| Failure::unknown("collider", number))
 }
 
-/// Likewise of an emitter.
+/// The id of the emitter with this number, and its place in the description.
 fn find_emitter(world: &World, number: u64) -> Result<(EmitterId, usize), Failure> {
     let place = world.emitters().position(|(id, _)| id.number() as u64 == number);
     let found = place.map(|place| (EmitterId::from_number(number as usize), place));

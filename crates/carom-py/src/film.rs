@@ -22,7 +22,7 @@ const PATIENCE: Duration = Duration::from_millis(50);
 /// Films the scene that `text` describes in TOML, for `seconds` [s] or as long as the scene says, up
 /// to a whole frame. Answers with the number of frames.
 ///
-/// Whatever goes wrong or whoever interrupts, what was filmed until then is a film.
+/// After an error or an interruption, the frames until then are a film.
 #[pyfunction]
 pub fn film_scene(
     py: Python<'_>,

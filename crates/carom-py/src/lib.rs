@@ -5,8 +5,8 @@
 //!
 //! - what users describe comes as TOML, in the words of scene files, and is read and checked by
 //!   `carom-scene` (`part`); descriptions go back as JSON;
-//! - arrays belong to Python, and are written after every frame (`arrays`): whoever holds one can
-//!   read it for as long as it is held, and no `unsafe` is needed for it;
+//! - arrays belong to Python, and are written after every frame (`arrays`): one can be
+//!   read for as long as it is held, and no `unsafe` is needed for it;
 //! - what happened goes as tables of words (`tables`).
 //!
 //! A refused call leaves the world as it was and raises an exception of `carom.errors`

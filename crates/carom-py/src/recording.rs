@@ -15,7 +15,7 @@ pub struct Recording {
     pub times: Vec<f64>,
     /// Centres \[m\], three numbers for each sphere of each row.
     positions: Vec<f64>,
-    /// Velocities \[m/s\], likewise.
+    /// Velocities \[m/s\], in the order of the positions.
     velocities: Vec<f64>,
     /// The spheres of each row, ascending.
     members: Vec<Arc<[SphereId]>>,

@@ -72,7 +72,7 @@ impl Engine {
         let mut frame = 0;
         while frame < frames {
             frame = self.take_frames(frame..frames, dt, every, (py, &before, &mut recording))?;
-            // Whoever stops the run may ask the world how far it came: the lock is free by now.
+            // A signal handler may read the time of the world: the lock is free by now.
             py.check_signals()?;
         }
         arrays_of(py, recording)

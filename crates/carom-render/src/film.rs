@@ -118,7 +118,7 @@ pub struct FilmSummary {
 /// balls at 1280 x 720 pixels and 30 frames per second. So a full disk shows only then.
 ///
 /// The file gets its name once it is complete. A film that is dropped is finished as it is, unless
-/// it has no frames; whoever wants to know whether that went well calls [`Self::finish`].
+/// it has no frames; [`Self::finish`] tells whether that went well.
 pub struct Film {
     path: PathBuf,
     size: [u32; 2],
@@ -237,7 +237,7 @@ impl Film {
 
 impl Drop for Film {
     fn drop(&mut self) {
-        // Nobody is left to tell if that fails.
+        // An error here has no caller to go to.
         drop(self.complete());
     }
 }

@@ -78,7 +78,7 @@ impl Write for NewFile {
 impl Drop for NewFile {
     fn drop(&mut self) {
         if let Some(unfinished) = &self.unfinished {
-            // Nobody is left to tell if that fails.
+            // An error here has no caller to go to.
             drop(fs::remove_file(unfinished));
         }
     }

@@ -26,7 +26,7 @@ impl Offscreen {
         Self::on(pollster::block_on(Gpu::open())?, size, quality)
     }
 
-    /// Likewise on a device that is there already.
+    /// Makes the target on a device that is there already.
     ///
     /// # Errors
     /// [`GpuError::Size`]

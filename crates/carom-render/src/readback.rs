@@ -62,7 +62,7 @@ impl Readback {
 
     /// Whether [`Self::picture`] has an answer. Does not wait.
     pub fn arrived(&self, device: &wgpu::Device) -> bool {
-        // In a page with WebGL nobody else asks the device; a device that cannot be asked has an
+        // In a page with WebGL nothing else polls the device; a device that cannot be asked has an
         // error as its answer.
         let asked = device.poll(wgpu::PollType::Poll);
         self.answer.get().is_some() || asked.is_err()

@@ -6,7 +6,7 @@ use crate::picture::Picture;
 
 /// Height of the text as a part of the picture's height.
 const TEXT_PART: f32 = 1.0 / 28.0;
-/// Likewise of a caption: large enough to be read at a glance.
+/// Height of a caption as a part of the picture: large enough to be read at a glance.
 const CAPTION_PART: f32 = 1.0 / 9.0;
 /// Text smaller than this cannot be read \[px\].
 const SMALLEST: f32 = 12.0;

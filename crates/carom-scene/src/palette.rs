@@ -1,4 +1,4 @@
-//! Colours of spheres and colliders, for whoever draws them.
+//! Colours of spheres and colliders.
 
 use std::collections::BTreeMap;
 
@@ -222,7 +222,7 @@ mod tests {
         assert_eq!(palette.sphere(1, radius, mass), WHITE);
         assert_eq!(palette.sphere(1, radius, 1.001 * mass), [0.5; 3]);
         assert_eq!([2, 3].map(|number| palette.sphere(number, radius, mass)), [GREEN; 2]);
-        assert_eq!(palette.sphere(4, radius, mass), WHITE, "nobody knows where it comes from");
+        assert_eq!(palette.sphere(4, radius, mass), WHITE, "of unknown origin");
         let plain = Palette::new(&Scene::new("plain")).unwrap();
         assert_eq!(plain.sphere(0, radius, mass), Palette::SPHERE);
         assert_eq!(plain.collider(0), Palette::COLLIDER);

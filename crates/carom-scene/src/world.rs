@@ -222,7 +222,7 @@ pub(crate) fn problem(path: &str, error: carom::Error) -> Problem {
     }
 }
 
-/// Likewise for a collider, whose lengths are written in its shape.
+/// The problem of a field of a collider, whose lengths are written in its shape.
 fn collider_problem(path: &str, shape: &Shape, error: carom::Error) -> Problem {
     let shape = match shape {
         Shape::Sphere { .. } => "sphere",

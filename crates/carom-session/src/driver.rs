@@ -53,7 +53,7 @@ impl Driver {
     /// Sends a command. It is obeyed after those sent before.
     ///
     /// # Errors
-    /// [`SessionError::Busy`] if too many wait, [`SessionError::Ended`] if nobody obeys any more;
+    /// [`SessionError::Busy`] if too many wait, [`SessionError::Ended`] if the driver has ended;
     /// the command is not taken then.
     pub fn send(&mut self, command: Command) -> Result<(), SessionError> {
         match &mut self.form {

@@ -34,7 +34,7 @@ struct Measurement {
     taken: f64,
 }
 
-/// The pace of simulated time. It knows no clock: whoever has one says how much time went by.
+/// The pace of simulated time. It has no clock of its own: its caller passes the time that went by.
 #[derive(Debug, Clone)]
 pub struct Pace {
     playing: bool,

@@ -186,7 +186,7 @@ impl Player {
         self.watched.seeking().is_some()
     }
 
-    /// Seconds until there is work to do, if nobody sends a command; `None` for never.
+    /// Seconds until there is work to do, without a command; `None` for never.
     pub fn seconds_to_work(&self) -> Option<f64> {
         if self.is_seeking() || !self.queue.is_empty() {
             return Some(0.0);

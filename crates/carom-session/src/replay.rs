@@ -22,7 +22,7 @@ pub struct Replay {
     scene: Scene,
     world: World,
     setup: Arc<Setup>,
-    /// No colours: nobody looks.
+    /// No colours: a replay is not drawn.
     looks: Looks,
     changes: Arc<Vec<PastChange>>,
     /// How many of them have been made.

@@ -49,7 +49,7 @@ impl Watched {
     /// See [`Session::step`].
     ///
     /// # Errors
-    /// As there.
+    /// Those of [`Session::step`].
     pub fn step(&mut self) -> Result<(), SessionError> {
         match self {
             Self::One(session) => session.step(),
@@ -76,7 +76,7 @@ impl Watched {
     /// See [`Session::advance_seek`].
     ///
     /// # Errors
-    /// As there.
+    /// Those of [`Session::advance_seek`].
     pub fn advance_seek(&mut self, budget: u64) -> Result<bool, SessionError> {
         match self {
             Self::One(session) => session.advance_seek(budget),
@@ -101,7 +101,7 @@ impl Watched {
     /// See [`Session::edit`] and [`Comparison::edit`].
     ///
     /// # Errors
-    /// As there.
+    /// Those of [`Session::edit`].
     pub fn edit(&mut self, edit: Edit) -> Result<(), SessionError> {
         match self {
             Self::One(session) => session.edit(edit),

@@ -17,7 +17,7 @@ use crate::view::View;
 /// permitting.
 const SLICE: Duration = Duration::from_millis(8);
 
-/// A view that was not taken is renewed only so often: whoever takes none draws none.
+/// A view that was not taken is renewed only so often: a view that is not taken is not drawn.
 const UNSEEN: Duration = Duration::from_millis(33);
 
 /// On the way elsewhere, a view so often shows how far it has come.

@@ -58,7 +58,7 @@ impl LinkDialog {
             .default_width(460.0)
             .show(context, |ui| {
                 ui.label(
-                    "Whoever opens it sees this run: the same scene, with everything that was \
+                    "It opens this run: the same scene, with everything that was \
                      changed on the way, at the same time, to the bit.",
                 );
                 let mut text = link.as_str();

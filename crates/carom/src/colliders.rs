@@ -14,7 +14,7 @@ pub(crate) struct Colliders {
     surfaces: Vec<Surface>,
     /// Made when first asked for after a change.
     tree: OnceLock<SurfaceTree>,
-    /// Likewise, of triggers alone.
+    /// Tree of the surfaces of triggers, made when it is first read.
     trigger_tree: OnceLock<SurfaceTree>,
 }
 
@@ -33,7 +33,7 @@ impl Colliders {
         self.tree.get_or_init(|| SurfaceTree::of(&self.surfaces, |_| true))
     }
 
-    /// Likewise, those that report and deflect nothing.
+    /// Tree of the surfaces that report and deflect nothing.
     pub fn trigger_tree(&self) -> &SurfaceTree {
         let is_trigger = |surface: &Surface| surface.role == Role::Reports;
         self.trigger_tree.get_or_init(|| SurfaceTree::of(&self.surfaces, is_trigger))

@@ -16,7 +16,7 @@ pub(crate) fn map<M: Default, T: Send>(
     (0..count).into_par_iter().with_min_len(FEW).map_init(M::default, f).collect()
 }
 
-/// Likewise.
+/// Maps the numbers below `count` in their order, with working memory.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn map<M: Default, T: Send>(
     count: usize,
@@ -37,7 +37,7 @@ pub(crate) fn fill<A: Send, B: Send>(
     runs.for_each(|(number, run)| f(number * FEW, run));
 }
 
-/// Likewise.
+/// Has two arrays of one length filled, in one run.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn fill<A: Send, B: Send>(
     both: (&mut [A], &mut [B]),

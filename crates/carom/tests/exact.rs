@@ -274,7 +274,7 @@ fn searched(
         .collect();
     let (mut left, mut impacts) = (duration, 0);
     while left > 0.0 {
-        // Nobody goes half a box in this time.
+        // No ball goes half a box in this time.
         let fastest = v.iter().map(|v| v.length()).fold(0.0, f64::max);
         let mut first = (left.min(0.2 * size.min_element() / fastest), None);
         for i in 0..x.len() {
@@ -305,7 +305,7 @@ fn searched(
 #[test]
 fn in_periodic_boxes_of_any_width_balls_meet_as_in_a_search_among_all_images() {
     // Boxes of few cells, one to six along an axis, dilute and crowded; then of more, where flights go
-    // round several times without an impact, and where nobody gets far.
+    // round several times without an impact, and where no ball gets far.
     for (balls, size, speed) in [
         ([1, 8, 8], vec(2.0, 9.6, 9.6), 2.0),
         ([2, 5, 5], vec(2.9, 6.0, 6.0), 2.0),

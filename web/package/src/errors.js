@@ -29,7 +29,7 @@ export function attempt(call) {
   }
 }
 
-/** Likewise, about something described in JavaScript: the message spells names as it does. */
+/** An error about something described in JavaScript: the message spells names as it does. */
 export function attemptPart(call) {
   try {
     return call();

@@ -11,7 +11,7 @@
 /** Three numbers x, y, z: an array, a typed array, or anything that yields them, as `THREE.Vector3`. */
 export type Vector = Iterable<number>;
 
-/** A rotation x, y, z, w, of any length but zero; likewise. */
+/** A rotation x, y, z, w, of any length but zero, as four numbers. */
 export type Quaternion = Iterable<number>;
 
 /** Red, green, blue in [0, 1] (sRGB). */

@@ -67,7 +67,7 @@ test("impacts are those of the last frame only", () => {
   assert.deepEqual(world.impacts, []);
 });
 
-test("a trigger tells who is in it, and deflects nobody", () => {
+test("a trigger tells which spheres are in it, and deflects none", () => {
   const world = new World({ frameTime: 1 });
   const gate = world.addCollider({ shape: { box: { size: [1, 1, 1] } }, trigger: true });
   const ball = world.addSphere({ position: [-2, 0, 0], velocity: [1.5, 0, 0], radius: 0.25 });

@@ -22,7 +22,7 @@ export class Encoded {
   constructor(format) {
     this.#format = format;
     this.#begun = this.#begin();
-    // What went wrong is told to whoever adds a frame.
+    // The next frame that is added reports what went wrong.
     this.#begun.catch(() => {});
   }
 

@@ -1,4 +1,4 @@
-//! Filming for whoever waits at a terminal.
+//! Filming with progress on a terminal.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -18,7 +18,7 @@ use crate::progress::Progress;
 
 /// Films footage for so many seconds, up to a whole frame of the film, and prints a line about the film.
 ///
-/// Whatever goes wrong or whoever interrupts, what was filmed until then is a film.
+/// After an error or an interruption, the frames until then are a film.
 pub fn shoot(
     order: Order,
     (mut footage, seconds): (Box<dyn Footage>, f64),

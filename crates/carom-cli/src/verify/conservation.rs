@@ -55,7 +55,8 @@ struct Kept {
     momentum: f64,
     /// In radii.
     overlap: f64,
-    /// Likewise in any single entry of the ledger; no number where a rule keeps none.
+    /// Largest relative error of energy in a single entry of the ledger; no number where a rule keeps
+    /// none.
     impact_energy: f64,
     impact_momentum: f64,
     /// At the end.

@@ -9,7 +9,7 @@ use crate::gas::{COLLISIONS_TO_EQUILIBRIUM, Filling, Speeds, gas, run_collisions
 
 /// Fills a face-centred cubic lattice of 10 cells along an edge.
 const COUNT: usize = 4_000;
-/// Likewise of 20 cells, where there is time.
+/// Spheres of a fluid of 20 cells along each edge, for the full verification.
 const LARGE_COUNT: usize = 32_000;
 /// Collisions per sphere over which is averaged; with this many and 4,000 spheres, the standard
 /// error of the pressure is about 0.2 %.

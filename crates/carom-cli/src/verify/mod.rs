@@ -96,7 +96,7 @@ fn check_all(claims: &[Claim], rule: Rule) -> Vec<Finding> {
     findings.into_iter().map(|(_, finding)| finding).collect()
 }
 
-/// The next claim that nobody has taken yet, and its number.
+/// The next claim that no thread has taken yet, and its number.
 fn take<'a>(claims: &'a [Claim], next: &AtomicUsize) -> Option<(usize, &'a Claim)> {
     let i = next.fetch_add(1, Ordering::Relaxed);
     claims.get(i).map(|claim| (i, claim))

@@ -184,7 +184,7 @@ impl BatchEngine {
         })
     }
 
-    /// Likewise the spheres inside triggers.
+    /// The spheres inside triggers, as rows of words.
     fn _trigger_words<'py>(&self, py: Python<'py>) -> PyResult<Words<'py>> {
         self.words(py, |table, _, report| {
             table.push_triggers(&report.triggers);

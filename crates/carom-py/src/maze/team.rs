@@ -34,7 +34,7 @@ pub struct Team {
     /// None where one thread does everything.
     pool: Option<ThreadPool>,
     autoreset: Autoreset,
-    /// Where episodes start that nobody says it of.
+    /// Where episodes start unless a reset says otherwise.
     start: Start,
     /// Time that steps took \[s\].
     seconds: f64,

@@ -17,7 +17,8 @@ pub enum ContactState {
 /// - `tolerance` \[m\]: a distance within plus or minus this is touching distance
 /// - `normal_velocity` \[m/s\] of body 2 relative to body 1 along the normal from 1 to 2; closing
 ///   is negative
-/// - `normal_acceleration` \[m/s²\] likewise; asked only where the velocity leaves it open
+/// - `normal_acceleration` \[m/s²\] of body 2 relative to body 1 along the normal; computed only where
+///   the velocity leaves the state open
 pub fn classify(
     distance: f64,
     tolerance: f64,

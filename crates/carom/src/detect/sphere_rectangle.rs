@@ -20,7 +20,7 @@ pub(crate) fn sphere_rectangle(
     (height >= 0.0).then(|| sphere_rectangle_known_in_front(rectangle, center, radius))
 }
 
-/// Likewise for a sphere that is known to be in front, whatever rounding says.
+/// Separation of a rectangle and a sphere that is known to be in front of it, whatever rounding says.
 pub(crate) fn sphere_rectangle_known_in_front(
     rectangle: &Rectangle,
     center: DVec3,

@@ -41,7 +41,7 @@ pub(super) struct Motion {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Answer {
     pub motion: Motion,
-    /// Change of kinetic energy that the law asks for, reckoned against the surfaces.
+    /// Change of kinetic energy that the law demands, measured against the surfaces.
     pub energy: f64,
     /// Whether it is the answer of the law proper, not what it falls back on.
     pub complete: bool,
@@ -94,7 +94,7 @@ impl<'a> Group<'a> {
         (0..self.links.len()).any(|contact| self.is_closing(contact, velocities))
     }
 
-    /// What impulses do to the kinetic energy, reckoned against the surfaces, from the rates of
+    /// What impulses do to the kinetic energy, measured against the surfaces, from the rates of
     /// opening before and after: `Σ p (u⁻ + u⁺) / 2` (Thomson and Tait, "Treatise on Natural
     /// Philosophy", 1867, § 308).
     pub fn work(&self, impulses: &[f64], before: &[DVec3], after: &[DVec3]) -> f64 {

@@ -9,7 +9,7 @@ use super::problem::Problem;
 /// Marks a body that is in no component.
 const NONE: u32 = u32::MAX;
 
-/// Largest ratio of masses that is reckoned with; beyond it a sphere counts as heavier than it
+/// Largest ratio of masses in the computation; beyond it a sphere counts as heavier than it
 /// is. Far beyond what speeds in double precision can tell, and its square does not overflow.
 const MASS_RATIO: f64 = 1e150;
 

@@ -58,7 +58,7 @@ pub struct GroupResponse {
     /// One per contact \[N s\], >= 0: along the normal on body 2, against it on body 1. Where
     /// contacts are redundant, as in a lattice, one of many distributions.
     pub impulses: Vec<f64>,
-    /// Change of kinetic energy \[J\] that the law asks for, <= 0, without rounding; reckoned
+    /// Change of kinetic energy \[J\] that the law demands, <= 0, without rounding; measured
     /// against the surfaces, so it does not depend on their velocities.
     pub restitution_energy: f64,
     /// Kinetic energy \[J\] that moving surfaces give besides: `Σ impulse · normal · velocity`.

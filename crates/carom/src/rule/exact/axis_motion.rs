@@ -19,7 +19,8 @@ impl AxisMotion {
         self.reaches(high, 1.0).min(self.reaches(-low, -1.0))
     }
 
-    /// Likewise for one side, `distance` \[m\] away in the direction of `sign`.
+    /// A time \[s\] before which the motion does not reach one side, `distance` \[m\] away in the
+    /// direction of `sign`.
     #[inline(never)]
     fn reaches(&self, distance: f64, sign: f64) -> f64 {
         let (velocity, acceleration) = (sign * self.velocity, sign * self.acceleration);

@@ -83,7 +83,7 @@ fn gather<const SIZE: usize>(
     if has_rest { gather_rest(lists, block, found, end) } else { end }
 }
 
-/// Likewise those who are not on the first pages.
+/// Gathers the spheres that are not on the first pages.
 #[cold]
 #[inline(never)]
 fn gather_rest<const SIZE: usize>(

@@ -134,7 +134,7 @@ impl Grid {
         Self { origin: low, width, per_metre, counts, periodic, strides, runs }.with_runs()
     }
 
-    /// A grid whose cells are parts of the cells of this one, likewise.
+    /// A grid whose cells are parts of the cells of this one, none narrower than `min_width` \[m\].
     pub fn divided(&self, min_width: f64, seek: usize) -> Self {
         let counts = cell_counts(self.counts, self.width, min_width, seek);
         let parts = [0, 1, 2].map(|axis| f64::from(counts[axis] / self.counts[axis]));

@@ -89,7 +89,7 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> Lists<T, SIZE> {
         (end, Link(links).next().is_some())
     }
 
-    /// Likewise those on the further pages.
+    /// Copies the members on the further pages.
     pub fn copy_rest(&self, lists: Range<usize>, members: &mut Vec<T>, mut end: usize) -> usize {
         for mut page in &self.pages[lists] {
             while let Some(next) = page.link.next() {

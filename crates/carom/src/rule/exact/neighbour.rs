@@ -73,7 +73,7 @@ impl Neighbour {
         self.0 < 1 << SLOT_BITS
     }
 
-    /// One that is an image if this one or the other is. It is nobody.
+    /// A value that is an image if this one or the other is; it names no sphere.
     #[inline(always)]
     pub fn joined(self, other: Self) -> Self {
         Self(self.0 | other.0)

@@ -1,12 +1,12 @@
 //! Neighbours: whom a sphere can meet before one of them leaves its neighbourhood.
 //!
 //! Each sphere has a neighbourhood, a box about a place where it was. It leaves it by an event of
-//! its own, and gets another one; between such events nobody new has to be looked for.
+//! its own, and gets another one; between such events the spheres near it stay the same.
 //!
 //! Who is near is found in a hierarchy of grids. A level holds the spheres of one size class, and
 //! as visitors all smaller ones; its cells are parts of those of the level above. Two spheres that
 //! can meet lie in the same or in adjacent cells of the level of the larger one. As a rule the
-//! neighbourhood of a sphere is its cell, and whoever is in the cells around may be met.
+//! neighbourhood of a sphere is its cell, and the spheres in the cells around it may be met.
 //!
 //! Where spheres of one size are crowded, that would be many. There a neighbourhood is a cube about
 //! the sphere itself, and each has a list of the others that it can meet while both are in theirs
@@ -43,7 +43,7 @@ use crate::surface::Surface;
 const LEVEL_RATIO: f64 = 4.0;
 /// Smaller spheres than `LEVEL_RATIO` to the minus this share the last level.
 const MAX_LEVELS: usize = 24;
-/// A neighbourhood reaches beyond the cell by this part of its width, so that whoever leaves it is
+/// A neighbourhood reaches beyond the cell by this part of its width, so that a sphere that leaves it is
 /// in another cell, whatever rounding does.
 const OVERHANG: f64 = 1.0 / 256.0;
 /// A sphere has left its neighbourhood when it is this part of the half edge away from the centre:
@@ -70,7 +70,7 @@ pub(super) struct Neighbours {
     lists: Option<NeighbourLists>,
     /// Edges of the periodic box \[m\]; infinite along an open axis.
     period: DVec3,
-    /// Likewise, 0 along an open axis, about which nobody turns.
+    /// Edges of the periodic box \[m\]; 0 along an open axis, which has no images.
     edges: DVec3,
     /// One over the edges of the box \[1/m\], 0 along an open axis.
     per_edge: DVec3,
@@ -334,7 +334,7 @@ impl Neighbours {
         prefetch_index(&self.neighbourhoods, slot as usize + 1);
     }
 
-    /// Likewise the cells around a sphere, if they are needed: where there are lists, only if it
+    /// Prefetches the cells around a sphere, if they are needed: where there are lists, only if it
     /// leaves its neighbourhood.
     #[inline]
     pub fn prefetch_cells(&self, slot: u32, leaves: bool) {
@@ -350,7 +350,7 @@ impl Neighbours {
         });
     }
 
-    /// Likewise, if there are lists, the `bodies` of those on the list of a sphere; if it leaves its
+    /// Prefetches, if there are lists, the `bodies` of those on the list of a sphere; if it leaves its
     /// neighbourhood, where those are who may come onto its list.
     #[inline]
     pub fn prefetch_near(&self, slot: u32, leaves: bool, bodies: &[Body]) {
@@ -379,7 +379,7 @@ impl Neighbours {
         way_round(turns, self.period)
     }
 
-    /// Likewise of several, side by side.
+    /// The image offsets of several neighbours, side by side.
     #[inline(always)]
     pub fn shifts_of<S: Simd>(
         &self,

@@ -18,8 +18,8 @@ pub(super) fn predict(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now
 }
 
 /// Lets a sphere go on to what it meets next, where the other one of a meeting that is due `now` \[s\]
-/// began another flight before. Whoever does so looks at all around it, so that this one need not
-/// look at it again.
+/// began another flight before. A sphere that begins a flight looks at all around it, so that this one
+/// need not look at it again.
 pub(super) fn fall_back(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now: f64) {
     match timeline.outlooks[slot as usize].ahead.without_first() {
         Some(rest) if rest.first.is_never() || !timeline.is_void(&rest.first) => {
@@ -31,8 +31,8 @@ pub(super) fn fall_back(timeline: &mut Timeline, stage: &mut Stage, slot: u32, n
 
 /// What lies ahead of a sphere as of `now` \[s\].
 ///
-/// Times follow from the flights alone: whoever predicts a meeting, and whenever, finds the same
-/// time to the bit.
+/// Times follow from the flights alone: either sphere, and whenever it predicts a meeting, finds the
+/// same time to the bit.
 pub(super) fn outlook(
     timeline: &Timeline,
     system: &System,
@@ -44,7 +44,7 @@ pub(super) fn outlook(
     outlook_from_here(timeline, system, slot, around, now)
 }
 
-/// Likewise when it has looked around.
+/// What lies ahead of a sphere that has looked around.
 #[inline(always)]
 pub(super) fn outlook_from_here(
     timeline: &Timeline,
@@ -57,7 +57,7 @@ pub(super) fn outlook_from_here(
     outlook_after(timeline, system, slot, ahead, now)
 }
 
-/// Likewise when it is known which spheres it meets.
+/// What lies ahead of a sphere whose meetings with others are known.
 #[inline(always)]
 fn outlook_after(
     timeline: &Timeline,

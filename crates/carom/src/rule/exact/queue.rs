@@ -54,7 +54,7 @@ impl PartialOrd for Entry {
 pub(super) struct EventQueue {
     /// Events of the buckets before `next_bucket`, the first one last.
     current: Vec<Entry>,
-    /// Likewise, those that were added since the bucket was sorted.
+    /// Entries of the current bucket that were added since it was sorted.
     late: BinaryHeap<Reverse<Entry>>,
     /// By number: which bucket an event is in, `bucket_of` its time alone says.
     buckets: Vec<Vec<Entry>>,

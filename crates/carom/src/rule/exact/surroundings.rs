@@ -30,7 +30,7 @@ impl Surroundings {
         self.look_at_found(timeline, slot, now, besides)
     }
 
-    /// Likewise among those who were found already.
+    /// Looks for the first meetings among the spheres that were found already.
     #[inline(always)]
     pub fn look_at_found(
         &mut self,

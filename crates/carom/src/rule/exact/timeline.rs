@@ -33,7 +33,7 @@ use crate::system::System;
 /// In a periodic box, spheres are put in order of place again after this many departures per sphere:
 /// seldom enough to cost little, often enough that neighbours stay near each other in memory.
 const DEPARTURES_PER_ARRANGEMENT: u64 = 10;
-/// Likewise where all stay in the fast caches, in whatever order they are.
+/// Departures per sphere before that, where all stay in the fast caches in whatever order they are.
 const DEPARTURES_OF_FEW: u64 = 100;
 /// On open axes the spheres are arranged after this many events per sphere: they may have gathered in
 /// outermost cells, which none of them leaves.
@@ -55,7 +55,7 @@ pub(crate) struct Timeline {
     /// What lies ahead of each sphere, by slot.
     pub(super) outlooks: Vec<Outlook>,
     pub(super) kinds: Vec<Kind>,
-    /// Kinds that nobody is of.
+    /// Kinds without spheres.
     spare_kinds: Vec<u32>,
     /// Number of each sphere's flight at the start of the frame, by slot.
     flights_before: Vec<u32>,
@@ -411,7 +411,7 @@ impl Timeline {
         self.kinds[kind as usize].acceleration = acceleration;
     }
 
-    /// Likewise without the forces of its lasting contacts, if it is in any.
+    /// Sets the acceleration of a sphere without the forces of its persistent contacts \[m/s²\].
     pub fn set_free_acceleration(&mut self, slot: u32, acceleration: DVec3) {
         let free = self.kind_of(slot).free;
         self.kinds[free as usize].acceleration = acceleration;
@@ -569,7 +569,7 @@ impl Timeline {
         is_elsewhere && self.fold_into_box(slot)
     }
 
-    /// Likewise if it may be outside.
+    /// Folds the place where a flight begins into the periodic box, where it may be outside.
     #[inline(never)]
     fn fold_into_box(&mut self, slot: u32) -> bool {
         let body = &mut self.bodies[slot as usize];
@@ -594,7 +594,7 @@ impl Timeline {
     /// The first sphere, by index, that is not anywhere at `time` \[s\], and which of its quantities is
     /// not finite.
     pub fn lost(&self, time: f64) -> Option<(usize, &'static str)> {
-        // As a rule nobody can be that far, whatever drag does, and no path need be followed.
+        // As a rule no sphere can be that far, whatever drag does, and no path need be followed.
         let pull = self.kinds.iter().map(|kind| kind.acceleration.abs().element_sum()).sum();
         if dispatch!(Level::new(), simd => self.farthest(simd, time, pull)).is_finite() {
             return None;

@@ -368,7 +368,8 @@ impl<'a> Gathering<'a> {
         self.connect([first, second], shift);
     }
 
-    /// Likewise for a sphere and a surface.
+    /// Notes that a sphere and a surface touch, whatever rounding says: in a periodic box, the nearest
+    /// image of the surface.
     fn connect_surface(&mut self, slot: u32, surface: u32, is_given: bool) {
         let sphere = self.timeline.index_of[slot as usize];
         let bodies = Bodies::Surface { sphere, surface };

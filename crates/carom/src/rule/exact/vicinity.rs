@@ -116,7 +116,7 @@ impl Vicinity {
         })
     }
 
-    /// They, and nobody behind them.
+    /// The neighbours, with places that hold none behind them.
     #[inline(always)]
     fn filled_up(&mut self) -> &[[Neighbour; LINE]] {
         let end = self.len.next_multiple_of(LINE);

@@ -1,0 +1,91 @@
+//! Keeps comments and documents in plain words: the subject of a sentence is the thing that acts, and
+//! each doc comment stands alone.
+
+use std::fs;
+use std::path::Path;
+
+use crate::shell::{Outcome, root};
+
+/// Words without which every sentence here can do.
+const WORDS: [&str; 3] = ["whoever", "nobody", "reckoned"];
+/// Openings that send a reader elsewhere.
+const OPENINGS: [&str; 2] = ["Likewise", "As there."];
+
+/// What is read: folders, and the documents beside them.
+const PLACES: [&str; 8] =
+    ["crates", "xtask", "python", "docs", "web", "README.md", "ARCHITECTURE.md", "CHANGELOG.md"];
+const ENDINGS: [&str; 7] = ["rs", "py", "pyi", "md", "ts", "mjs", "js"];
+/// Folders of what others wrote, or programs made.
+const FOREIGN: [&str; 5] = ["node_modules", "target", "dist", "module", "test-results"];
+
+/// Refuses such words and openings in sources and documents.
+pub fn check() -> Outcome {
+    let mut faults = Vec::new();
+    for place in PLACES {
+        check_place(&root().join(place), &mut faults).map_err(|error| error.to_string())?;
+    }
+    if faults.is_empty() { Ok(()) } else { Err(format!("plain words:\n{}", faults.join("\n"))) }
+}
+
+fn check_place(path: &Path, faults: &mut Vec<String>) -> std::io::Result<()> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    if path.is_dir() {
+        if !FOREIGN.contains(&name.as_ref()) {
+            for entry in fs::read_dir(path)? {
+                check_place(&entry?.path(), faults)?;
+            }
+        }
+        return Ok(());
+    }
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let is_this_list = path.ends_with("xtask/src/words.rs");
+    if !ENDINGS.contains(&ending.as_ref()) || is_this_list {
+        return Ok(());
+    }
+    let text = fs::read_to_string(path)?;
+    for (number, line) in (1..).zip(text.lines()) {
+        if let Some(fault) = fault_of(line) {
+            let place = path.strip_prefix(root()).unwrap_or(path).display();
+            faults.push(format!("{place}:{number}: \"{fault}\" in: {}", line.trim()));
+        }
+    }
+    Ok(())
+}
+
+/// The word or opening of a line that is refused, if there is one.
+fn fault_of(line: &str) -> Option<&'static str> {
+    let mut words = line.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
+    let is_refused = |word: &&str| WORDS.iter().any(|it| is_word(it, word));
+    if let Some(word) = words.find(is_refused) {
+        return WORDS.into_iter().find(|it| is_word(it, word));
+    }
+    let marks = |letter: char| "/!*#\"-| ".contains(letter);
+    let text = line.trim_start_matches(marks);
+    OPENINGS.into_iter().find(|opening| text.starts_with(opening))
+}
+
+/// Whether this is the word, small or at the beginning of a sentence; names in capitals are others.
+fn is_word(word: &str, found: &str) -> bool {
+    let mut letters = found.chars();
+    let first = letters.next().map(|letter| letter.to_ascii_lowercase());
+    first.into_iter().chain(letters).eq(word.chars())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fault_of;
+
+    #[test]
+    fn refused_words_and_openings_are_found() {
+        assert_eq!(fault_of("/// Likewise for a sphere."), Some("Likewise"));
+        assert_eq!(fault_of("    // Nobody reads it, so"), Some("nobody"));
+        assert_eq!(fault_of("the times, reckoned anew"), Some("reckoned"));
+    }
+
+    #[test]
+    fn other_lines_pass() {
+        for line in ["const NOBODY: i64 = -1;", "counts as there.", "let nobody_is = 1;", ""] {
+            assert_eq!(fault_of(line), None, "{line}");
+        }
+    }
+}
