@@ -68,6 +68,8 @@ fn add_panel(
             let size = (half, grid_distance(2.0 * half.max_element()));
             faces.push(packed_panel(panel, panel.pose.position - eye, 0.0, size));
         }
+        // From within, a half-space would hide all there is: a box of walls is open towards the eye.
+        Shape::HalfSpace if height_over(panel, eye) < 0.0 => {}
         Shape::HalfSpace => faces.push(packed_half_space(panel, eye, radius)),
         // Spheres are balls.
         _ => {}
@@ -127,6 +129,11 @@ fn packed_panel(
 fn packed_box(panel: &Panel, size: DVec3, eye: DVec3) -> PackedPanel {
     let size = (0.5 * size, grid_distance(size.max_element()));
     packed_panel(panel, panel.pose.position - eye, 1.0, size)
+}
+
+/// How far a point is in front of the plane of a panel \[m\].
+fn height_over(panel: &Panel, point: DVec3) -> f64 {
+    (panel.pose.rotation.normalize().inverse() * (point - panel.pose.position)).y
 }
 
 /// A half-space as a large square, moved along with the eye in steps of its grid, so that neither

@@ -100,6 +100,19 @@ fn the_back_of_a_rectangle_is_told_from_its_front() {
 }
 
 #[test]
+fn a_wall_seen_from_within_hides_nothing() {
+    let mut drawing = in_the_dark();
+    drawing.balls.push(ball(DVec3::ZERO, 1.0, [1.0, 0.0, 0.0]));
+    let wall = |normal: DVec3| {
+        let rotation = DQuat::from_rotation_arc(DVec3::Y, normal);
+        Pose { position: -2.0 * normal, rotation }
+    };
+    drawing.add_collider(Shape::HalfSpace, wall(DVec3::NEG_Z), [0.9, 0.9, 0.9], false);
+    let picture = drawn(&drawing, &camera_in_front(6.0), Quality::DRAFT);
+    assert_eq!(pixel(&picture, 200, 150), [255, 0, 0]);
+}
+
+#[test]
 fn a_ball_shades_the_floor_away_from_the_sun() {
     let mut drawing = Drawing::default();
     let shape = Shape::Rectangle { size_x: 20.0, size_z: 20.0 };
