@@ -40,6 +40,9 @@ impl Display for EmitterId {
 const MAX_PER_FRAME: f64 = 1e6;
 
 /// Emits a sphere at the times 0, period, 2 period, ... after it entered the world.
+///
+/// When it emits depends on no sphere: one that is in the way is overlapped. A stream of spheres needs
+/// a period in which each leaves its place, and room below it for all of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Emitter {
     /// What is emitted, in the emitter's frame: `position` \[m\] is an offset from the emitter's
