@@ -52,9 +52,9 @@ impl Group {
     /// What can be resolved of a contact of the group. Where one contact is curved, the spheres that it
     /// moves have the error of its path in all their contacts.
     pub fn scale(&self, touch: &Touch) -> ContactScale {
-        let spheres = touch.first.into_iter().chain([touch.second]);
         let is_curved = self.touches.iter().any(Touch::bends);
-        spheres
+        touch
+            .places()
             .map(|place| &self.members[place])
             .fold(ContactScale { is_curved, ..ContactScale::default() }, |scale, member| {
                 scale.with(member.position, member.velocity, &member.kind)

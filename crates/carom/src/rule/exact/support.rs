@@ -12,7 +12,7 @@ use super::touch::{TOUCHING, Touch, beyond};
 use crate::detect::contact::Bodies;
 use crate::flight::Propagator;
 use crate::norm::Norm;
-use crate::respond::{contact_forces_within, least_change, restitution_of};
+use crate::respond::{TouchingContact, contact_forces_within, least_change, restitution_of};
 use crate::sum::Sum;
 use crate::surface::{Form, Rectangle};
 use crate::work::Work;
@@ -114,7 +114,7 @@ fn staying(work: &Work, members: &[Member], slow: &[Touch]) -> (Vec<Touch>, Vec<
     let mut is_borne = vec![false; members.len()];
     for (touch, &force) in slow.iter().zip(&forces) {
         if force > 0.0 {
-            touch.first.into_iter().chain([touch.second]).for_each(|place| is_borne[place] = true);
+            touch.places().for_each(|place| is_borne[place] = true);
         }
     }
     let accelerations = borne(members, slow, &forces);
@@ -128,8 +128,7 @@ fn staying(work: &Work, members: &[Member], slow: &[Touch]) -> (Vec<Touch>, Vec<
 
 /// Whether a contact does not open, but for rounding.
 fn is_idle(accelerations: &Accelerations, touch: &Touch, members: &[Member]) -> bool {
-    let scale = free_acceleration(&members[touch.second]).norm() + accelerations.largest;
-    accelerations.along(touch, members) <= IDLE * scale
+    accelerations.along(touch, members) <= IDLE * accelerations.scale_at(touch, members)
 }
 
 /// Adds slow touches that open now and would close under the accelerations of the middle of a turn:
@@ -142,10 +141,9 @@ fn lean(
     lasting: &mut Vec<Touch>,
 ) {
     let leans = |touch: &&Touch| {
-        let scale = free_acceleration(&members[touch.second]).norm() + accelerations.largest;
         let closing = -accelerations.along(touch, members);
         closing > 0.0
-            && closing <= TURN * scale
+            && closing <= TURN * accelerations.scale_at(touch, members)
             && !lasting.iter().any(|known| known.bodies == touch.bodies)
     };
     let leaning: Vec<Touch> = slow.iter().filter(leans).copied().collect();
@@ -167,8 +165,7 @@ pub(super) fn free_acceleration(member: &Member) -> DVec3 {
 /// Acceleration of the gap \[m/s²\] that comes from the turning of the normal: `v²/R` where the
 /// bodies slide along a curve, and the swing of a surface that turns.
 fn bias(touch: &Touch, members: &[Member]) -> f64 {
-    let velocity = touch.relative_velocity(members);
-    let tangential = velocity - velocity.dot(touch.normal) * touch.normal;
+    let tangential = touch.across(touch.relative_velocity(members));
     let sliding = touch.bend.turning(tangential);
     let curve = sliding.map_or(0.0, |(turning, distance)| turning.length_squared() / distance);
     let spin = touch.surface_spin;
@@ -179,10 +176,15 @@ fn bias(touch: &Touch, members: &[Member]) -> f64 {
     curve + 2.0 * spin.cross(touch.normal).dot(tangential) + touch.surface_pull.dot(touch.normal)
 }
 
+/// Touches and the masses of the members \[kg\], as the solvers take them.
+fn contacts_and_masses(members: &[Member], touches: &[Touch]) -> (Vec<TouchingContact>, Vec<f64>) {
+    let contacts = touches.iter().map(Touch::contact).collect();
+    (contacts, members.iter().map(|member| member.kind.mass).collect())
+}
+
 /// Forces \[N\] of contacts, each >= 0.
 fn forces(work: &Work, members: &[Member], touches: &[Touch]) -> Vec<f64> {
-    let contacts: Vec<_> = touches.iter().map(Touch::contact).collect();
-    let masses: Vec<f64> = members.iter().map(|member| member.kind.mass).collect();
+    let (contacts, masses) = contacts_and_masses(members, touches);
     let mut accelerations: Vec<DVec3> = members.iter().map(free_acceleration).collect();
     let bias: Vec<f64> = touches.iter().map(|touch| bias(touch, members)).collect();
     contact_forces_within(work, &contacts, &masses, &mut accelerations, &bias).forces
@@ -197,6 +199,11 @@ struct Accelerations {
 }
 
 impl Accelerations {
+    /// Accelerations at work at a contact \[m/s²\].
+    fn scale_at(&self, touch: &Touch, members: &[Member]) -> f64 {
+        free_acceleration(&members[touch.second]).norm() + self.largest
+    }
+
     /// Acceleration of a gap \[m/s²\].
     fn along(&self, touch: &Touch, members: &[Member]) -> f64 {
         let total = |place: usize| {
@@ -242,10 +249,9 @@ fn turning_time(
             accelerations.each[place] - members[place].kind.drag_rate * members[place].velocity
         };
         let relative = acceleration(touch.second) - touch.first.map_or(DVec3::ZERO, acceleration);
-        let across = |vector: DVec3| vector - vector.dot(touch.normal) * touch.normal;
-        let velocity = across(touch.relative_velocity(members));
+        let velocity = touch.across(touch.relative_velocity(members));
         let (Some((velocity, distance)), Some((acceleration, _))) =
-            (touch.bend.turning(velocity), touch.bend.turning(across(relative)))
+            (touch.bend.turning(velocity), touch.bend.turning(touch.across(relative)))
         else {
             continue;
         };
@@ -254,8 +260,7 @@ fn turning_time(
             time = time.min(TURN * distance / velocity.norm());
         }
         if velocity.norm() > 0.0 || acceleration.norm() > scale {
-            let spheres = touch.first.into_iter().chain([touch.second]);
-            let radii = spheres.map(|place| members[place].kind.radius);
+            let radii = touch.places().map(|place| members[place].kind.radius);
             let length = 0.25 * radii.fold(distance, f64::min);
             let acceleration = acceleration.norm().max(scale);
             time = time.min((2.0 * TURN * length / acceleration).sqrt());
@@ -331,17 +336,14 @@ struct Ending {
 
 /// Whether no sphere in contact moves.
 fn is_at_rest(members: &[Member], touches: &[Touch]) -> bool {
-    let places = touches.iter().flat_map(|touch| touch.first.into_iter().chain([touch.second]));
-    places.into_iter().all(|place| members[place].velocity == DVec3::ZERO)
+    touches.iter().flat_map(Touch::places).all(|place| members[place].velocity == DVec3::ZERO)
 }
 
 /// The accelerations where spheres in contact have none: a motion that from rest would gain energy is
 /// the rounding of a cluster that is jammed.
 fn stopped(mut accelerations: Accelerations, touches: &[Touch]) -> Accelerations {
-    for touch in touches {
-        for place in touch.first.into_iter().chain([touch.second]) {
-            accelerations.each[place] = DVec3::ZERO;
-        }
+    for place in touches.iter().flat_map(Touch::places) {
+        accelerations.each[place] = DVec3::ZERO;
     }
     accelerations
 }
@@ -541,8 +543,7 @@ pub(super) fn correct(stage: &Stage, group: &mut Group, touches: &mut Vec<Touch>
 /// The least moves of the members, weighted by mass, after which none of the contacts overlaps: the
 /// problem of contact forces, with moves for accelerations.
 fn separations(work: &Work, members: &[Member], touches: &[Touch]) -> Vec<DVec3> {
-    let contacts: Vec<_> = touches.iter().map(Touch::contact).collect();
-    let masses: Vec<f64> = members.iter().map(|member| member.kind.mass).collect();
+    let (contacts, masses) = contacts_and_masses(members, touches);
     let gaps: Vec<f64> = touches.iter().map(|touch| touch.gap).collect();
     let mut moves = vec![DVec3::ZERO; members.len()];
     if contact_forces_within(work, &contacts, &masses, &mut moves, &gaps).complete {
@@ -563,7 +564,6 @@ fn stop_along_normals(work: &Work, members: &mut [Member], touches: &[Touch]) {
 
 /// The least change of the members, weighted by mass, that takes away `excess` along the normals.
 fn corrections(work: &Work, members: &[Member], touches: &[Touch], excess: &[f64]) -> Vec<DVec3> {
-    let contacts: Vec<_> = touches.iter().map(Touch::contact).collect();
-    let masses: Vec<f64> = members.iter().map(|member| member.kind.mass).collect();
+    let (contacts, masses) = contacts_and_masses(members, touches);
     least_change(work, &contacts, &masses, excess)
 }

@@ -79,6 +79,16 @@ impl Bend {
 }
 
 impl Touch {
+    /// Places of its spheres among the members.
+    pub fn places(&self) -> impl Iterator<Item = usize> + use<> {
+        self.first.into_iter().chain([self.second])
+    }
+
+    /// The part of a vector across the normal.
+    pub fn across(&self, vector: DVec3) -> DVec3 {
+        vector - vector.dot(self.normal) * self.normal
+    }
+
     /// Velocity of body 2 relative to body 1 \[m/s\].
     pub fn relative_velocity(&self, members: &[Member]) -> DVec3 {
         let first = self.first.map_or(self.surface_velocity, |first| members[first].velocity);
@@ -92,8 +102,7 @@ impl Touch {
 
     /// Velocity of sliding along which its normal turns \[m/s\]: zero on a plane.
     pub fn sliding(&self, members: &[Member]) -> DVec3 {
-        let velocity = self.relative_velocity(members);
-        let tangential = velocity - velocity.dot(self.normal) * self.normal;
+        let tangential = self.across(self.relative_velocity(members));
         self.bend.turning(tangential).map_or(DVec3::ZERO, |(velocity, _)| velocity)
     }
 
