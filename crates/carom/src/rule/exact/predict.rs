@@ -77,6 +77,10 @@ fn outlook_after(
         let time = timeline.clusters.renewal_by(cluster, slot);
         ahead.add(Event { time, target: Target::CLUSTER, flights: 0 });
     }
+    if ahead.first.time < now {
+        // It was passed over. From the start of another flight it is found again only if it closes.
+        ahead = Ahead::only(Event { time: now, target: Target::RESTART, flights: 0 });
+    }
     let departure = if stays { f64::INFINITY } else { neighbours.departure(slot, body, kind, now) };
     Outlook { ahead, departure }
 }
