@@ -96,7 +96,7 @@ pub(crate) fn without_drag<N: Real>(
     velocity: Vector<N>,
     acceleration: Vector<N>,
 ) -> (Vector<N>, Vector<N>) {
-    let fall = (t * 0.5 * t).at_most(f64::MAX);
+    let fall = (t * 0.5 * t).min(f64::MAX);
     (position + (velocity * t + acceleration * fall), velocity + acceleration * t)
 }
 

@@ -84,24 +84,24 @@ impl<S: Simd> Lanes<S> {
 
     /// These where they are chosen, and others elsewhere.
     #[inline(always)]
-    pub fn where_chosen(self, chosen: mask64x4<S>, others: Self) -> Self {
+    pub fn select(self, chosen: mask64x4<S>, others: Self) -> Self {
         Self(chosen.select(self.0, others.0))
     }
 }
 
 impl<S: Simd> Real for Lanes<S> {
     #[inline(always)]
-    fn square_root(self) -> Self {
+    fn sqrt(self) -> Self {
         Self(self.0.sqrt())
     }
 
     #[inline(always)]
-    fn or_larger(self, other: Self) -> Self {
-        other.where_chosen(self.is_less(other), self)
+    fn max(self, other: Self) -> Self {
+        other.select(self.is_less(other), self)
     }
 
     #[inline(always)]
-    fn at_most(self, bound: f64) -> Self {
+    fn min(self, bound: f64) -> Self {
         Self(self.0.min(bound))
     }
 }
@@ -185,7 +185,7 @@ impl<S: Simd> Vector<Lanes<S>> {
 
     /// Sum of the sizes of the components.
     #[inline(always)]
-    pub fn size(self) -> Lanes<S> {
+    pub fn l1_norm(self) -> Lanes<S> {
         self.x.abs() + self.y.abs() + self.z.abs()
     }
 
@@ -228,7 +228,7 @@ mod tests {
     #[inline(always)]
     fn approach<N: Real>(offset: Vector<N>, velocity: Vector<N>, radius_sum: N) -> [N; 3] {
         let approach = Approach::of(offset, velocity, radius_sum);
-        let distance = offset.length_squared().square_root();
+        let distance = offset.length_squared().sqrt();
         let time = approach.time(distance - radius_sum, distance + radius_sum);
         [approach.closing, approach.discriminant, time]
     }

@@ -14,26 +14,26 @@ pub(crate) trait Real:
     + Mul<f64, Output = Self>
     + Div<Output = Self>
 {
-    fn square_root(self) -> Self;
+    fn sqrt(self) -> Self;
     /// The larger one of each two, neither of them NaN.
-    fn or_larger(self, other: Self) -> Self;
+    fn max(self, other: Self) -> Self;
     /// At most `bound`; neither is NaN.
-    fn at_most(self, bound: f64) -> Self;
+    fn min(self, bound: f64) -> Self;
 }
 
 impl Real for f64 {
     #[inline(always)]
-    fn square_root(self) -> Self {
-        self.sqrt()
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
     }
 
     #[inline(always)]
-    fn or_larger(self, other: Self) -> Self {
+    fn max(self, other: Self) -> Self {
         if other > self { other } else { self }
     }
 
     #[inline(always)]
-    fn at_most(self, bound: f64) -> Self {
+    fn min(self, bound: f64) -> Self {
         if self > bound { bound } else { self }
     }
 }

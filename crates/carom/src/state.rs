@@ -13,7 +13,8 @@ use crate::error::{Error, Subject};
 use crate::forces::Force;
 use crate::numbered::Numbered;
 use crate::report::StepReport;
-use crate::rule::exact::{self, Span, Timeline, Unfinished};
+use crate::rule::Exact;
+use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished};
 use crate::settings::Settings;
 use crate::system::System;
 use crate::validate;
@@ -104,12 +105,12 @@ impl State {
         let next = emitter::next_due(emitters);
         if let (Some(timeline), Some(ids)) = (self.timeline.take(), ids) {
             let (system, motion) = self.split();
-            let due = |id| match emission.emitted.binary_search(&id) {
+            let time_of = |id| match emission.emitted.binary_search(&id) {
                 Ok(place) => emission.due[place],
                 Err(_) => time,
             };
-            let span = [time, next];
-            self.timeline = Some(Timeline::adopt(&timeline, &ids, (&system, &*motion), span, due));
+            let arrivals = Arrivals { known: &ids, time_of, next };
+            self.timeline = Some(exact::adopt(&timeline, &system, motion, arrivals, time));
         }
         emission
     }
@@ -119,14 +120,15 @@ impl State {
     /// # Errors
     /// [`Error::NonFiniteState`] if a force is not finite, [`Error::Invalid`] if a periodic box is
     /// too small for the spheres or if there are too many of them.
-    pub fn begin_frame(&mut self, frame: [f64; 2]) -> Result<(), Error> {
+    pub fn begin_frame(&mut self, parameters: Exact, frame: [f64; 2]) -> Result<(), Error> {
         self.check_count()?;
         self.check_box()?;
         let timeline = self.timeline.take();
         let next_emission = emitter::next_due(&self.emitters);
         let (system, motion) = self.split();
-        let mut timeline = timeline.unwrap_or_else(|| Timeline::new(&system, motion, frame[0]));
-        let begun = timeline.begin_frame(&system, frame, next_emission);
+        let start = || exact::start(&system, parameters, motion, frame[0]);
+        let mut timeline = timeline.unwrap_or_else(start);
+        let begun = exact::begin(&mut timeline, &system, frame, next_emission);
         self.timeline = Some(timeline);
         let time = frame[0];
         begun.map_err(|sphere| Error::NonFiniteState { sphere, quantity: "velocity", time })
@@ -174,12 +176,11 @@ impl State {
     /// [`Error::NonFiniteState`] if one is nowhere; then none is moved.
     pub fn end_frame(&mut self, span: Span) -> Result<(), Error> {
         let Some(timeline) = self.timeline.take() else { return Ok(()) };
-        if let Some((index, quantity)) = timeline.lost(span.end) {
-            let (sphere, time) = (self.spheres.ids()[index], self.clock.seconds());
-            return Err(Error::NonFiniteState { sphere, quantity, time });
-        }
         let (system, motion) = self.split();
-        exact::write_motion(&system, &timeline, motion, span);
+        exact::end(&timeline, &system, motion, span).map_err(|(index, quantity)| {
+            let (sphere, time) = (self.spheres.ids()[index], self.clock.seconds());
+            Error::NonFiniteState { sphere, quantity, time }
+        })?;
         self.timeline = Some(timeline);
         Ok(())
     }

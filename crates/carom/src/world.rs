@@ -16,7 +16,7 @@ use crate::invariants;
 use crate::numbered::Numbered;
 use crate::report::{Overlap, StepReport, TriggerContact};
 use crate::rule::exact::Span;
-use crate::rule::{self, Rule, Scratch};
+use crate::rule::{self, Exact, Rule, Scratch};
 use crate::settings::Settings;
 use crate::state::State;
 use crate::validate;
@@ -115,8 +115,8 @@ impl World {
 
         let mut before_emission = None;
         let moved = match self.state.settings.rule {
-            Rule::Exact(_) => {
-                self.advance_exactly(dt, clock.seconds(), &work, &mut before_emission)
+            Rule::Exact(parameters) => {
+                self.advance_exactly(parameters, dt, clock.seconds(), &work, &mut before_emission)
             }
             Rule::Discrete | Rule::Bisect(_) => self.advance_by_frame(dt, &mut before_emission),
         };
@@ -162,13 +162,14 @@ impl World {
     /// frame comes at its own time. If that fails, no sphere was moved.
     fn advance_exactly(
         &mut self,
+        parameters: Exact,
         length: f64,
         end: f64,
         work: &Work,
         before: &mut Option<BeforeEmission>,
     ) -> Result<(), Error> {
         let start = self.time();
-        self.state.begin_frame([start, end])?;
+        self.state.begin_frame(parameters, [start, end])?;
         self.emit(start, before);
         loop {
             let due = emitter::next_due(&self.state.emitters);

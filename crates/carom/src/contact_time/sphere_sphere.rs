@@ -69,7 +69,7 @@ impl<N: Real> Approach<N> {
     /// When they meet \[s\], from |r| - R and |r| + R \[m\].
     #[inline(always)]
     pub fn time(&self, gap: N, sum: N) -> N {
-        gap * sum / (self.discriminant.square_root() - self.closing)
+        gap * sum / (self.discriminant.sqrt() - self.closing)
     }
 }
 

@@ -1,68 +1,42 @@
 //! The rule `exact`: spheres fly in closed form from event to event.
 //!
-//! 1. **predict** what each sphere comes upon next: another sphere, a surface, the end of its neighbourhood
+//! 1. **predict** what each sphere meets next: another sphere, a surface, the end of its neighbour region
 //! 2. take the first event from the **queue**
 //! 3. **impact**: answer it, with all that touch there, and predict anew what changed
 //!
 //! until the frame ends. What was predicted stays good from frame to frame.
 
-mod alone;
-mod axis_motion;
-mod body;
-mod bounce;
-mod carry;
-mod cells;
-mod cluster;
-mod contact_duration;
-mod corner;
+mod clearance;
+mod contact_scale;
+mod contacts;
+mod context;
+mod events;
 mod flights;
-mod follow_up;
-mod grid;
-mod group;
-mod hold;
+mod frame;
+mod frame_work;
 mod impact;
-mod lists;
-mod near_surfaces;
-mod neighbour;
 mod neighbours;
-mod outlook;
+mod pair_times;
 mod periodic;
+mod persistent;
 mod predict;
-mod queue;
-mod room;
-mod settle;
-mod sight;
-mod stage;
-mod support;
-mod surroundings;
+mod prefetch;
+mod span;
 mod timeline;
-mod touch;
-mod vicinity;
 
-pub(crate) use neighbour::MAX_SPHERES;
-use outlook::{Next, Upon};
-use stage::Stage;
+pub(crate) use frame::{Arrivals, adopt, begin, end, start};
+pub(crate) use neighbours::MAX_SPHERES;
+pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
 
-use super::Rule;
-use crate::bodies::{Motion, SphereId};
+use context::StepContext;
+use events::{EventTarget, UpcomingEvent};
+use frame_work::UNITS_PER_FLIGHT;
+
+use crate::bodies::SphereId;
 use crate::report::StepReport;
 use crate::system::System;
 use crate::work::Work;
-
-/// A step, or its part up to some time, on the world's clock \[s\].
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Span {
-    /// Beginning of the step.
-    pub start: f64,
-    /// Length of the step \[s\].
-    pub length: f64,
-    /// End of the part.
-    pub end: f64,
-}
-
-/// Units of work that count as much as one flight of a sphere.
-const UNITS_PER_FLIGHT: u64 = 32;
 
 /// Why a part of a frame was not taken to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,74 +52,66 @@ pub(crate) enum Unfinished {
         /// When it happened, on the world's clock \[s\].
         time: f64,
     },
-    /// It was asked to stop.
+    /// A stop request came.
     Stopped,
 }
 
-/// Writes where all spheres are at the end of a part of a step, and how they move there.
-pub(crate) fn write_motion(
-    system: &System,
-    timeline: &Timeline,
-    motion: &mut Motion,
-    Span { start, length, end }: Span,
-) {
-    let period = system.settings.boundary.period();
-    timeline.write_motion(motion, period, end);
-    let Rule::Exact(parameters) = system.settings.rule else { return };
-    let (around, report) = (Default::default(), &mut StepReport::default());
-    let work = &Work::unlimited();
-    let stage = Stage { system, parameters, report, work, start, length, period, around };
-    settle::write_motion(timeline, &stage, motion, end);
-}
-
-/// Advances all spheres to `end` \[s\] on the world's clock, in the step that began at `start`
-/// (`docs/physics.md`, rule `exact`).
+/// Advances all spheres to the end of a span (`docs/physics.md`, rule `exact`).
 pub(crate) fn advance(
     system: &System,
     timeline: &mut Timeline,
-    Span { start, length, end }: Span,
+    span: Span,
     work: &Work,
     report: &mut StepReport,
 ) -> Result<(), Unfinished> {
-    let Rule::Exact(parameters) = system.settings.rule else { return Ok(()) };
-    let period = system.settings.boundary.period();
-    let around = Default::default();
-    let mut stage = Stage { system, parameters, report, work, start, length, period, around };
-    while let Some((slot, next)) = timeline.next(system, end) {
+    let mut context = StepContext::new(system, timeline.parameters, span, work, report);
+    while let Some((slot, next)) = timeline.next(span.end) {
+        prefetch::upcoming_events(timeline, system);
         if !work.spend(UNITS_PER_FLIGHT) {
             return Err(Unfinished::Stopped);
         }
         let event = match next {
-            Next::Event(event) => event,
-            Next::Departure(time) => {
-                predict::relocate(timeline, &mut stage, slot, time);
+            UpcomingEvent::Event(event) => event,
+            UpcomingEvent::CellCrossing(time) => {
+                predict::cross_cell(timeline, &mut context, slot, time);
                 continue;
             }
         };
-        match event.target.upon() {
-            Upon::Restart => predict::restart(timeline, &mut stage, slot, event.time),
-            Upon::Sphere(_) if timeline.is_void(&event) => {
-                predict::fall_back(timeline, &mut stage, slot, event.time);
+        match event.target.unpacked() {
+            EventTarget::Restart => predict::restart(timeline, &mut context, slot, event.time),
+            EventTarget::Sphere(_) if timeline.is_void(&event) => {
+                predict::fall_back(timeline, &mut context, slot, event.time);
             }
-            Upon::Sphere(other) => {
-                impact::of_spheres(timeline, &mut stage, [slot, other], event.time);
+            EventTarget::Sphere(other) => {
+                impact::of_spheres(timeline, &mut context, [slot, other], event.time);
             }
-            Upon::Surface(surface) => {
-                bounce::answer(timeline, &mut stage, slot, Some(surface), event.time);
+            EventTarget::Surface(surface) => {
+                impact::of_sphere(timeline, &mut context, slot, Some(surface), event.time);
             }
-            Upon::Cluster => bounce::answer(timeline, &mut stage, slot, None, event.time),
+            EventTarget::Cluster => {
+                impact::of_sphere(timeline, &mut context, slot, None, event.time);
+            }
         }
         if work.is_stopped() {
             return Err(Unfinished::Stopped);
         }
-        if timeline.work_in_frame(slot) > u64::from(parameters.max_impacts) {
-            return Err(Unfinished::TooManyImpacts {
-                sphere: stage.id_of(timeline, slot),
-                limit: parameters.max_impacts,
-                companions: timeline.companions(slot),
-                time: event.time,
-            });
-        }
+        check_work(timeline, &context, slot, event.time)?;
     }
     Ok(())
+}
+
+/// Refuses more work of a sphere in a frame than the parameters allow.
+fn check_work(
+    timeline: &Timeline,
+    context: &StepContext,
+    slot: u32,
+    time: f64,
+) -> Result<(), Unfinished> {
+    let limit = context.parameters.max_impacts;
+    if timeline.work_in_frame(slot) <= u64::from(limit) {
+        return Ok(());
+    }
+    let sphere = context.id_of(timeline, slot);
+    let companions = timeline.flights.companions(slot);
+    Err(Unfinished::TooManyImpacts { sphere, limit, companions, time })
 }

@@ -1,41 +1,43 @@
-//! Places in a periodic box.
+//! Positions in a periodic box.
+//!
+//! An image offset counts boxes along each axis; the shift is that way in metres.
 
 use glam::DVec3;
 
-/// The image of a place in the box about the origin \[m\]. `period` has the edges of the box,
+/// The image of a position in the box about the origin \[m\]. `period` has the edges of the box,
 /// infinite along an open axis.
-pub(super) fn folded(place: DVec3, period: DVec3) -> DVec3 {
-    match turns_of(place, period) {
-        [0, 0, 0] => place,
-        turns => place - way_round(turns, period),
+pub(super) fn wrapped(position: DVec3, period: DVec3) -> DVec3 {
+    match image_offset_of(position, period) {
+        [0, 0, 0] => position,
+        offset => position - image_shift(offset, period),
     }
 }
 
-/// Whether a place is in the box about the origin.
+/// Whether a position is in the box about the origin.
 #[inline(always)]
-pub(super) fn is_in_box(place: DVec3, period: DVec3) -> bool {
-    // One question for all axes, not three that no processor can foresee.
-    place.abs().cmple(0.5 * period).all()
+pub(super) fn is_in_box(position: DVec3, period: DVec3) -> bool {
+    // One comparison for all axes, not three branches that the processor cannot predict.
+    position.abs().cmple(0.5 * period).all()
 }
 
-/// How often a place went round each periodic axis: 0 in the box about the origin.
+/// How many boxes a position is away from the box about the origin, along each periodic axis.
 #[inline]
-pub(super) fn turns_of(place: DVec3, period: DVec3) -> [i32; 3] {
-    if is_in_box(place, period) {
+pub(super) fn image_offset_of(position: DVec3, period: DVec3) -> [i32; 3] {
+    if is_in_box(position, period) {
         return [0; 3];
     }
     [0, 1, 2].map(|axis| {
-        // An axis that is open has no turns.
-        let turns = place[axis] / period[axis] + 0.5;
-        turns.floor() as i32
+        // Along an open axis this is a half, so 0.
+        let boxes = position[axis] / period[axis] + 0.5;
+        boxes.floor() as i32
     })
 }
 
-/// The way round each periodic axis this often \[m\]; nothing along open ones.
+/// The way across so many boxes along each periodic axis \[m\]; nothing along open ones.
 #[inline]
-pub(super) fn way_round(turns: [i32; 3], period: DVec3) -> DVec3 {
-    DVec3::from_array([0, 1, 2].map(|axis| match turns[axis] {
+pub(super) fn image_shift(offset: [i32; 3], period: DVec3) -> DVec3 {
+    DVec3::from_array([0, 1, 2].map(|axis| match offset[axis] {
         0 => 0.0,
-        turns => f64::from(turns) * period[axis],
+        boxes => f64::from(boxes) * period[axis],
     }))
 }

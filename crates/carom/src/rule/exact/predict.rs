@@ -1,88 +1,89 @@
-//! What a sphere comes upon next.
+//! Prediction: what a sphere meets next.
 
 use glam::DVec3;
 
-use super::body::{Body, Kind};
-use super::outlook::{Ahead, Event, Outlook, Target, Upon};
-use super::stage::Stage;
-use super::surroundings::Surroundings;
+use super::context::StepContext;
+use super::events::{Event, EventTarget, NextEvents, PackedTarget, Prediction};
+use super::flights::{Body, Species};
+use super::pair_times::{NearTest, PairSearch};
 use super::timeline::Timeline;
 use crate::contact_time::{self, Reach};
 use crate::detect::contact::Bodies;
 use crate::system::System;
 
-/// Predicts what a sphere meets next as of `now` \[s\], and notes it.
-pub(super) fn predict(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now: f64) {
-    let outlook = outlook(timeline, stage.system, slot, &mut stage.around[0], now);
-    timeline.schedule(slot, outlook);
+/// Predicts what a sphere meets next as of `now` \[s\], and enters it into the schedule.
+pub(super) fn predict(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+    let prediction = prediction(timeline, context.system, slot, &mut context.searches[0], now);
+    timeline.enter(slot, prediction);
 }
 
 /// Lets a sphere go on to what it meets next, where the other one of a meeting that is due `now` \[s\]
-/// began another flight before. A sphere that begins a flight looks at all around it, so that this one
-/// need not look at it again.
-pub(super) fn fall_back(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now: f64) {
-    match timeline.outlooks[slot as usize].ahead.without_first() {
+/// began another flight before. The pair search of that one found this sphere, so this one need not
+/// search again.
+pub(super) fn fall_back(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+    match timeline.schedule.next_events(slot).without_first() {
         Some(rest) if rest.first.is_never() || !timeline.is_void(&rest.first) => {
             timeline.reschedule(slot, rest)
         }
-        _ => predict(timeline, stage, slot, now),
+        _ => predict(timeline, context, slot, now),
     }
 }
 
-/// What lies ahead of a sphere as of `now` \[s\].
+/// What a sphere meets next as of `now` \[s\].
 ///
 /// Times follow from the flights alone: either sphere, and whenever it predicts a meeting, finds the
 /// same time to the bit.
-pub(super) fn outlook(
+pub(super) fn prediction(
     timeline: &Timeline,
     system: &System,
     slot: u32,
-    around: &mut Surroundings,
+    search: &mut PairSearch,
     now: f64,
-) -> Outlook {
-    around.look(timeline, slot, now, (slot, 0.0));
-    outlook_from_here(timeline, system, slot, around, now)
+) -> Prediction {
+    search.search(timeline, slot, now, NearTest { exempt: slot, margin: 0.0 });
+    prediction_from_found(timeline, system, slot, search, now)
 }
 
-/// What lies ahead of a sphere that has looked around.
+/// What a sphere meets next, among the neighbours that a pair search has found.
 #[inline(always)]
-pub(super) fn outlook_from_here(
+pub(super) fn prediction_from_found(
     timeline: &Timeline,
     system: &System,
     slot: u32,
-    around: &Surroundings,
+    search: &PairSearch,
     now: f64,
-) -> Outlook {
-    let ahead = around.first_meetings(timeline, slot);
-    outlook_after(timeline, system, slot, ahead, now)
+) -> Prediction {
+    let events = search.first_meetings(timeline, slot);
+    prediction_after(timeline, system, slot, events, now)
 }
 
-/// What lies ahead of a sphere whose meetings with others are known.
+/// What a sphere meets next whose meetings with other spheres are known.
 #[inline(always)]
-fn outlook_after(
+fn prediction_after(
     timeline: &Timeline,
     system: &System,
     slot: u32,
-    mut ahead: Ahead,
+    mut events: NextEvents,
     now: f64,
-) -> Outlook {
-    let body = &timeline.bodies[slot as usize];
-    let kind = &timeline.kinds[body.kind as usize];
-    let (neighbours, horizon) = (&timeline.neighbours, timeline.flight_end(kind));
-    let stays = horizon < f64::INFINITY && neighbours.stays(slot, body, kind, horizon);
-    if !(system.surfaces.is_empty() || (stays && timeline.has_room(slot))) {
-        meet_surfaces(timeline, system, slot, body, kind, &mut ahead);
+) -> Prediction {
+    let body = &timeline.flights.bodies[slot as usize];
+    let species = &timeline.flights.species[body.species as usize];
+    let (neighbours, horizon) = (&timeline.neighbours, timeline.flight_end(species));
+    let stays = horizon < f64::INFINITY && neighbours.stays(slot, body, species, horizon);
+    if !(system.surfaces.is_empty() || (stays && timeline.is_clear_of_surfaces(slot))) {
+        meet_surfaces(timeline, system, slot, body, species, &mut events);
     }
-    if let Some(cluster) = kind.cluster {
-        let time = timeline.clusters.renewal_by(cluster, slot);
-        ahead.add(Event { time, target: Target::CLUSTER, flights: 0 });
+    if let Some(cluster) = species.cluster {
+        let time = timeline.flights.clusters.renewal_by(cluster, slot);
+        events.add(Event::at(time, PackedTarget::CLUSTER));
     }
-    if ahead.first.time < now {
+    if events.first.time < now {
         // It was passed over. From the start of another flight it is found again only if it closes.
-        ahead = Ahead::only(Event { time: now, target: Target::RESTART, flights: 0 });
+        events = NextEvents::only(Event::at(now, PackedTarget::RESTART));
     }
-    let departure = if stays { f64::INFINITY } else { neighbours.departure(slot, body, kind, now) };
-    Outlook { ahead, departure }
+    let cell_crossing =
+        if stays { f64::INFINITY } else { neighbours.crossing_time(slot, body, species, now) };
+    Prediction { events, cell_crossing }
 }
 
 /// Two bodies that touch, and for how long a meeting of them has nothing to answer.
@@ -99,63 +100,65 @@ pub(super) struct Unresolved {
 /// Lets a sphere pass over meetings that have nothing to answer, to begin another flight after them.
 /// What else it meets before comes as predicted.
 pub(super) fn pass_over(timeline: &mut Timeline, slot: u32, meetings: &[Unresolved]) {
-    let sphere = timeline.index_of[slot as usize];
+    let sphere = timeline.flights.index_of[slot as usize];
     let unresolved_until = |event: &Event| {
-        let bodies = match event.target.upon() {
-            Upon::Sphere(other) => Bodies::pair([sphere, timeline.index_of[other as usize]]),
-            Upon::Surface(surface) => Bodies::Surface { sphere, surface },
-            Upon::Cluster | Upon::Restart => return None,
+        let bodies = match event.target.unpacked() {
+            EventTarget::Sphere(other) => {
+                Bodies::pair([sphere, timeline.flights.index_of[other as usize]])
+            }
+            EventTarget::Surface(surface) => Bodies::Surface { sphere, surface },
+            EventTarget::Cluster | EventTarget::Restart => return None,
         };
         let meeting = meetings.iter().find(|meeting| meeting.bodies == bodies)?;
         (event.time < meeting.until).then_some(meeting.until)
     };
-    let predicted = timeline.outlooks[slot as usize].ahead;
-    let mut ahead = Some(predicted);
-    let mut restart = Event { time: f64::INFINITY, target: Target::RESTART, flights: 0 };
-    while let Some(until) = ahead.and_then(|ahead| unresolved_until(&ahead.first)) {
+    let predicted = timeline.schedule.next_events(slot);
+    let mut events = Some(predicted);
+    let mut restart = Event::at(f64::INFINITY, PackedTarget::RESTART);
+    while let Some(until) = events.and_then(|events| unresolved_until(&events.first)) {
         restart.time = restart.time.min(until);
-        ahead = ahead.and_then(Ahead::without_first);
+        events = events.and_then(NextEvents::without_first);
     }
-    if ahead != Some(predicted) {
-        let next = ahead.map(|ahead| ahead.first).filter(|next| next.time < restart.time);
-        timeline.reschedule(slot, Ahead::only(next.unwrap_or(restart)));
+    if events != Some(predicted) {
+        let next = events.map(|events| events.first).filter(|next| next.time < restart.time);
+        timeline.reschedule(slot, NextEvents::only(next.unwrap_or(restart)));
     }
 }
 
 /// Begins another flight of a sphere from where it is at `now` \[s\].
-pub(super) fn restart(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now: f64) {
-    let (position, velocity) = timeline.state_of(slot, now);
+pub(super) fn restart(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+    let (position, velocity) = timeline.flights.state_of(slot, now);
     timeline.begin_flight(slot, position, velocity, now);
-    predict(timeline, stage, slot, now);
+    predict(timeline, context, slot, now);
 }
 
-/// Gives a sphere that leaves its neighbourhood at `now` \[s\] another one, and looks for what it may
-/// meet there.
-pub(super) fn relocate(timeline: &mut Timeline, stage: &mut Stage, slot: u32, now: f64) {
-    let state = timeline.state_of(slot, now);
-    let around = &mut stage.around[0];
-    timeline.relocate(slot, state.into(), &mut around.near);
-    let mut ahead = timeline.outlooks[slot as usize].ahead;
-    around.look_at_found(timeline, slot, now, (slot, 0.0));
-    let found = around.first_meetings(timeline, slot);
-    ahead.add(found.first);
-    ahead.add(found.second);
-    let outlook = outlook_after(timeline, stage.system, slot, ahead, now);
-    timeline.schedule(slot, outlook);
+/// Gives a sphere that leaves its neighbour region at `now` \[s\] another one, and searches for what it
+/// may meet there.
+pub(super) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+    let state = timeline.flights.state_of(slot, now);
+    let search = &mut context.searches[0];
+    timeline.cross_cell(slot, state.into(), &mut search.near);
+    let mut events = timeline.schedule.next_events(slot);
+    search.search_found(timeline, slot, now, NearTest { exempt: slot, margin: 0.0 });
+    let found = search.first_meetings(timeline, slot);
+    events.add(found.first);
+    events.add(found.second);
+    let prediction = prediction_after(timeline, context.system, slot, events, now);
+    timeline.enter(slot, prediction);
 }
 
-/// Adds the surfaces near it that a sphere meets to what lies ahead of it.
+/// Adds the surfaces near it that a sphere meets to its next events.
 fn meet_surfaces(
     timeline: &Timeline,
     system: &System,
     slot: u32,
     body: &Body,
-    kind: &Kind,
-    ahead: &mut Ahead,
+    species: &Species,
+    events: &mut NextEvents,
 ) {
-    let (horizon, flight_end) = (timeline.horizon(), timeline.flight_end(kind));
+    let (horizon, flight_end) = (timeline.horizon(), timeline.flight_end(species));
     let reach = (flight_end < f64::INFINITY)
-        .then(|| Reach::of(body.flight(kind), kind.radius, flight_end - body.time));
+        .then(|| Reach::of(body.flight(species), species.radius, flight_end - body.time));
     for (number, shift) in timeline.surfaces_near(slot) {
         let surface = &system.surfaces[number as usize];
         let is_at_rest = surface.motion.is_at_rest();
@@ -163,22 +166,22 @@ fn meet_surfaces(
         if is_at_rest && reach.is_some_and(is_missed) {
             continue;
         }
-        if timeline.is_held_by(slot, number) {
+        if timeline.flights.is_held_by(slot, number) {
             continue;
         }
         // A surface that moves is given as it is at the start of the frame.
         let start = if is_at_rest { body.time } else { body.time.max(timeline.frame[0]) };
         let (form, motion) = surface.after(start - timeline.frame[0]);
-        let mut flight = body.flight_from(kind, start);
+        let mut flight = body.flight_from(species, start);
         flight.position -= shift;
         let turns = motion.angular_velocity != DVec3::ZERO;
         // Where a turning surface will be is known until the end of the frame.
         let until = if turns { timeline.frame[1] } else { horizon };
         let delay =
-            contact_time::sphere_surface(&flight, kind.radius, &form, &motion, until - start);
+            contact_time::sphere_surface(&flight, species.radius, &form, &motion, until - start);
         if let Some(delay) = delay {
-            let target = Target::surface(number);
-            ahead.add(Event { time: start + delay, target, flights: 0 });
+            let target = PackedTarget::surface(number);
+            events.add(Event::at(start + delay, target));
         }
     }
 }

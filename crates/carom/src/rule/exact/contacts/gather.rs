@@ -1,0 +1,225 @@
+//! Gathering a group: what touches at one instant, what touches that, and so on.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::group::Group;
+use super::member::Member;
+use super::separation::{touches_surface, touching_gap};
+use super::touch::{Found, Touch};
+use crate::detect::contact::Bodies;
+use crate::detect::sphere_surface;
+use crate::norm::Norm;
+use crate::rule::exact::context::StepContext;
+use crate::rule::exact::flights::Cluster;
+use crate::rule::exact::neighbours::NeighbourBuffer;
+use crate::rule::exact::periodic;
+use crate::rule::exact::timeline::Timeline;
+
+/// Gathers the spheres at `seeds`, whatever touches them at `time` \[s\], what touches that, and so
+/// on, clusters as a whole. `merged` contacts count as touching, too.
+pub(crate) fn gather(
+    timeline: &Timeline,
+    context: &StepContext,
+    seeds: &[u32],
+    surface: Option<u32>,
+    merged: &[Bodies],
+    time: f64,
+) -> Group {
+    let mut gathering =
+        Gathering { timeline, context, time, ..Gathering::empty(timeline, context) };
+    seeds.iter().for_each(|&seed| gathering.join(seed));
+    if let [first, second] = *seeds {
+        gathering.connect_nearest(first, second);
+    }
+    if let (Some(surface), [slot]) = (surface, seeds) {
+        gathering.connect_surface(*slot, surface, true);
+    }
+    for &bodies in merged {
+        gathering.connect_bodies(bodies);
+        for index in bodies.spheres() {
+            gathering.join(timeline.flights.slot_of[index as usize]);
+        }
+    }
+    while let Some(slot) = gathering.frontier.pop() {
+        gathering.touch_spheres(slot);
+        gathering.touch_surfaces(slot);
+        gathering.join_cluster(slot);
+    }
+    gathering.finish()
+}
+
+/// A cluster at `time` \[s\]: its spheres and their persistent contacts.
+pub(crate) fn gather_cluster(
+    timeline: &Timeline,
+    context: &StepContext,
+    cluster: &Cluster,
+    time: f64,
+) -> Group {
+    let mut gathering = Gathering { time, ..Gathering::empty(timeline, context) };
+    gathering.join_members(cluster);
+    gathering.finish()
+}
+
+/// A group while it is gathered.
+struct Gathering<'a> {
+    timeline: &'a Timeline,
+    context: &'a StepContext<'a>,
+    time: f64,
+    /// By index, so in order.
+    members: BTreeMap<u32, Member>,
+    touches: BTreeMap<Bodies, Found>,
+    /// Slots of members whose pair_search were not looked at yet.
+    frontier: Vec<u32>,
+}
+
+impl<'a> Gathering<'a> {
+    fn empty(timeline: &'a Timeline, context: &'a StepContext<'a>) -> Self {
+        let (members, touches) = (BTreeMap::new(), BTreeMap::new());
+        Self { timeline, context, time: 0.0, members, touches, frontier: Vec::new() }
+    }
+
+    fn join(&mut self, slot: u32) {
+        let index = self.timeline.flights.index_of[slot as usize];
+        if self.members.contains_key(&index) {
+            return;
+        }
+        let (position, velocity) = self.timeline.flights.state_of(slot, self.time);
+        let species = *self.timeline.flights.free_species_of(slot);
+        self.members.insert(index, Member { slot, position, velocity, species });
+        self.frontier.push(slot);
+    }
+
+    /// Whether the box is periodic along an axis.
+    fn has_images(&self) -> bool {
+        self.context.period != DVec3::INFINITY
+    }
+
+    /// Notes that two spheres touch, with the shift from where the second one counts to where the
+    /// first does.
+    fn connect(&mut self, slots: [u32; 2], shift: DVec3) {
+        let is_predicted = false;
+        let indices = slots.map(|slot| self.timeline.flights.index_of[slot as usize]);
+        let shift = if indices[0] < indices[1] { shift } else { -shift };
+        self.touches.entry(Bodies::pair(indices)).or_insert(Found { shift, is_predicted });
+    }
+
+    /// Two spheres touch, whatever rounding says: those that were predicted to meet now, or stay in
+    /// contact. In a periodic box, the nearest images do.
+    fn connect_nearest(&mut self, first: u32, second: u32) {
+        let shift = if self.has_images() {
+            let place = |slot| self.timeline.flights.state_of(slot, self.time).0;
+            let offset = place(second) - place(first);
+            periodic::wrapped(offset, self.context.period) - offset
+        } else {
+            DVec3::ZERO
+        };
+        self.connect([first, second], shift);
+    }
+
+    /// Notes that a sphere and a surface touch, whatever rounding says: in a periodic box, the nearest
+    /// image of the surface.
+    fn connect_surface(&mut self, slot: u32, surface: u32, is_predicted: bool) {
+        let sphere = self.timeline.flights.index_of[slot as usize];
+        let bodies = Bodies::Surface { sphere, surface };
+        if !self.has_images() {
+            self.touches.entry(bodies).or_insert(Found { shift: DVec3::ZERO, is_predicted });
+            return;
+        }
+        let place = self.timeline.flights.state_of(slot, self.time).0;
+        let distance = |shift: DVec3| {
+            let (form, _) = self.context.surface_at(surface, self.time);
+            let separation = sphere_surface(&form, place - shift, 0.0);
+            separation.map_or(f64::INFINITY, |separation| separation.distance)
+        };
+        let images = self.timeline.surfaces_near(slot).filter(|near| near.0 == surface);
+        let nearest = images.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+        if let Some((_, shift)) = nearest {
+            self.touches.entry(bodies).or_insert(Found { shift: -shift, is_predicted });
+        }
+    }
+
+    fn touch_spheres(&mut self, slot: u32) {
+        if !self.context.system.settings.spheres_collide {
+            return;
+        }
+        let timeline = self.timeline;
+        let species = *timeline.flights.species_of(slot);
+        let (place, velocity) = timeline.flights.state_of(slot, self.time);
+        let mut found = Vec::new();
+        let mut around = NeighbourBuffer::default();
+        timeline.neighbours.find(slot, species.level, &mut around);
+        for neighbour in around.others(slot) {
+            let (near, shift) = (neighbour.slot(), timeline.neighbours.shift_of(slot, neighbour));
+            let (near_place, near_velocity) = timeline.flights.state_of(near, self.time);
+            let radius_sum = species.radius + timeline.flights.species_of(near).radius;
+            let gap = (near_place + shift - place).norm() - radius_sum;
+            let coordinates = place.norm() + near_place.norm() + radius_sum;
+            let speed = (near_velocity - velocity).norm();
+            if gap <= touching_gap(coordinates, speed, self.time) {
+                found.push((near, shift));
+            }
+        }
+        for (near, shift) in found {
+            self.connect([slot, near], shift);
+            self.join(near);
+        }
+    }
+
+    fn touch_surfaces(&mut self, slot: u32) {
+        let timeline = self.timeline;
+        let sphere = timeline.flights.index_of[slot as usize];
+        let state = timeline.flights.state_of(slot, self.time);
+        let radius = timeline.flights.species_of(slot).radius;
+        for (surface, shift) in timeline.surfaces_near(slot) {
+            if touches_surface(self.context, (state, radius), (surface, shift), self.time) {
+                let bodies = Bodies::Surface { sphere, surface };
+                let found = Found { shift: -shift, is_predicted: false };
+                self.touches.entry(bodies).or_insert(found);
+            }
+        }
+    }
+
+    /// A cluster is in a group as a whole.
+    fn join_cluster(&mut self, slot: u32) {
+        let timeline = self.timeline;
+        let Some(number) = timeline.flights.species_of(slot).cluster else { return };
+        self.join_members(timeline.flights.clusters.get(number));
+    }
+
+    fn join_members(&mut self, cluster: &Cluster) {
+        cluster.members.iter().for_each(|&member| self.join(member));
+        cluster.contacts.iter().for_each(|&bodies| self.connect_bodies(bodies));
+    }
+
+    /// Notes that two bodies touch, whatever the gap between them.
+    fn connect_bodies(&mut self, bodies: Bodies) {
+        let slot_of = |index: u32| self.timeline.flights.slot_of[index as usize];
+        match bodies {
+            Bodies::Pair(first, second) => self.connect_nearest(slot_of(first), slot_of(second)),
+            Bodies::Surface { sphere, surface } => {
+                self.connect_surface(slot_of(sphere), surface, false);
+            }
+        }
+    }
+
+    fn finish(self) -> Group {
+        let Self { context, time, .. } = self;
+        let places: BTreeMap<u32, usize> =
+            self.members.keys().enumerate().map(|(place, &index)| (index, place)).collect();
+        let members: Vec<Member> = self.members.into_values().collect();
+        let touches = self.touches.into_iter().filter_map(|(bodies, found)| {
+            let (first, second) = match bodies {
+                Bodies::Pair(first, second) => (Some(places[&first]), places[&second]),
+                Bodies::Surface { sphere, .. } => (None, places[&sphere]),
+            };
+            let has_persisted = self.timeline.flights.are_held_together(bodies);
+            let touch = Touch { has_persisted, ..Touch::between(bodies, first, second, found) };
+            touch.measured_at(context, &members, time)
+        });
+        let touches = touches.collect();
+        let fastest = members.iter().map(|member| member.velocity.norm()).fold(0.0, f64::max);
+        Group { time, members, touches, fastest }
+    }
+}

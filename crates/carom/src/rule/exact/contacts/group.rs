@@ -1,0 +1,44 @@
+//! Groups: bodies that touch at one instant, directly or through others.
+
+use super::member::Member;
+use super::touch::Touch;
+use crate::detect::contact::Bodies;
+use crate::rule::exact::contact_scale::ContactScale;
+use crate::rule::exact::flights::Flights;
+
+/// Bodies that touch at one instant.
+pub(crate) struct Group {
+    /// On the world's clock \[s\].
+    pub time: f64,
+    /// Ascending by index.
+    pub members: Vec<Member>,
+    /// In the order of their bodies.
+    pub touches: Vec<Touch>,
+    /// Largest speed among the members as they came \[m/s\].
+    pub fastest: f64,
+}
+
+impl Group {
+    /// Place among the members of the sphere at an index of the world's arrays.
+    pub fn place_of(&self, flights: &Flights, index: u32) -> Option<usize> {
+        let index_of = |member: &Member| flights.index_of[member.slot as usize];
+        self.members.binary_search_by_key(&index, index_of).ok()
+    }
+
+    /// What can be resolved of a contact of the group. Where one contact is curved, the spheres that it
+    /// moves have the error of its path in all their contacts.
+    pub fn scale(&self, touch: &Touch) -> ContactScale {
+        let is_curved = self.touches.iter().any(Touch::is_curved);
+        touch
+            .places()
+            .map(|place| &self.members[place])
+            .fold(ContactScale { is_curved, ..ContactScale::default() }, |scale, member| {
+                scale.with(member.position, member.velocity, &member.species)
+            })
+    }
+
+    /// Whether two bodies touch in the group.
+    pub fn has(&self, bodies: Bodies) -> bool {
+        self.touches.binary_search_by_key(&bodies, |touch| touch.bodies).is_ok()
+    }
+}

@@ -1,0 +1,34 @@
+//! A sphere of a group, as it comes to an instant.
+
+use glam::DVec3;
+
+use crate::flight::Flight;
+use crate::rule::exact::contact_scale::ContactScale;
+use crate::rule::exact::flights::Species;
+
+/// A sphere of a group.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Member {
+    pub slot: u32,
+    /// Centre \[m\] and velocity \[m/s\] at the instant.
+    pub position: DVec3,
+    pub velocity: DVec3,
+    /// Free of contact forces.
+    pub species: Species,
+}
+
+impl Member {
+    /// What can be resolved of the contacts of this sphere with surfaces, some of them curved or none.
+    pub fn scale(&self, is_curved: bool) -> ContactScale {
+        let scale = ContactScale { is_curved, ..ContactScale::default() };
+        scale.with(self.position, self.velocity, &self.species)
+    }
+
+    /// The sphere after `h` \[s\] under this acceleration of everything but drag \[m/s²\].
+    pub fn after(&self, acceleration: DVec3, h: f64) -> Self {
+        let Self { position, velocity, species, .. } = *self;
+        let flight = Flight { position, velocity, acceleration, drag_rate: species.drag_rate };
+        let (position, velocity) = flight.after(h);
+        Self { position, velocity, ..*self }
+    }
+}

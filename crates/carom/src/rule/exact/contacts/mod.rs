@@ -1,0 +1,16 @@
+//! Contacts at one instant: which bodies touch, and what can be resolved of that.
+
+mod curvature;
+mod gather;
+mod group;
+mod member;
+mod planes;
+mod separation;
+mod touch;
+
+pub(super) use gather::{gather, gather_cluster};
+pub(super) use group::Group;
+pub(super) use member::Member;
+pub(super) use planes::{Corner, MOST_PLANES, Plane};
+pub(super) use separation::{beyond, separation, touches_surface};
+pub(super) use touch::Touch;

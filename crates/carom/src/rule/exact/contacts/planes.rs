@@ -1,0 +1,67 @@
+//! Corners: planes at rest at right angles to each other, such as a floor, or a floor and a wall.
+
+use glam::DVec3;
+
+use super::separation::{beyond, separation};
+use crate::surface::{Form, Surface};
+
+/// Planes at right angles to each other, at most.
+pub(crate) const MOST_PLANES: usize = 3;
+
+/// A plane at rest on which a sphere may lie.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plane<'a> {
+    /// Number of its surface.
+    pub surface: u32,
+    pub normal: DVec3,
+    pub form: &'a Form,
+}
+
+impl<'a> Plane<'a> {
+    /// The surface of this number, if a sphere about `center` \[m\] finds a plane at rest in it, not an
+    /// edge.
+    pub fn under(center: DVec3, surface: u32, surfaces: &'a [Surface]) -> Option<Self> {
+        let Surface { form, motion, .. } = &surfaces[surface as usize];
+        let normal = match form {
+            _ if !motion.is_at_rest() => return None,
+            Form::HalfSpace { normal, .. } => *normal,
+            Form::Rectangle(rectangle) => {
+                let is_over = beyond(rectangle, center).into_iter().all(|beyond| beyond < 0.0);
+                is_over.then_some(rectangle.normal)?
+            }
+            Form::Sphere { .. } | Form::Box(_) => return None,
+        };
+        Some(Self { surface, normal, form })
+    }
+
+    /// Its point nearest to the centre \[m\] of a sphere that touches it.
+    pub fn foot_of(&self, center: DVec3) -> DVec3 {
+        separation(self.form, center, 0.0, true).map_or(center, |it| it.point)
+    }
+}
+
+/// Planes whose normals have no axis in common: what a sphere feels from one does not change what it
+/// feels from another, not even by rounding.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Corner<'a> {
+    /// Ascending by surface.
+    planes: [Option<Plane<'a>>; MOST_PLANES],
+}
+
+impl<'a> Corner<'a> {
+    /// Adds a plane; `None`, and nothing added, if that makes no corner.
+    #[must_use]
+    pub fn add(&mut self, plane: Plane<'a>) -> Option<()> {
+        let is_apart = |other: Plane| other.normal * plane.normal == DVec3::ZERO;
+        if !self.planes().all(is_apart) {
+            return None;
+        }
+        *self.planes.iter_mut().find(|place| place.is_none())? = Some(plane);
+        self.planes.sort_unstable_by_key(|plane| plane.map_or(u32::MAX, |it| it.surface));
+        Some(())
+    }
+
+    pub fn planes(&self) -> impl Iterator<Item = Plane<'a>> {
+        self.planes.into_iter().flatten()
+    }
+}

@@ -1,0 +1,72 @@
+//! How a sphere lies to a surface, within rounding.
+
+use glam::DVec3;
+
+use crate::detect::{Separation, sphere_rectangle_known_in_front, sphere_surface};
+use crate::norm::Norm;
+use crate::rule::exact::contact_scale::{CLOCK_ROUNDING, TOUCHING};
+use crate::rule::exact::context::StepContext;
+use crate::surface::{Form, Rectangle, Surface};
+
+/// How a sphere stands to a surface; to be in front may be given, whatever rounding says.
+pub(crate) fn separation(
+    form: &Form,
+    center: DVec3,
+    radius: f64,
+    is_predicted: bool,
+) -> Option<Separation> {
+    match form {
+        Form::Rectangle(rectangle) if is_predicted => {
+            Some(sphere_rectangle_known_in_front(rectangle, center, radius))
+        }
+        form => sphere_surface(form, center, radius),
+    }
+}
+
+/// How far a point is beyond the edges of a rectangle along its axes \[m\]; negative inside. At the
+/// very edge it counts as beyond, so that what slides over it goes on.
+pub(crate) fn beyond(rectangle: &Rectangle, point: DVec3) -> [f64; 2] {
+    let offset = point - rectangle.center;
+    let slack = TOUCHING * (offset.norm() + rectangle.half_x + rectangle.half_z);
+    [(rectangle.axis_x, rectangle.half_x), (rectangle.axis_z, rectangle.half_z)]
+        .map(|(axis, half)| offset.dot(axis).abs() - half + slack)
+}
+
+/// Gap \[m\] up to which two bodies touch: rounding of their coordinates \[m\], and how far they move,
+/// at a `speed` \[m/s\] to each other, in the rounding of the clock.
+pub(super) fn touching_gap(coordinates: f64, speed: f64, time: f64) -> f64 {
+    TOUCHING * coordinates + CLOCK_ROUNDING * time.abs() * speed
+}
+
+/// Whether a sphere, by its centre \[m\], velocity \[m/s\] and radius \[m\], touches a surface or its
+/// image, where a shift \[m\] brings it, at `time` \[s\].
+pub(crate) fn touches_surface(
+    context: &StepContext,
+    ((center, velocity), radius): ((DVec3, DVec3), f64),
+    (surface, shift): (u32, DVec3),
+    time: f64,
+) -> bool {
+    let Surface { form, motion, .. } = &context.system.surfaces[surface as usize];
+    if motion.is_at_rest() {
+        // Where they touch, the point of the surface is no farther from the origin than that.
+        let coordinates = 2.0 * (center.norm() + shift.norm() + radius);
+        let gap = 2.0 * touching_gap(coordinates, velocity.norm(), time);
+        if is_above(form, center - shift, radius + gap) {
+            return false;
+        }
+    }
+    let (form, motion) = context.surface_at(surface, time);
+    let Some(separation) = sphere_surface(&form, center - shift, radius) else { return false };
+    let speed = (velocity - motion.velocity_at(separation.point)).norm();
+    let coordinates = center.norm() + separation.point.norm() + radius;
+    separation.distance <= touching_gap(coordinates, speed, time)
+}
+
+/// Whether a point is higher than that above the plane of a surface, or far behind it \[m\].
+fn is_above(form: &Form, point: DVec3, height: f64) -> bool {
+    match form {
+        Form::HalfSpace { point: origin, normal } => (point - *origin).dot(*normal) > height,
+        Form::Rectangle(face) => (point - face.center).dot(face.normal).abs() > height,
+        Form::Sphere { .. } | Form::Box(_) => false,
+    }
+}

@@ -1,0 +1,172 @@
+//! Two bodies that touch at one instant.
+
+use glam::DVec3;
+
+use super::curvature::{NormalCurvature, curvature_of};
+use super::member::Member;
+use super::separation::separation;
+use crate::detect::contact::Bodies;
+use crate::detect::{Separation, sphere_sphere};
+use crate::norm::Norm;
+use crate::respond::TouchingContact;
+use crate::rule::exact::context::StepContext;
+use crate::surface::SurfaceMotion;
+
+/// Two bodies that touch.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Touch {
+    pub bodies: Bodies,
+    /// Places of the spheres among the members; the first body may be a surface.
+    pub first: Option<usize>,
+    pub second: usize,
+    /// Unit normal from body 1 to body 2.
+    pub normal: DVec3,
+    /// Where on body 1 \[m\].
+    pub point: DVec3,
+    /// Between the two surfaces \[m\]: nearly 0.
+    pub gap: f64,
+    /// How the normal turns when the spheres slide.
+    pub curvature: NormalCurvature,
+    /// Of the surface, were it to reach as far as the centre of body 2 \[m/s\]: along the normal it is
+    /// the same where they touch. 0 where body 1 is a sphere.
+    pub surface_velocity: DVec3,
+    /// Of the surface \[rad/s\].
+    pub surface_spin: DVec3,
+    /// Acceleration of the gap from the turning of the surface, without sliding, is its part along
+    /// the normal \[m/s²\].
+    pub surface_pull: DVec3,
+    /// From where the position of body 2 counts to where that of body 1 does \[m\].
+    pub shift: DVec3,
+    /// Predicted, so not in doubt.
+    pub is_predicted: bool,
+    /// The contact has lasted up to now.
+    pub has_persisted: bool,
+}
+
+impl Touch {
+    /// Places of its spheres among the members.
+    pub fn places(&self) -> impl Iterator<Item = usize> + use<> {
+        self.first.into_iter().chain([self.second])
+    }
+
+    /// The part of a vector across the normal.
+    pub fn across(&self, vector: DVec3) -> DVec3 {
+        vector - vector.dot(self.normal) * self.normal
+    }
+
+    /// Velocity of body 2 relative to body 1 \[m/s\].
+    pub fn relative_velocity(&self, members: &[Member]) -> DVec3 {
+        let first = self.first.map_or(self.surface_velocity, |first| members[first].velocity);
+        members[self.second].velocity - first
+    }
+
+    /// Its part along the normal: negative where the bodies close.
+    pub fn normal_velocity(&self, members: &[Member]) -> f64 {
+        self.relative_velocity(members).dot(self.normal)
+    }
+
+    /// Velocity of sliding along which its normal turns \[m/s\]: zero on a plane.
+    pub fn sliding(&self, members: &[Member]) -> DVec3 {
+        let tangential = self.across(self.relative_velocity(members));
+        self.curvature.turning(tangential).map_or(DVec3::ZERO, |(velocity, _)| velocity)
+    }
+
+    /// Whether its normal turns, because bodies slide along each other or the surface turns.
+    pub fn is_curved(&self) -> bool {
+        self.curvature != NormalCurvature::Flat || self.surface_spin != DVec3::ZERO
+    }
+
+    /// Whether the surface moves, and so does work on the sphere.
+    pub fn does_work(&self) -> bool {
+        self.surface_velocity != DVec3::ZERO || self.surface_spin != DVec3::ZERO
+    }
+
+    /// As the impact laws take it, restitution 0.
+    pub fn contact(&self) -> TouchingContact {
+        TouchingContact {
+            first: self.first,
+            second: self.second,
+            normal: self.normal,
+            surface_velocity: self.surface_velocity,
+            restitution: 0.0,
+        }
+    }
+
+    /// The same two bodies in other places; `None` where they no longer face each other.
+    pub fn measured_at(
+        &self,
+        context: &StepContext,
+        members: &[Member],
+        time: f64,
+    ) -> Option<Self> {
+        let second = &members[self.second];
+        match self.bodies {
+            Bodies::Pair(..) => {
+                let first = &members[self.first?];
+                let centers = [first.position, second.position + self.shift];
+                let separation =
+                    sphere_sphere(centers, [first.species.radius, second.species.radius]);
+                let distance = (centers[1] - centers[0]).norm();
+                Some(Self {
+                    curvature: NormalCurvature::RoundFeature(distance),
+                    ..self.with(separation)
+                })
+            }
+            Bodies::Surface { surface, .. } => {
+                let (form, motion) = context.surface_at(surface, time);
+                let center = second.position + self.shift;
+                let separation =
+                    separation(&form, center, second.species.radius, self.is_predicted)?;
+                let curvature = curvature_of(&form, center, &separation);
+                Some(Self { curvature, ..self.with(separation).with_motion(&motion, center) })
+            }
+        }
+    }
+
+    fn with(self, separation: Separation) -> Self {
+        let Separation { distance, normal, point } = separation;
+        Self { gap: distance, normal, point, ..self }
+    }
+
+    /// PairResult from a frame that moves and turns with the surface, at the centre of the sphere.
+    fn with_motion(self, motion: &SurfaceMotion, center: DVec3) -> Self {
+        let surface_velocity = motion.velocity_at(center);
+        let spin = motion.angular_velocity;
+        // What turns with the surface is drawn towards the axis.
+        let surface_pull = -spin.cross(spin.cross(center - motion.origin));
+        Self { surface_velocity, surface_spin: spin, surface_pull, ..self }
+    }
+
+    /// The bodies, not yet measured.
+    pub(super) fn between(
+        bodies: Bodies,
+        first: Option<usize>,
+        second: usize,
+        Found { shift, is_predicted }: Found,
+    ) -> Self {
+        Self {
+            is_predicted,
+            has_persisted: false,
+            bodies,
+            first,
+            second,
+            shift,
+            normal: DVec3::ZERO,
+            point: DVec3::ZERO,
+            gap: 0.0,
+            curvature: NormalCurvature::Flat,
+            surface_velocity: DVec3::ZERO,
+            surface_spin: DVec3::ZERO,
+            surface_pull: DVec3::ZERO,
+        }
+    }
+}
+
+/// How two bodies were found to touch.
+#[derive(Clone, Copy)]
+pub(super) struct Found {
+    /// From where the position of body 2 counts to where that of body 1 does \[m\].
+    pub shift: DVec3,
+    /// Predicted, so not in doubt.
+    pub is_predicted: bool,
+}

@@ -1,0 +1,127 @@
+//! The step context: what every part of the rule reads in a step, and the report it writes.
+
+use glam::DVec3;
+
+use super::contact_scale::ContactScale;
+use super::pair_times::PairSearch;
+use super::span::Span;
+use super::timeline::Timeline;
+use crate::bodies::SphereId;
+use crate::detect::sphere_surface;
+use crate::norm::Norm;
+use crate::report::{Impact, ImpactGroup, StepReport};
+use crate::rule::Exact;
+use crate::settings::RestitutionRule;
+use crate::surface::{Form, SurfaceMotion};
+use crate::system::System;
+use crate::work::Work;
+
+/// The world during one step, and the report of the step.
+pub(super) struct StepContext<'a> {
+    pub system: &'a System<'a>,
+    pub parameters: Exact,
+    pub report: &'a mut StepReport,
+    /// Counted and bounded.
+    pub work: &'a Work<'a>,
+    /// Start of the step, on the world's clock \[s\]: impacts count their time from there, and there
+    /// surfaces are where the system says.
+    pub start: f64,
+    /// Length of the step \[s\].
+    pub length: f64,
+    /// Edges of the periodic box \[m\]; infinite along an open axis.
+    pub period: DVec3,
+    /// Working memory: the neighbours of the spheres at work, and when they meet.
+    pub searches: [PairSearch; 2],
+}
+
+impl<'a> StepContext<'a> {
+    pub fn new(
+        system: &'a System<'a>,
+        parameters: Exact,
+        Span { start, length, .. }: Span,
+        work: &'a Work<'a>,
+        report: &'a mut StepReport,
+    ) -> Self {
+        let period = system.settings.boundary.period();
+        let searches = Default::default();
+        Self { system, parameters, report, work, start, length, period, searches }
+    }
+
+    pub fn restitution_rule(&self) -> RestitutionRule {
+        self.system.settings.restitution_rule
+    }
+
+    /// A time on the world's clock \[s\] as impacts count it, from the start of the step. What was
+    /// in doubt at the very start, or rounds beyond the end, counts as there.
+    pub fn since_start(&self, time: f64) -> f64 {
+        (time - self.start).clamp(0.0, self.length)
+    }
+
+    pub fn id_of(&self, timeline: &Timeline, slot: u32) -> SphereId {
+        self.system.spheres.id[timeline.flights.index_of[slot as usize] as usize]
+    }
+
+    /// Restitution of an impact: nothing is given back, unless all is, where all spheres in it
+    /// were hit less than a contact's duration ago. So the shorter and shorter flights of an
+    /// inelastic collapse come to an end (McNamara and Young, Phys. Fluids A 4, 496 (1992)). The TC
+    /// model of Luding and McNamara, Granular Matter 1, 113 (1998), has the same condition and gives
+    /// back all, which leaves spheres that are wedged in to bounce without end.
+    pub fn restitution_at<const N: usize>(
+        &self,
+        timeline: &Timeline,
+        slots: [u32; N],
+        restitution: f64,
+        time: f64,
+    ) -> f64 {
+        let bodies = slots.map(|slot| &timeline.flights.bodies[slot as usize]);
+        if restitution == 1.0 || !bodies.iter().all(|body| body.is_struck()) {
+            return restitution;
+        }
+        let scale = ContactScale::of_spheres(&timeline.flights, &slots, time);
+        let velocity = |slot: u32| timeline.flights.state_of(slot, time).1;
+        let speed = match slots[..] {
+            [first, second] => (velocity(second) - velocity(first)).norm(),
+            _ => slots.iter().map(|&slot| velocity(slot).norm()).sum(),
+        };
+        let least = self.parameters.contact_duration;
+        let duration = self.duration_of(&scale, time).min(scale.resolved_time(speed)).max(least);
+        if bodies.iter().all(|body| time - body.time < duration) { 0.0 } else { restitution }
+    }
+
+    /// How long a contact of this scale lasts \[s\], at `time` \[s\].
+    pub fn duration_of(&self, scale: &ContactScale, time: f64) -> f64 {
+        scale.duration(self.parameters.contact_duration, time)
+    }
+
+    /// Writes down impacts that were answered together.
+    #[inline(always)]
+    pub fn record(&mut self, impacts: impl IntoIterator<Item = Impact>, account: ImpactGroup) {
+        let first = self.report.impacts.len();
+        self.report.impacts.extend(impacts);
+        let count = self.report.impacts.len() - first;
+        let law = self.system.settings.impact_law;
+        self.report.groups.push(ImpactGroup { first, count, law, ..account });
+    }
+
+    /// Geometry and motion of a surface at `time` \[s\].
+    pub fn surface_at(&self, surface: u32, time: f64) -> (Form, SurfaceMotion) {
+        self.system.surfaces[surface as usize].after(time - self.start)
+    }
+
+    /// Whether no surface is within `margin` \[m\] of a sphere at `place` \[m\] at `time` \[s\].
+    pub fn touches_no_surface(
+        &self,
+        timeline: &Timeline,
+        slot: u32,
+        place: DVec3,
+        margin: f64,
+        time: f64,
+    ) -> bool {
+        let radius = timeline.flights.species_of(slot).radius;
+        timeline.surfaces_near(slot).all(|(surface, shift)| {
+            let (form, _) = self.surface_at(surface, time);
+            let separation = sphere_surface(&form, place - shift, radius);
+            separation.is_none_or(|separation| separation.distance > margin)
+        })
+    }
+}

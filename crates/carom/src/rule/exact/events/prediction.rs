@@ -1,0 +1,163 @@
+//! The earliest predicted events of a sphere.
+
+use crate::rule::exact::neighbours::MAX_SPHERES;
+
+/// An event, in 16 bytes, for each sphere keeps two.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Event {
+    /// On the world's clock \[s\].
+    pub time: f64,
+    pub target: PackedTarget,
+    /// Generation of the other sphere's flight for which this was predicted.
+    pub generation: u32,
+}
+
+impl Event {
+    const NEVER: Self = Self { time: f64::INFINITY, target: PackedTarget::RESTART, generation: 0 };
+    /// One that a search would have to find: it stands before all others.
+    const UNKNOWN: Self = Self { time: f64::NEG_INFINITY, ..Self::NEVER };
+
+    /// An event at `time` \[s\] that concerns no other sphere.
+    pub fn at(time: f64, target: PackedTarget) -> Self {
+        Self { time, target, generation: 0 }
+    }
+
+    /// Whether it never comes.
+    pub fn is_never(&self) -> bool {
+        self.time == f64::INFINITY
+    }
+}
+
+/// The first event of a sphere, and what comes next if the first does not happen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct NextEvents {
+    pub first: Event,
+    pub second: Event,
+}
+
+impl NextEvents {
+    /// One event, where it is not known what comes if it does not.
+    pub fn only(first: Event) -> Self {
+        Self { first, second: Event::UNKNOWN }
+    }
+
+    /// What is left if the first does not come, as far as it is known.
+    pub fn without_first(self) -> Option<Self> {
+        (self.second.time > f64::NEG_INFINITY).then(|| Self::only(self.second))
+    }
+
+    /// Takes in an event that may come, too.
+    #[inline(always)]
+    pub fn add(&mut self, event: Event) {
+        if event.time < self.first.time {
+            (self.first, self.second) = (event, self.first);
+        } else if event.time < self.second.time {
+            self.second = event;
+        }
+    }
+}
+
+/// What an event is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum EventTarget {
+    /// Another sphere, by slot.
+    Sphere(u32),
+    Surface(u32),
+    /// The forces of its persistent contacts have to be found anew.
+    Cluster,
+    /// Nothing: the flight begins anew from where the sphere is.
+    Restart,
+}
+
+/// An [`EventTarget`] in four bytes: the slot of a sphere, a surface's number with the highest bit set
+/// (there is no memory for so many surfaces that it was set before), or one of the numbers below.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct PackedTarget(u32);
+
+impl PackedTarget {
+    const SURFACE: u32 = 1 << 31;
+    /// No slot: these are smaller.
+    pub const CLUSTER: Self = Self(MAX_SPHERES as u32);
+    pub const RESTART: Self = Self(MAX_SPHERES as u32 + 1);
+
+    #[inline(always)]
+    pub fn sphere(slot: u32) -> Self {
+        Self(slot)
+    }
+
+    pub fn surface(number: u32) -> Self {
+        Self(number | Self::SURFACE)
+    }
+
+    /// The slot of a sphere, if it is one.
+    #[inline(always)]
+    pub fn slot(self) -> Option<u32> {
+        (self.0 < MAX_SPHERES as u32).then_some(self.0)
+    }
+
+    #[inline(always)]
+    pub fn unpacked(self) -> EventTarget {
+        match self {
+            Self(surface) if surface & Self::SURFACE != 0 => {
+                EventTarget::Surface(surface & !Self::SURFACE)
+            }
+            Self::CLUSTER => EventTarget::Cluster,
+            Self::RESTART => EventTarget::Restart,
+            Self(slot) => EventTarget::Sphere(slot),
+        }
+    }
+}
+
+/// What happens next to a sphere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum UpcomingEvent {
+    Event(Event),
+    /// It leaves its neighbour region at this time \[s\].
+    CellCrossing(f64),
+}
+
+/// The next events of a sphere, and when it leaves its neighbour region.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Prediction {
+    pub events: NextEvents,
+    /// On the world's clock \[s\].
+    pub cell_crossing: f64,
+}
+
+impl Prediction {
+    /// When the first of it happens, on the world's clock \[s\].
+    #[inline(always)]
+    pub fn time(&self) -> f64 {
+        let first = self.events.first.time;
+        // Neither is NaN; `min`, which takes care of that, takes longer than all the rest.
+        if self.cell_crossing < first { self.cell_crossing } else { first }
+    }
+
+    /// What happens first.
+    #[inline(always)]
+    pub fn first(&self) -> UpcomingEvent {
+        if self.cell_crossing < self.events.first.time {
+            UpcomingEvent::CellCrossing(self.cell_crossing)
+        } else {
+            UpcomingEvent::Event(self.events.first)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_target_gives_back_what_it_was_made_of() {
+        let last = MAX_SPHERES as u32 - 1;
+        for slot in [0, last] {
+            assert_eq!(PackedTarget::sphere(slot).unpacked(), EventTarget::Sphere(slot));
+        }
+        for number in [0, 7, last, last + 1, last + 2] {
+            assert_eq!(PackedTarget::surface(number).unpacked(), EventTarget::Surface(number));
+        }
+        assert_eq!(PackedTarget::CLUSTER.unpacked(), EventTarget::Cluster);
+        assert_eq!(PackedTarget::RESTART.unpacked(), EventTarget::Restart);
+    }
+}

@@ -1,0 +1,84 @@
+//! The schedule: the predictions of all spheres, in a queue by time.
+
+use prefetch_index::prefetch_index;
+
+use super::prediction::{NextEvents, Prediction, UpcomingEvent};
+use super::queue::{Entry, EventQueue};
+
+/// What happens next to each sphere, and to which of them first.
+///
+/// It follows from the flights: the queue decides how fast the next event is found, never what it is.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Schedule {
+    /// By slot.
+    predictions: Vec<Prediction>,
+    queue: EventQueue,
+}
+
+impl Schedule {
+    /// The schedule of these predictions, by slot, of the spheres at these indices of the world's
+    /// arrays. What comes after the `horizon`, on the world's clock \[s\], is not queued.
+    pub fn new(predictions: Vec<Prediction>, index_of: &[u32], horizon: f64) -> Self {
+        let mut queue = EventQueue::new(predictions.len());
+        for (slot, (prediction, &index)) in (0..).zip(predictions.iter().zip(index_of)) {
+            if prediction.time() <= horizon {
+                queue.push(Entry { time: prediction.time(), slot, index });
+            }
+        }
+        Self { predictions, queue }
+    }
+
+    /// What a sphere meets next.
+    #[inline(always)]
+    pub fn next_events(&self, slot: u32) -> NextEvents {
+        self.predictions[slot as usize].events
+    }
+
+    /// When a sphere crosses the boundary of its neighbour region, on the world's clock \[s\].
+    #[inline(always)]
+    pub fn cell_crossing(&self, slot: u32) -> f64 {
+        self.predictions[slot as usize].cell_crossing
+    }
+
+    /// What happens first to a sphere.
+    #[inline(always)]
+    pub fn first(&self, slot: u32) -> UpcomingEvent {
+        self.predictions[slot as usize].first()
+    }
+
+    /// Enters the prediction of a sphere, which is at an `index` of the world's arrays.
+    #[inline]
+    pub fn enter(&mut self, slot: u32, index: u32, prediction: Prediction) {
+        self.predictions[slot as usize] = prediction;
+        self.queue.push(Entry { time: prediction.time(), slot, index });
+    }
+
+    /// Takes out what happens next, not later than `end` \[s\], with the slot of the sphere.
+    #[inline]
+    pub fn pop(&mut self, end: f64) -> Option<(u32, UpcomingEvent)> {
+        let Entry { slot, .. } = self.queue.pop(end, |entry| is_live(&self.predictions, entry))?;
+        Some((slot, self.first(slot)))
+    }
+
+    /// Drops void entries of the queue if there are too many of them.
+    pub fn tidy(&mut self) {
+        self.queue.tidy(|entry| is_live(&self.predictions, entry));
+    }
+
+    /// The slot of a sphere whose event is among the next, but for those that were entered last.
+    #[inline]
+    pub fn upcoming(&self, place: usize) -> Option<u32> {
+        self.queue.upcoming(place)
+    }
+
+    /// Fetches the prediction of a sphere into the cache.
+    #[inline(always)]
+    pub fn prefetch(&self, slot: u32) {
+        prefetch_index(&self.predictions, slot as usize);
+    }
+}
+
+/// Whether an entry of the queue still holds what happens next to its sphere.
+fn is_live(predictions: &[Prediction], entry: &Entry) -> bool {
+    predictions[entry.slot as usize].time() == entry.time
+}

@@ -1,0 +1,92 @@
+//! Clusters: spheres that stay in contact with each other and with surfaces.
+
+use glam::DVec3;
+
+use crate::detect::contact::Bodies;
+
+/// Spheres held together by persistent contacts. Their forces hold until `renewal` or until an event
+/// of one of the spheres.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Cluster {
+    /// By slot, in the order of their indices. The first one bears the event of renewal.
+    pub members: Vec<u32>,
+    /// By index, ascending.
+    pub contacts: Vec<Bodies>,
+    /// When its forces have to be found anew, on the world's clock \[s\].
+    pub renewal: f64,
+}
+
+/// A cluster to be, with what its contact forces do.
+#[derive(Debug, Clone)]
+pub(crate) struct Support {
+    /// Slots of the spheres, in the order of their indices, with the acceleration of each, of
+    /// everything but drag \[m/s²\].
+    pub members: Vec<(u32, DVec3)>,
+    /// Ascending.
+    pub contacts: Vec<Bodies>,
+    /// When the forces have to be found anew, on the world's clock \[s\].
+    pub renewal: f64,
+}
+
+impl Cluster {
+    pub fn has(&self, contact: Bodies) -> bool {
+        self.contacts.binary_search(&contact).is_ok()
+    }
+}
+
+/// All clusters, by number; numbers are used again.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Clusters {
+    clusters: Vec<Cluster>,
+    free: Vec<u32>,
+}
+
+impl Clusters {
+    pub fn get(&self, number: u32) -> &Cluster {
+        &self.clusters[number as usize]
+    }
+
+    pub fn get_mut(&mut self, number: u32) -> &mut Cluster {
+        &mut self.clusters[number as usize]
+    }
+
+    pub fn add(&mut self, cluster: Cluster) -> u32 {
+        match self.free.pop() {
+            Some(number) => {
+                self.clusters[number as usize] = cluster;
+                number
+            }
+            None => {
+                self.clusters.push(cluster);
+                self.clusters.len() as u32 - 1
+            }
+        }
+    }
+
+    /// The clusters that there are.
+    pub fn iter(&self) -> impl Iterator<Item = &Cluster> {
+        self.clusters.iter().filter(|cluster| !cluster.members.is_empty())
+    }
+
+    /// Removes a cluster, if it was not removed before.
+    pub fn remove(&mut self, number: u32) {
+        let cluster = &mut self.clusters[number as usize];
+        if !cluster.members.is_empty() {
+            *cluster = Cluster::default();
+            self.free.push(number);
+        }
+    }
+
+    /// Replaces the slot of every member by its new one.
+    pub fn renumber(&mut self, new_slot: impl Fn(u32) -> u32) {
+        for slot in self.clusters.iter_mut().flat_map(|cluster| &mut cluster.members) {
+            *slot = new_slot(*slot);
+        }
+    }
+
+    /// When a cluster is renewed, for the member that bears the event; never for the others.
+    pub fn renewal_by(&self, number: u32, slot: u32) -> f64 {
+        let cluster = self.get(number);
+        if cluster.members.first() == Some(&slot) { cluster.renewal } else { f64::INFINITY }
+    }
+}

@@ -1,0 +1,17 @@
+//! Flights: where every sphere flies since its last event, and what equal spheres share.
+
+mod at_time;
+mod axis_motion;
+mod body;
+mod clusters;
+mod lanes;
+mod species;
+mod state;
+
+pub(super) use at_time::{first_lost, write_motion};
+pub(super) use axis_motion::AxisMotion;
+pub(super) use body::Body;
+pub(super) use clusters::{Cluster, Support};
+pub(super) use lanes::FlightLanes;
+pub(super) use species::Species;
+pub(super) use state::Flights;

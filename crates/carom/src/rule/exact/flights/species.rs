@@ -1,0 +1,116 @@
+//! Species: what equal spheres share, so that it is kept once.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use crate::forces;
+use crate::system::System;
+
+/// Radii within this factor share a level.
+const LEVEL_RATIO: f64 = 4.0;
+/// Smaller spheres than `LEVEL_RATIO` to the minus this share the last level.
+const MAX_LEVELS: usize = 24;
+
+/// Constants of the flight and of the impacts of equal spheres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Species {
+    /// \[m\]
+    pub radius: f64,
+    /// \[kg\]
+    pub mass: f64,
+    pub restitution: f64,
+    /// Of everything but drag \[m/s²\]; with the forces of persistent contacts.
+    pub acceleration: DVec3,
+    /// k / m \[1/s\]
+    pub drag_rate: f64,
+    /// Size class: the level of the cell lists that holds these spheres.
+    pub level: u32,
+    /// The cluster whose persistent contacts act on the sphere. Such a sphere is a species of its own.
+    pub cluster: Option<u32>,
+    /// The number of this species, or of what the sphere is without contact forces.
+    pub free: u32,
+}
+
+impl Species {
+    /// Whether nothing bends or slows the flight.
+    #[inline(always)]
+    pub fn flies_straight(&self) -> bool {
+        self.acceleration == DVec3::ZERO && self.drag_rate == 0.0
+    }
+
+    /// Whether the relative motion of two spheres is straight and uniform, and no persistent contact
+    /// holds both of them.
+    #[inline(always)]
+    pub fn flies_like(&self, other: &Self) -> bool {
+        self.acceleration == other.acceleration
+            && self.drag_rate == 0.0
+            && other.drag_rate == 0.0
+            && (self.cluster.is_none() || other.cluster.is_none())
+    }
+}
+
+/// The species of all spheres of a world.
+pub(super) struct SpeciesOfSpheres {
+    pub species: Vec<Species>,
+    /// By index: the number of the species of each sphere.
+    pub number_of: Vec<u32>,
+    /// Whether some forces have no closed form and are held constant over a frame. Then each sphere is
+    /// a species of its own.
+    pub hold_forces: bool,
+}
+
+impl SpeciesOfSpheres {
+    /// Gathers equal spheres.
+    pub fn of(system: &System) -> Self {
+        let spheres = system.spheres;
+        let levels = levels_of(&spheres.radius);
+        let has_own_forces = !spheres.applied_force.is_empty();
+        let mut hold_forces = has_own_forces;
+        let mut species: Vec<Species> = Vec::new();
+        let mut known = BTreeMap::new();
+        let mut number_of = Vec::with_capacity(levels.len());
+        for (index, &level) in levels.iter().enumerate() {
+            let (radius, mass) = (spheres.radius[index], spheres.mass[index]);
+            let restitution = spheres.restitution[index];
+            let (force, is_all) = forces::total_linear(system.forces, radius, mass);
+            hold_forces |= !is_all;
+            let own = if is_all && !has_own_forces { 0 } else { index + 1 };
+            let key = ([radius, mass, restitution].map(f64::to_bits), own);
+            let next = species.len() as u32;
+            let number = *known.entry(key).or_insert(next);
+            if number == next {
+                let (acceleration, drag_rate) = (force.acceleration, force.drag_rate);
+                species.push(Species {
+                    radius,
+                    mass,
+                    restitution,
+                    acceleration,
+                    drag_rate,
+                    level,
+                    cluster: None,
+                    free: number,
+                });
+            }
+            number_of.push(number);
+        }
+        Self { species, number_of, hold_forces }
+    }
+}
+
+/// Level of each radius, from 0 for the largest, with no empty level between.
+fn levels_of(radii: &[f64]) -> Vec<u32> {
+    let largest = radii.iter().copied().fold(0.0, f64::max);
+    let size_class = |radius: f64| {
+        let mut class = 0;
+        let mut bound = largest / LEVEL_RATIO;
+        while radius <= bound && class + 1 < MAX_LEVELS {
+            (class, bound) = (class + 1, bound / LEVEL_RATIO);
+        }
+        class
+    };
+    let mut in_use = [false; MAX_LEVELS];
+    radii.iter().for_each(|&radius| in_use[size_class(radius)] = true);
+    let level = |radius: f64| in_use[..size_class(radius)].iter().filter(|used| **used).count();
+    radii.iter().map(|&radius| level(radius) as u32).collect()
+}

@@ -1,0 +1,170 @@
+//! The flights of all spheres: the state that the rule keeps between frames.
+
+use glam::DVec3;
+
+use super::body::Body;
+use super::clusters::{Cluster, Clusters, Support};
+use super::species::{Species, SpeciesOfSpheres};
+use crate::bodies::Motion;
+use crate::detect::contact::Bodies;
+use crate::system::System;
+
+/// The flights of all spheres, and the clusters that persistent contacts make of them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Flights {
+    /// By slot: in the order of places, so that neighbours share memory.
+    pub bodies: Vec<Body>,
+    pub species: Vec<Species>,
+    /// Numbers of species without spheres.
+    spare_species: Vec<u32>,
+    /// Place of each slot in the arrays of the world, and back.
+    pub index_of: Vec<u32>,
+    pub slot_of: Vec<u32>,
+    pub clusters: Clusters,
+    /// Whether some forces have no closed form and are held constant over a frame.
+    pub hold_forces: bool,
+}
+
+impl Flights {
+    /// The flight of each sphere: one that `flight_of` its index gives, or one that begins from the
+    /// state in the arrays of the world at a time \[s\].
+    pub fn new(
+        system: &System,
+        motion: &Motion,
+        flight_of: impl Fn(usize) -> Result<Body, f64>,
+    ) -> Self {
+        let SpeciesOfSpheres { species, number_of, hold_forces } = SpeciesOfSpheres::of(system);
+        let count = number_of.len();
+        let body = |index: usize| {
+            let (position, velocity) = (motion.position[index], motion.velocity[index]);
+            let begun = |time| Body { position, velocity, time, species: 0, generation: 0 };
+            let flight = flight_of(index).unwrap_or_else(begun);
+            Body { species: number_of[index], ..flight }
+        };
+        let index_of: Vec<u32> = (0..count as u32).collect();
+        Self {
+            bodies: (0..count).map(body).collect(),
+            species,
+            spare_species: Vec::new(),
+            slot_of: index_of.clone(),
+            index_of,
+            clusters: Clusters::default(),
+            hold_forces,
+        }
+    }
+
+    /// Puts the spheres at the slots of an `order` into that order.
+    pub fn reorder(&mut self, order: &[u32]) {
+        let mut new_slots = vec![0; order.len()];
+        for (new, &old) in (0u32..).zip(order) {
+            new_slots[old as usize] = new;
+        }
+        self.bodies = order.iter().map(|&slot| self.bodies[slot as usize]).collect();
+        self.index_of = order.iter().map(|&slot| self.index_of[slot as usize]).collect();
+        for (slot, &index) in (0u32..).zip(&self.index_of) {
+            self.slot_of[index as usize] = slot;
+        }
+        self.clusters.renumber(|slot| new_slots[slot as usize]);
+    }
+
+    /// The species of all spheres, if there is one, and their relative motion is straight.
+    #[inline(always)]
+    pub fn only_species(&self) -> Option<&Species> {
+        match &self.species[..] {
+            [species] if species.drag_rate == 0.0 => Some(species),
+            _ => None,
+        }
+    }
+
+    pub fn species_of(&self, slot: u32) -> &Species {
+        &self.species[self.bodies[slot as usize].species as usize]
+    }
+
+    /// What the sphere is without contact forces.
+    pub fn free_species_of(&self, slot: u32) -> &Species {
+        &self.species[self.species_of(slot).free as usize]
+    }
+
+    /// Centre \[m\] and velocity \[m/s\] of a sphere at `time` \[s\].
+    #[inline(always)]
+    pub fn state_of(&self, slot: u32, time: f64) -> (DVec3, DVec3) {
+        let body = &self.bodies[slot as usize];
+        body.state_at(&self.species[body.species as usize], time)
+    }
+
+    /// The flight of the sphere at an index of the world's arrays. Where forces of persistent contacts
+    /// or forces held constant act on it, another flight begins at `time` \[s\], free of them.
+    pub fn free_flight_of(&self, index: usize, time: f64) -> Body {
+        let slot = self.slot_of[index];
+        let mut body = self.bodies[slot as usize];
+        if self.hold_forces || self.species_of(slot).cluster.is_some() {
+            let (position, velocity) = self.state_of(slot, time);
+            body.begin_flight(position, velocity, time);
+        }
+        body
+    }
+
+    /// Changes the acceleration \[m/s²\] of a sphere that is a species of its own.
+    pub fn set_acceleration(&mut self, slot: u32, acceleration: DVec3) {
+        let species = self.bodies[slot as usize].species;
+        self.species[species as usize].acceleration = acceleration;
+    }
+
+    /// Sets the acceleration of a sphere without the forces of its persistent contacts \[m/s²\].
+    pub fn set_free_acceleration(&mut self, slot: u32, acceleration: DVec3) {
+        let free = self.species_of(slot).free;
+        self.species[free as usize].acceleration = acceleration;
+    }
+
+    /// Takes away the contact forces on a sphere, and its cluster; tells whether there was one.
+    pub fn set_free(&mut self, slot: u32) -> bool {
+        let species = *self.species_of(slot);
+        let Some(cluster) = species.cluster else { return false };
+        self.clusters.remove(cluster);
+        self.spare_species.push(self.bodies[slot as usize].species);
+        self.bodies[slot as usize].species = species.free;
+        true
+    }
+
+    /// Makes spheres that are free a cluster.
+    pub fn set_supported(&mut self, support: Support) {
+        let Support { members, contacts, renewal } = support;
+        let slots = members.iter().map(|member| member.0).collect();
+        let cluster = self.clusters.add(Cluster { members: slots, contacts, renewal });
+        for (slot, acceleration) in members {
+            let species =
+                Species { acceleration, cluster: Some(cluster), ..*self.species_of(slot) };
+            let number = match self.spare_species.pop() {
+                Some(number) => {
+                    self.species[number as usize] = species;
+                    number
+                }
+                None => {
+                    self.species.push(species);
+                    self.species.len() as u32 - 1
+                }
+            };
+            self.bodies[slot as usize].species = number;
+        }
+    }
+
+    /// Whether two bodies have been in persistent contact up to now.
+    #[inline]
+    pub fn are_held_together(&self, bodies: Bodies) -> bool {
+        let (Bodies::Pair(sphere, _) | Bodies::Surface { sphere, .. }) = bodies;
+        let cluster = self.species_of(self.slot_of[sphere as usize]).cluster;
+        cluster.is_some_and(|cluster| self.clusters.get(cluster).has(bodies))
+    }
+
+    /// Whether a surface is one of those that hold a sphere in persistent contact.
+    #[inline]
+    pub fn is_held_by(&self, slot: u32, surface: u32) -> bool {
+        self.are_held_together(Bodies::Surface { sphere: self.index_of[slot as usize], surface })
+    }
+
+    /// How many other spheres are in persistent contact with a sphere, directly or through others.
+    pub fn companions(&self, slot: u32) -> usize {
+        let cluster = self.species_of(slot).cluster;
+        cluster.map_or(0, |number| self.clusters.get(number).members.len() - 1)
+    }
+}

@@ -1,0 +1,190 @@
+//! The frame: how it begins and ends, and how spheres are taken in between frames.
+
+use super::clearance::Clearance;
+use super::context::StepContext;
+use super::events::{Prediction, Schedule};
+use super::flights::{self, Body, Flights};
+use super::neighbours::{Contents, Neighbours};
+use super::pair_times::PairSearch;
+use super::persistent::{held_forces, piece_end};
+use super::predict;
+use super::span::Span;
+use super::timeline::Timeline;
+use crate::bodies::{Motion, SphereId};
+use crate::parallel;
+use crate::report::StepReport;
+use crate::rule::Exact;
+use crate::surface::Role;
+use crate::system::System;
+use crate::work::Work;
+
+/// In a periodic box, spheres are put in order of place again after this many cell crossings per
+/// sphere: seldom enough to cost little, often enough that neighbours stay near each other in memory.
+const CROSSINGS_PER_ARRANGEMENT: u64 = 10;
+/// Cell crossings per sphere before that, where all stay in the fast caches in whatever order.
+const CROSSINGS_OF_FEW: u64 = 100;
+/// On open axes the spheres are arranged after this many events per sphere: they may have gathered in
+/// outermost cells, which none of them leaves.
+const EVENTS_PER_ARRANGEMENT: u64 = 24;
+
+/// Spheres that came since a timeline was made, or went.
+pub(crate) struct Arrivals<'a, F: Fn(SphereId) -> f64> {
+    /// Ids of the spheres that the timeline knows.
+    pub known: &'a [SphereId],
+    /// When the flight of a sphere that came begins, on the world's clock \[s\].
+    pub time_of: F,
+    /// When the next spheres come, on the world's clock \[s\].
+    pub next: f64,
+}
+
+/// Begins a flight of every sphere from its state at `time` \[s\].
+pub(crate) fn start(system: &System, parameters: Exact, motion: &Motion, time: f64) -> Timeline {
+    let flights = Flights::new(system, motion, |_| Err(time));
+    let mut timeline = Timeline { parameters, flights, frame: [time; 2], ..Timeline::default() };
+    arrange(&mut timeline, system, time);
+    predict_all(&mut timeline, system, time);
+    timeline
+}
+
+/// Takes in, at `time` \[s\], the spheres that came, and leaves out those that went; the others fly on.
+/// Persistent contacts are found anew.
+pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
+    before: &Timeline,
+    system: &System,
+    motion: &Motion,
+    arrivals: Arrivals<F>,
+    time: f64,
+) -> Timeline {
+    let flight_of = |index: usize| {
+        let id = system.spheres.id[index];
+        match arrivals.known.binary_search(&id) {
+            Ok(index) => Ok(before.flights.free_flight_of(index, time)),
+            Err(_) => Err((arrivals.time_of)(id)),
+        }
+    };
+    let flights = Flights::new(system, motion, flight_of);
+    let Timeline { parameters, frame, .. } = *before;
+    let mut timeline = Timeline { parameters, flights, frame, ..Timeline::default() };
+    arrange(&mut timeline, system, time);
+    if timeline.flights.hold_forces {
+        held_forces::renew(&mut timeline, system, [time, arrivals.next.min(before.frame[1])]);
+    }
+    predict_all(&mut timeline, system, time);
+    timeline
+}
+
+/// Prepares for a frame from and to these times \[s\]. The next spheres are emitted at `next` \[s\].
+///
+/// # Errors
+/// A sphere on which a force is not finite.
+pub(crate) fn begin(
+    timeline: &mut Timeline,
+    system: &System,
+    frame: [f64; 2],
+    next: f64,
+) -> Result<(), SphereId> {
+    timeline.frame = frame;
+    let hold_forces = timeline.flights.hold_forces;
+    if hold_forces {
+        // What is due already comes at the start of the frame, when this is done again.
+        held_forces::renew(timeline, system, [frame[0], next.clamp(frame[0], frame[1])]);
+        let Flights { bodies, species, index_of, .. } = &timeline.flights;
+        let is_lost = |body: &Body| !species[body.species as usize].acceleration.is_finite();
+        if let Some(slot) = bodies.iter().position(is_lost) {
+            return Err(system.spheres.id[index_of[slot] as usize]);
+        }
+    }
+    let is_due = is_arrangement_due(timeline, system);
+    if is_due {
+        arrange(timeline, system, frame[0]);
+    }
+    if is_due || hold_forces || !timeline.moving_surfaces.is_empty() {
+        predict_all(timeline, system, frame[0]);
+    } else {
+        timeline.schedule.tidy();
+    }
+    timeline.work.begin(&timeline.flights.bodies);
+    Ok(())
+}
+
+/// Writes where all spheres are at the end of a part of a step, and how they move there.
+///
+/// # Errors
+/// The index of a sphere whose state is not finite, and which of its quantities is not; then nothing
+/// is written.
+pub(crate) fn end(
+    timeline: &Timeline,
+    system: &System,
+    motion: &mut Motion,
+    span: Span,
+) -> Result<(), (usize, &'static str)> {
+    if let Some(lost) = flights::first_lost(&timeline.flights, span.end) {
+        return Err(lost);
+    }
+    let period = system.settings.boundary.period();
+    flights::write_motion(&timeline.flights, motion, period, span.end);
+    let (report, work) = (&mut StepReport::default(), &Work::unlimited());
+    let context = StepContext::new(system, timeline.parameters, span, work, report);
+    piece_end::write_motion(timeline, &context, motion, span.end);
+    Ok(())
+}
+
+/// Puts the spheres in the order of their places, and finds their neighbours as of `time` \[s\]. What
+/// was predicted is void.
+fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
+    timeline.moving_surfaces = (0u32..)
+        .zip(system.surfaces)
+        .filter(|(_, surface)| surface.role == Role::Deflects && !surface.motion.is_at_rest())
+        .map(|(number, _)| number)
+        .collect();
+    // What is made anew must not be in memory twice.
+    timeline.schedule = Schedule::default();
+    timeline.neighbours = Neighbours::default();
+    let order = contents(&timeline.flights, system, time).curve_order();
+    if order.windows(2).any(|pair| pair[0] > pair[1]) {
+        timeline.flights.reorder(&order);
+    }
+    timeline.neighbours = Neighbours::new(contents(&timeline.flights, system, time));
+    timeline.clearances.clear();
+    let Timeline { flights, moving_surfaces, .. } = timeline;
+    if flights.hold_forces && moving_surfaces.is_empty() && !system.surfaces.is_empty() {
+        timeline.clearances.resize(flights.bodies.len(), Clearance::NONE);
+    }
+    (timeline.events, timeline.cell_crossings) = (0, 0);
+    timeline.work.begin(&flights.bodies);
+}
+
+fn contents<'a>(flights: &'a Flights, system: &System<'a>, time: f64) -> Contents<'a> {
+    Contents {
+        bodies: &flights.bodies,
+        species: &flights.species,
+        time,
+        period: system.settings.boundary.period(),
+        surfaces: system.surfaces,
+        tree: system.tree,
+        spheres_collide: system.settings.spheres_collide,
+    }
+}
+
+/// Whether the order of the spheres is out of date.
+fn is_arrangement_due(timeline: &Timeline, system: &System) -> bool {
+    let is_closed = system.settings.boundary.period().is_finite();
+    let (done, per_sphere) = match (is_closed, timeline.are_many()) {
+        (true, true) => (timeline.cell_crossings, CROSSINGS_PER_ARRANGEMENT),
+        (true, false) => (timeline.cell_crossings, CROSSINGS_OF_FEW),
+        (false, _) => (timeline.events, EVENTS_PER_ARRANGEMENT),
+    };
+    done > per_sphere * timeline.flights.bodies.len() as u64
+}
+
+/// Predicts the next event of every sphere, as of `time` \[s\].
+fn predict_all(timeline: &mut Timeline, system: &System, time: f64) {
+    timeline.schedule = Schedule::default();
+    let count = timeline.flights.bodies.len();
+    let known = &*timeline;
+    let predictions: Vec<Prediction> = parallel::map(count, |search: &mut PairSearch, slot| {
+        predict::prediction(known, system, slot as u32, search, time)
+    });
+    let horizon = timeline.horizon();
+    timeline.schedule = Schedule::new(predictions, &timeline.flights.index_of, horizon);
+}

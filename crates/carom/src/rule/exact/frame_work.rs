@@ -1,0 +1,51 @@
+//! How much work each sphere took in a frame.
+
+use prefetch_index::prefetch_index;
+
+use super::flights::Body;
+
+/// Units of work that count as much as one flight of a sphere.
+pub(super) const UNITS_PER_FLIGHT: u64 = 32;
+
+/// Work in the frame, by slot, in flights.
+#[derive(Debug, Clone, Default)]
+pub(super) struct FrameWork {
+    /// Generation of each sphere's flight at the start of the frame.
+    generations_before: Vec<u32>,
+    /// Work of the groups of each sphere; empty where there was none.
+    of_groups: Vec<u64>,
+}
+
+impl FrameWork {
+    /// Counts from here on.
+    pub fn begin(&mut self, bodies: &[Body]) {
+        self.of_groups.clear();
+        self.generations_before.clear();
+        self.generations_before.extend(bodies.iter().map(|body| body.generation));
+    }
+
+    /// How many flights of a sphere began, whose flight is of this generation now, and what its groups
+    /// took besides.
+    #[inline]
+    pub fn of(&self, slot: u32, generation: u32) -> u64 {
+        let before = self.generations_before[slot as usize];
+        // Each flight adds two, or one if an impact began the flight before it.
+        let flights = generation.wrapping_sub(before).div_ceil(2);
+        let of_groups = self.of_groups.get(slot as usize).copied().unwrap_or(0);
+        u64::from(flights) + of_groups
+    }
+
+    /// Counts the work of a group for each of its spheres.
+    pub fn charge(&mut self, slots: impl Iterator<Item = u32>, work: u64) {
+        if self.of_groups.is_empty() {
+            self.of_groups.resize(self.generations_before.len(), 0);
+        }
+        slots.for_each(|slot| self.of_groups[slot as usize] += work);
+    }
+
+    /// Fetches what is kept of a sphere into the cache.
+    #[inline(always)]
+    pub fn prefetch(&self, slot: u32) {
+        prefetch_index(&self.generations_before, slot as usize);
+    }
+}

@@ -1,0 +1,146 @@
+//! Follow-up impacts: contacts that an impact closes within its own duration, and that give nothing
+//! back. One by one they are the sweeps of a Gauss-Seidel iteration, which in a wedge has no end;
+//! merged into the group, they are answered at once.
+
+use crate::detect::contact::Bodies;
+use crate::detect::sphere_surface;
+use crate::norm::Norm;
+use crate::respond;
+use crate::rule::exact::contact_scale::{ContactScale, RESOLVED_PATH};
+use crate::rule::exact::contacts::{Group, Member};
+use crate::rule::exact::context::StepContext;
+use crate::rule::exact::neighbours::NeighbourBuffer;
+use crate::rule::exact::timeline::Timeline;
+
+/// The contacts that the spheres `struck` in a group close within a contact duration of its impacts,
+/// and that would give nothing back: either their restitution is 0, or all their spheres were struck
+/// within that time. Ascending.
+pub(super) fn follow_ups(
+    timeline: &Timeline,
+    context: &StepContext,
+    group: &Group,
+    struck: &[Bodies],
+) -> Vec<Bodies> {
+    if group.touches.len() < 2 {
+        // A single impact: one that follows it meets a sphere that was struck, as any other does.
+        return Vec::new();
+    }
+    let mut is_struck = vec![false; group.members.len()];
+    for index in struck.iter().flat_map(|bodies| bodies.spheres()) {
+        if let Some(place) = group.place_of(&timeline.flights, index) {
+            is_struck[place] = true;
+        }
+    }
+    let search = Search { timeline, context, group, is_struck: &is_struck };
+    let mut found = Vec::new();
+    for (place, _) in is_struck.iter().enumerate().filter(|(_, is_struck)| **is_struck) {
+        search.spheres_closing(place, &mut found);
+        search.surfaces_closing(place, &mut found);
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// A search for follow-up impacts of a group.
+struct Search<'a> {
+    timeline: &'a Timeline,
+    context: &'a StepContext<'a>,
+    group: &'a Group,
+    /// By place among the members.
+    is_struck: &'a [bool],
+}
+
+impl Search<'_> {
+    fn spheres_closing(&self, place: usize, found: &mut Vec<Bodies>) {
+        let Self { timeline, context, group, .. } = *self;
+        if !context.system.settings.spheres_collide {
+            return;
+        }
+        let member = &group.members[place];
+        let index = timeline.flights.index_of[member.slot as usize];
+        let mut near = NeighbourBuffer::default();
+        timeline.neighbours.find(member.slot, member.species.level, &mut near);
+        for neighbour in near.others(member.slot) {
+            let other_index = timeline.flights.index_of[neighbour.slot() as usize];
+            let bodies = Bodies::pair([index, other_index]);
+            let other = self.state_of(neighbour.slot(), other_index);
+            let shift = timeline.neighbours.shift_of(member.slot, neighbour);
+            let offset = other.position + shift - member.position;
+            let radius_sum = member.species.radius + other.species.radius;
+            let gap = offset.norm() - radius_sum;
+            if gap > RESOLVED_PATH * radius_sum || group.has(bodies) {
+                continue;
+            }
+            let closing = (member.velocity - other.velocity).dot(offset) / offset.norm();
+            let restitution = context
+                .restitution_rule()
+                .combine(member.species.restitution, other.species.restitution);
+            if self.follows(&[member, &other], gap, closing, restitution) {
+                found.push(bodies);
+            }
+        }
+    }
+
+    fn surfaces_closing(&self, place: usize, found: &mut Vec<Bodies>) {
+        let Self { timeline, context, group, .. } = *self;
+        let member = &group.members[place];
+        let sphere = timeline.flights.index_of[member.slot as usize];
+        for (surface, shift) in timeline.surfaces_near(member.slot) {
+            let bodies = Bodies::Surface { sphere, surface };
+            let (form, motion) = context.surface_at(surface, group.time);
+            let center = member.position - shift;
+            let Some(separation) = sphere_surface(&form, center, member.species.radius) else {
+                continue;
+            };
+            let gap = separation.distance;
+            if gap > RESOLVED_PATH * member.species.radius || group.has(bodies) {
+                continue;
+            }
+            let velocity = member.velocity - motion.velocity_at(separation.point);
+            let closing = -velocity.dot(separation.normal);
+            let restitution = respond::restitution_of(bodies, context.system);
+            if self.follows(&[member], gap, closing, restitution) {
+                found.push(bodies);
+            }
+        }
+    }
+
+    /// A sphere as the group leaves it, or as it flies outside the group.
+    fn state_of(&self, slot: u32, index: u32) -> Member {
+        let Self { timeline, group, .. } = *self;
+        group.place_of(&timeline.flights, index).map_or_else(
+            || {
+                let (position, velocity) = timeline.flights.state_of(slot, group.time);
+                Member {
+                    slot,
+                    position,
+                    velocity,
+                    species: *timeline.flights.free_species_of(slot),
+                }
+            },
+            |place| group.members[place],
+        )
+    }
+
+    /// Whether spheres close a gap \[m\] at a speed \[m/s\] within a contact duration, without giving
+    /// anything back.
+    fn follows(&self, spheres: &[&Member], gap: f64, closing: f64, restitution: f64) -> bool {
+        if closing <= 0.0 || restitution == 1.0 {
+            return false;
+        }
+        let time = self.group.time;
+        let scale = spheres.iter().fold(ContactScale::default(), |scale, member| {
+            scale.with(member.position, member.velocity, &member.species)
+        });
+        let duration = self.context.duration_of(&scale, time);
+        let was_struck = |member: &&Member| {
+            let body = &self.timeline.flights.bodies[member.slot as usize];
+            let index = self.timeline.flights.index_of[member.slot as usize];
+            let place = self.group.place_of(&self.timeline.flights, index);
+            place.is_some_and(|place| self.is_struck[place])
+                || (body.is_struck() && time - body.time < duration)
+        };
+        gap <= closing * duration && (restitution == 0.0 || spheres.iter().all(was_struck))
+    }
+}

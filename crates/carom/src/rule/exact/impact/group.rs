@@ -1,0 +1,252 @@
+//! Impacts of a group: all that touches at one instant is answered together, and contacts that would
+//! not part again become persistent.
+
+use glam::DVec3;
+
+use super::account::account_of;
+use super::follow_up;
+use crate::detect::contact::Bodies;
+use crate::norm::Norm;
+use crate::report::{Impact, ImpactGroup, Participants};
+use crate::respond;
+use crate::respond::TouchingContact;
+use crate::rule::exact::contacts::{self, Group, Member, Touch};
+use crate::rule::exact::context::StepContext;
+use crate::rule::exact::flights::Support;
+use crate::rule::exact::frame_work::UNITS_PER_FLIGHT;
+use crate::rule::exact::periodic;
+use crate::rule::exact::persistent::{piece_end, solve};
+use crate::rule::exact::predict::{self, Unresolved};
+use crate::rule::exact::timeline::Timeline;
+
+/// Answers what happens at `time` \[s\] among the spheres at `seeds`, the surface they met, if any,
+/// and all that touch them.
+pub(super) fn answer(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    seeds: &[u32],
+    surface: Option<u32>,
+    time: f64,
+) {
+    let work_before = context.work.done();
+    context.work.allow(UNITS_PER_FLIGHT * (u64::from(context.parameters.max_impacts) + 1));
+    let mut merged = Vec::new();
+    let (mut group, answer) = loop {
+        let mut group = contacts::gather(timeline, context, seeds, surface, &merged, time);
+        piece_end::settle(timeline, context, &mut group);
+        let answer = respond_to_impacts(timeline, context, &mut group, &merged);
+        let found = follow_up::follow_ups(timeline, context, &group, &answer.struck(&group));
+        if found.is_empty() || !context.work.spend(group.members.len() as u64) {
+            break (group, answer);
+        }
+        merged.extend(found);
+    };
+    record(context, &group, &answer);
+    let struck = answer.struck(&group);
+    let supports = solve::find(context, &mut group);
+    let held: Vec<Bodies> =
+        supports.iter().flat_map(|support| &support.contacts).copied().collect();
+    begin_flights(timeline, &group, &struck, supports);
+    for member in &group.members {
+        predict::predict(timeline, context, member.slot, group.time);
+    }
+    let work = (context.work.done() - work_before) / UNITS_PER_FLIGHT;
+    timeline.work.charge(group.members.iter().map(|member| member.slot), work);
+    context.work.allow(u64::MAX);
+    // Bodies that touch and part, or still close by rounding, may be predicted to meet at once.
+    let unresolved = unresolved(timeline, context, &group, &held, met(timeline, seeds, surface));
+    for member in &group.members {
+        predict::pass_over(timeline, member.slot, &unresolved);
+    }
+}
+
+/// The bodies that touch and are not `held` in persistent contact, and those whose meeting was
+/// predicted though they do not touch.
+fn unresolved(
+    timeline: &Timeline,
+    context: &StepContext,
+    group: &Group,
+    held: &[Bodies],
+    met: Option<Bodies>,
+) -> Vec<Unresolved> {
+    let parting = group.touches.iter().filter(|touch| !held.contains(&touch.bodies));
+    let unresolved = parting.map(|touch| Unresolved {
+        bodies: touch.bodies,
+        until: group.time + unresolved_time(timeline, context, group, touch),
+    });
+    let apart = met.filter(|&bodies| !group.has(bodies)).map(|bodies| Unresolved {
+        bodies,
+        until: group.time + context.parameters.contact_duration,
+    });
+    unresolved.chain(apart).collect()
+}
+
+/// How long \[s\] bodies that touch and are not in persistent contact close by less than the gap at
+/// which they count as touching.
+fn unresolved_time(
+    timeline: &Timeline,
+    context: &StepContext,
+    group: &Group,
+    touch: &Touch,
+) -> f64 {
+    let acceleration = |place: usize| {
+        let Member { slot, velocity, species, .. } = group.members[place];
+        timeline.flights.species_of(slot).acceleration - species.drag_rate * velocity
+    };
+    let first = touch.first.map_or(DVec3::ZERO, acceleration);
+    let pull = (first - acceleration(touch.second)).dot(touch.normal).max(0.0);
+    let closing = (-touch.normal_velocity(&group.members)).max(0.0);
+    let scale = group.scale(touch);
+    let gap = scale.resolved_gap();
+    let speed = touch.relative_velocity(&group.members).norm();
+    let closed = 2.0 * gap / (closing + (closing * closing + 2.0 * pull * gap).sqrt());
+    closed.min(scale.resolved_time(speed)).max(context.parameters.contact_duration)
+}
+
+/// The two bodies whose meeting was predicted, if any was.
+fn met(timeline: &Timeline, seeds: &[u32], surface: Option<u32>) -> Option<Bodies> {
+    let index = |slot: u32| timeline.flights.index_of[slot as usize];
+    match (seeds, surface) {
+        (&[first, second], _) => Some(Bodies::pair([first, second].map(index))),
+        (&[slot], Some(surface)) => Some(Bodies::Surface { sphere: index(slot), surface }),
+        _ => None,
+    }
+}
+
+/// What impacts did to a group.
+struct Answer {
+    /// One per touch: speed of approach before all impacts \[m/s\].
+    approach_speeds: Vec<f64>,
+    /// One per touch \[N s\].
+    impulses: Vec<f64>,
+    /// What the impacts did to momentum and energy of the spheres.
+    account: ImpactGroup,
+}
+
+impl Answer {
+    /// The touches that got an impulse.
+    fn struck(&self, group: &Group) -> Vec<Bodies> {
+        let touches = group.touches.iter().zip(&self.impulses);
+        touches.filter(|(_, impulse)| **impulse > 0.0).map(|(touch, _)| touch.bodies).collect()
+    }
+}
+
+/// Gives every closing contact its impulse, by the impact law. What of the `merged` contacts still
+/// closes then is answered plastically, together with all others.
+fn respond_to_impacts(
+    timeline: &Timeline,
+    context: &StepContext,
+    group: &mut Group,
+    merged: &[Bodies],
+) -> Answer {
+    let count = group.touches.len();
+    let speeds = group.touches.iter().map(|touch| -touch.normal_velocity(&group.members));
+    let approach_speeds: Vec<f64> = speeds.collect();
+    let (mut impulses, mut energy_demanded) = (vec![0.0; count], 0.0);
+    if !approach_speeds.iter().any(|&speed| speed > 0.0) {
+        return Answer { approach_speeds, impulses, account: ImpactGroup::default() };
+    }
+    let masses: Vec<f64> = group.members.iter().map(|member| member.species.mass).collect();
+    let before: Vec<DVec3> = group.members.iter().map(|member| member.velocity).collect();
+    let mut after = before.clone();
+    let contacts = contacts_of(timeline, context, group);
+    let law = context.system.settings.impact_law;
+    let mut resolve = |places: &[usize], contacts: &[TouchingContact]| {
+        let response = respond::resolve_within(context.work, law, contacts, &masses, &mut after);
+        energy_demanded += response.restitution_energy;
+        for (&place, impulse) in places.iter().zip(response.impulses) {
+            impulses[place] += impulse;
+        }
+    };
+    let is_merged = |place: &usize| merged.contains(&group.touches[*place].bodies);
+    let touching: Vec<usize> = (0..count).filter(|place| !is_merged(place)).collect();
+    let given: Vec<_> = touching.iter().map(|&place| contacts[place]).collect();
+    resolve(&touching, &given);
+    if !merged.is_empty() {
+        let plastic = |contact: &TouchingContact| TouchingContact { restitution: 0.0, ..*contact };
+        let all: Vec<usize> = (0..count).collect();
+        resolve(&all, &contacts.iter().map(plastic).collect::<Vec<_>>());
+    }
+    for (member, velocity) in group.members.iter_mut().zip(&after) {
+        member.velocity = *velocity;
+    }
+    let account = ImpactGroup { energy_demanded, ..account_of([&before, &after], &masses) };
+    Answer { approach_speeds, impulses, account }
+}
+
+/// Writes down the impacts of a group.
+fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
+    let Answer { approach_speeds, impulses, .. } = answer;
+    let mut account = answer.account;
+    let mut impacts: Vec<Impact> = Vec::new();
+    for ((touch, &impulse), &approach_speed) in
+        group.touches.iter().zip(impulses).zip(approach_speeds)
+    {
+        if impulse <= 0.0 {
+            continue;
+        }
+        if matches!(touch.bodies, Bodies::Surface { .. }) {
+            account.momentum_after -= impulse * touch.normal;
+            account.energy_after -= impulse * touch.normal.dot(touch.surface_velocity);
+        }
+        let between = Participants::of(touch.bodies, context.system);
+        let point = periodic::wrapped(touch.point, context.period);
+        // Faces of a box share edges and corners, where a sphere meets several at one place.
+        let same = impacts.iter_mut().find(|it| it.between == between && it.point == point);
+        if let Some(impact) = same {
+            impact.impulse += impulse;
+            continue;
+        }
+        impacts.push(Impact {
+            time: context.since_start(group.time),
+            between,
+            point,
+            normal: touch.normal,
+            approach_speed,
+            separation_speed: touch.normal_velocity(&group.members),
+            impulse,
+        });
+    }
+    if !impacts.is_empty() {
+        context.record(impacts, account);
+    }
+}
+
+/// The touches as the impact laws take them.
+fn contacts_of(timeline: &Timeline, context: &StepContext, group: &Group) -> Vec<TouchingContact> {
+    let slot = |place: usize| group.members[place].slot;
+    let contact = |touch: &Touch| {
+        let own = |place: usize| group.members[place].species.restitution;
+        let restitution = match (touch.first, touch.bodies) {
+            (Some(first), _) => {
+                let restitution = context.restitution_rule().combine(own(first), own(touch.second));
+                let slots = [slot(first), slot(touch.second)];
+                context.restitution_at(timeline, slots, restitution, group.time)
+            }
+            (None, bodies) => {
+                let restitution = respond::restitution_of(bodies, context.system);
+                context.restitution_at(timeline, [slot(touch.second)], restitution, group.time)
+            }
+        };
+        TouchingContact { restitution, ..touch.contact() }
+    };
+    group.touches.iter().map(contact).collect()
+}
+
+/// Begins a new flight of every sphere of the group, borne by its lasting contacts. Bodies that were
+/// `struck` begin it by that.
+fn begin_flights(
+    timeline: &mut Timeline,
+    group: &Group,
+    struck: &[Bodies],
+    supports: Vec<Support>,
+) {
+    for member in &group.members {
+        timeline.set_free(member.slot);
+        timeline.begin_flight(member.slot, member.position, member.velocity, group.time);
+    }
+    for index in struck.iter().flat_map(|bodies| bodies.spheres()) {
+        timeline.flights.bodies[timeline.flights.slot_of[index as usize] as usize].strike();
+    }
+    supports.into_iter().for_each(|support| timeline.set_supported(support));
+}

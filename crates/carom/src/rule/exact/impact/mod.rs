@@ -1,0 +1,11 @@
+//! Impacts: what happens when bodies meet, and what that changes.
+
+mod account;
+mod follow_up;
+mod group;
+mod pair;
+mod single_sphere;
+mod surface_contacts;
+
+pub(super) use pair::of_spheres;
+pub(super) use single_sphere::of_sphere;

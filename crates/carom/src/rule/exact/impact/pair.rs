@@ -1,0 +1,154 @@
+//! Impacts of two spheres that touch nothing else.
+
+use std::hint::select_unpredictable;
+
+use glam::DVec3;
+
+use super::account::account_of_pair;
+use super::group;
+use crate::norm::Norm;
+use crate::report::{Impact, Participants};
+use crate::respond;
+use crate::rule::exact::context::StepContext;
+use crate::rule::exact::flights::Body;
+use crate::rule::exact::pair_times::NearTest;
+use crate::rule::exact::periodic;
+use crate::rule::exact::predict;
+use crate::rule::exact::timeline::Timeline;
+
+/// Whatever is nearer to a sphere than this part of the distance of centres may take part in the
+/// impact, and is looked at closely. Generous: it only decides which way is taken to one result.
+pub(super) const NEARBY: f64 = 1e-6;
+
+/// Answers the impact of two spheres at `time` \[s\], and of whatever touches them there.
+pub(crate) fn of_spheres(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slots: [u32; 2],
+    time: f64,
+) {
+    // In the order of ids, as everywhere.
+    let [one, other] = slots;
+    let is_ordered =
+        timeline.flights.index_of[one as usize] < timeline.flights.index_of[other as usize];
+    let slots = select_unpredictable(is_ordered, [one, other], [other, one]);
+    let are_free = timeline.flights.only_species().is_some() || {
+        let species = slots.map(|slot| timeline.flights.species_of(slot));
+        species[0].flies_like(species[1]) && species.iter().all(|species| species.cluster.is_none())
+    };
+    if !are_free {
+        return group::answer(timeline, context, &slots, None, time);
+    }
+    // As if they were alone: then they need not look around once more.
+    let impact = PairImpact::at(timeline, context, slots, time);
+    let before = slots.map(|slot| timeline.flights.bodies[slot as usize]);
+    let after = impact.places.into_iter().zip(impact.velocities);
+    for (slot, (place, velocity)) in slots.into_iter().zip(after) {
+        timeline.flights.bodies[slot as usize].begin_flight(place, velocity, time);
+    }
+    if !(is_alone(timeline, context, slots, 0) && is_alone(timeline, context, slots, 1)) {
+        slots
+            .into_iter()
+            .zip(before)
+            .for_each(|(slot, body)| timeline.flights.bodies[slot as usize] = body);
+        return group::answer(timeline, context, &slots, None, time);
+    }
+    if impact.impulse.is_some() {
+        slots.iter().for_each(|&slot| timeline.flights.bodies[slot as usize].strike());
+    }
+    impact.record(timeline, context, slots);
+    let is_wrapped = slots.map(|slot| timeline.wrap(slot));
+    for (one, slot) in slots.into_iter().enumerate() {
+        if is_wrapped[one] {
+            // In another place distances round differently.
+            predict::predict(timeline, context, slot, time);
+        } else {
+            let search = &context.searches[one];
+            let prediction =
+                predict::prediction_from_found(timeline, context.system, slot, search, time);
+            timeline.enter(slot, prediction);
+        }
+    }
+}
+
+/// Whether one of two spheres, whose flights begin at `time` \[s\], touches nothing but the other.
+/// It looks around.
+#[inline(always)]
+fn is_alone(timeline: &Timeline, context: &mut StepContext, slots: [u32; 2], one: usize) -> bool {
+    let (slot, other) = (slots[one], slots[1 - one]);
+    let radius = timeline.flights.species_of(slot).radius;
+    let Body { position, time, .. } = timeline.flights.bodies[slot as usize];
+    let near_test = NearTest { exempt: other, margin: NEARBY };
+    let search = &mut context.searches[one];
+    let mut is_near = search.search(timeline, slot, time, near_test);
+    // The two fly alike: where all are of one kind, all do.
+    if timeline.flights.species.len() > 1 {
+        is_near |= search.is_near_others(timeline, slot, near_test);
+    }
+    // Surfaces are not called for where there are none.
+    !is_near
+        && (context.system.surfaces.is_empty()
+            || context.touches_no_surface(timeline, slot, position, radius * NEARBY, time))
+}
+
+/// The impact of two spheres by itself, which all laws answer alike.
+struct PairImpact {
+    time: f64,
+    places: [DVec3; 2],
+    velocities_before: [DVec3; 2],
+    velocities: [DVec3; 2],
+    normal: DVec3,
+    approach_speed: f64,
+    restitution: f64,
+    /// \[N s\]; `None` if a grazing contact turns out, by rounding, not to close.
+    impulse: Option<f64>,
+}
+
+impl PairImpact {
+    #[inline(always)]
+    fn at(timeline: &Timeline, context: &StepContext, slots: [u32; 2], time: f64) -> Self {
+        let species = slots.map(|slot| timeline.flights.species_of(slot));
+        let [(x1, v1), (x2, v2)] = slots.map(|slot| timeline.flights.state_of(slot, time));
+        let offset = periodic::wrapped(x2 - x1, context.period);
+        let normal = offset / offset.norm();
+        let [e1, e2] = species.map(|species| species.restitution);
+        let restitution = context.restitution_rule().combine(e1, e2);
+        let restitution = context.restitution_at(timeline, slots, restitution, time);
+        let masses = species.map(|species| species.mass);
+        let answer = respond::line_of_centres([v1, v2], masses, normal, restitution);
+        Self {
+            time,
+            places: [x1, x2],
+            velocities_before: [v1, v2],
+            velocities: answer.map_or([v1, v2], |answer| answer.0),
+            normal,
+            approach_speed: (v1 - v2).dot(normal),
+            restitution,
+            impulse: answer.map(|answer| answer.1),
+        }
+    }
+
+    fn record(&self, timeline: &Timeline, context: &mut StepContext, slots: [u32; 2]) {
+        let Some(impulse) = self.impulse else { return };
+        let species = slots.map(|slot| timeline.flights.species_of(slot));
+        let [first, second] = slots.map(|slot| context.id_of(timeline, slot));
+        let point = self.places[0] + species[0].radius * self.normal;
+        let impact = Impact {
+            time: context.since_start(self.time),
+            between: Participants::Spheres(first, second),
+            point: periodic::wrapped(point, context.period),
+            normal: self.normal,
+            approach_speed: self.approach_speed,
+            separation_speed: (self.velocities[1] - self.velocities[0]).dot(self.normal),
+            impulse,
+        };
+        let account = account_of_pair(
+            self.velocities_before,
+            self.velocities,
+            species.map(|species| species.mass),
+            self.approach_speed,
+            self.restitution,
+        );
+        context.record([impact], account);
+    }
+}

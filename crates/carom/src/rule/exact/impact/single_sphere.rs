@@ -1,0 +1,122 @@
+//! What a sphere does that is alone with surfaces at rest: it bounces off them, rests on planes or
+//! slides along.
+
+use glam::DVec3;
+
+use super::account::account_of;
+use super::group;
+use super::surface_contacts::{
+    MOST_TOUCHED, SingleSphere, SurfaceContacts, restitution_of, single_sphere,
+};
+use crate::detect::contact::Bodies;
+use crate::norm::Norm;
+use crate::report::{Impact, ImpactGroup, Participants};
+use crate::respond;
+use crate::rule::exact::contacts::Member;
+use crate::rule::exact::context::StepContext;
+use crate::rule::exact::flights::Support;
+use crate::rule::exact::persistent::REST;
+use crate::rule::exact::persistent::planar::{self, PlanarSupport};
+use crate::rule::exact::predict::{self, Unresolved};
+use crate::rule::exact::timeline::Timeline;
+
+/// Answers what happens to a sphere at `time` \[s\]: it meets a `surface`, or else the forces of its
+/// lasting contacts have to be found anew. The answer is that of its group, but for rounding.
+pub(crate) fn of_sphere(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    surface: Option<u32>,
+    time: f64,
+) {
+    let Some(SingleSphere { mut member, touched }) =
+        single_sphere(timeline, context, slot, surface, time)
+    else {
+        return group::answer(timeline, context, &[slot], surface, time);
+    };
+    let fastest = member.velocity.norm();
+    let struck = strike(timeline, context, &touched, &mut member, time);
+    let contact_duration = context.duration_of(&member.scale(touched.is_curved()), time);
+    let corner = &touched.corner;
+    let planar = planar::support(&member, corner, contact_duration, timeline.horizon() - time);
+    if let Some(planar) = &planar {
+        let is_at_rest = planar.velocity.norm() <= REST * fastest;
+        member.velocity = if is_at_rest { DVec3::ZERO } else { planar.velocity };
+    }
+    timeline.set_free(slot);
+    timeline.begin_flight(slot, member.position, member.velocity, time);
+    if struck.iter().any(Option::is_some) {
+        timeline.flights.bodies[slot as usize].strike();
+    }
+    let sphere = timeline.flights.index_of[slot as usize];
+    if let Some(PlanarSupport { acceleration, valid_for, persists, .. }) = planar {
+        let lasting = corner.planes().zip(persists).filter(|it| it.1).map(|it| it.0.surface);
+        let contacts = lasting.map(|surface| Bodies::Surface { sphere, surface }).collect();
+        let support =
+            Support { members: vec![(slot, acceleration)], contacts, renewal: time + valid_for };
+        timeline.set_supported(support);
+    }
+    predict::predict(timeline, context, slot, time);
+    let is_answered = |timeline: &Timeline, surface: u32| {
+        touched.is_struck(&struck, surface) || timeline.flights.is_held_by(slot, surface)
+    };
+    let Some(met) = surface.filter(|&surface| !is_answered(timeline, surface)) else { return };
+    // Others may be closed by rounding, too: passed over one at a time, they would take turns.
+    let contacts = touched.contacts(member.position).into_iter().flatten();
+    let others = contacts.map(|contact| contact.surface).filter(|&it| !is_answered(timeline, it));
+    let unresolved: Vec<Unresolved> = others
+        .chain([met])
+        .map(|surface| Bodies::Surface { sphere, surface })
+        .map(|bodies| Unresolved { bodies, until: time + contact_duration })
+        .collect();
+    predict::pass_over(timeline, slot, &unresolved);
+}
+
+/// Gives a sphere the impulses of the surfaces that it closes on, by Newton's law, which is what all
+/// impact laws say of contacts that do not feel each other, and writes them down. Tells which surfaces
+/// gave one.
+fn strike(
+    timeline: &Timeline,
+    context: &mut StepContext,
+    touched: &SurfaceContacts,
+    member: &mut Member,
+    time: f64,
+) -> [Option<u32>; MOST_TOUCHED] {
+    let Member { slot, position, velocity: before, species } = *member;
+    let sphere = timeline.flights.index_of[slot as usize];
+    let rounding = respond::rounding_of(before);
+    let (mut impacts, mut struck) = ([None; MOST_TOUCHED], [None; MOST_TOUCHED]);
+    let mut energy_demanded = 0.0;
+    for (place, contact) in touched.contacts(position).into_iter().flatten().enumerate() {
+        let approach_speed = -before.dot(contact.normal);
+        if approach_speed <= rounding {
+            continue;
+        }
+        let restitution = restitution_of(timeline, context, slot, contact.surface, time);
+        let Some(change) = respond::reflection(before, contact.normal, restitution) else {
+            continue;
+        };
+        member.velocity += change * contact.normal;
+        let impulse = species.mass * change;
+        energy_demanded -= 0.5 * (1.0 - restitution) * impulse * approach_speed;
+        struck[place] = Some(contact.surface);
+        let bodies = Bodies::Surface { sphere, surface: contact.surface };
+        impacts[place] = Some(Impact {
+            time: context.since_start(time),
+            between: Participants::of(bodies, context.system),
+            point: contact.point,
+            normal: contact.normal,
+            approach_speed,
+            separation_speed: member.velocity.dot(contact.normal),
+            impulse,
+        });
+    }
+    if struck.iter().any(Option::is_some) {
+        let mut account = account_of([&[before], &[member.velocity]], &[species.mass]);
+        for impact in impacts.iter().flatten() {
+            account.momentum_after -= impact.impulse * impact.normal;
+        }
+        context.record(impacts.into_iter().flatten(), ImpactGroup { energy_demanded, ..account });
+    }
+    struck
+}

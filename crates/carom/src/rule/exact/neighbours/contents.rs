@@ -1,0 +1,115 @@
+//! What neighbours are found from, and the grids that suit it.
+
+use glam::DVec3;
+
+use super::grid::Grid;
+use super::region::OVERHANG;
+use crate::detect::surface_tree::SurfaceTree;
+use crate::rule::exact::flights::{Body, Species};
+use crate::rule::exact::periodic::wrapped;
+use crate::surface::Surface;
+
+/// Lists are kept if there are more spheres than this to a cell as wide as a diameter: then to
+/// look at fewer neighbours is worth the upkeep.
+const CROWDED: f64 = 0.55;
+/// Where there are lists, cells are wider than a diameter by this part of it, at least.
+const LIST_MARGIN: f64 = 0.28;
+/// Distances are compared with this margin, more than their rounding.
+pub(super) const SLACK: f64 = 1.0 + 1e-9;
+
+/// Spheres at some time, and surfaces.
+#[derive(Clone, Copy)]
+pub(crate) struct Contents<'a> {
+    pub bodies: &'a [Body],
+    pub species: &'a [Species],
+    /// On the world's clock \[s\].
+    pub time: f64,
+    /// Edges of the periodic box about the origin \[m\]; infinite along an open axis.
+    pub period: DVec3,
+    pub surfaces: &'a [Surface],
+    pub tree: &'a SurfaceTree,
+    /// Whether spheres have to find each other at all.
+    pub spheres_collide: bool,
+}
+
+/// A grid for crowded spheres.
+pub(super) struct CrowdedGrid {
+    pub grid: Grid,
+    /// Half the edges of the neighbour regions \[m\].
+    pub half_edges: DVec3,
+}
+
+impl Contents<'_> {
+    pub(super) fn position_of(&self, body: &Body) -> DVec3 {
+        body.state_at(&self.species[body.species as usize], self.time).0
+    }
+
+    fn level_count(&self) -> u32 {
+        self.species.iter().map(|species| species.level + 1).max().unwrap_or(0)
+    }
+
+    /// The largest radius of a level \[m\].
+    pub(super) fn radius_of(&self, level: u32) -> f64 {
+        let of_level = self.species.iter().filter(|species| species.level == level);
+        of_level.map(|species| species.radius).fold(0.0, f64::max)
+    }
+
+    /// The grid of each level.
+    pub(super) fn grids(&self) -> Vec<Grid> {
+        let mut grids: Vec<Grid> = Vec::new();
+        for level in 0..self.level_count() {
+            let (min_width, seek) = self.cells_wanted(level);
+            grids.push(match grids.last() {
+                Some(above) => above.divided(min_width, seek),
+                None => self.grid(min_width, seek),
+            });
+        }
+        grids
+    }
+
+    /// How wide the cells of a level have to be at least \[m\], and how many things look for each
+    /// other in them. Spheres that pass through each other look for surfaces alone.
+    fn cells_wanted(&self, level: u32) -> (f64, usize) {
+        let radius = self.radius_of(level);
+        if !self.spheres_collide {
+            return (radius, self.surfaces.len());
+        }
+        let is_held = |body: &&Body| self.species[body.species as usize].level >= level;
+        let diameter = 2.0 * radius / (1.0 - 2.0 * OVERHANG) * SLACK;
+        (diameter, self.bodies.iter().filter(is_held).count())
+    }
+
+    /// A grid over all spheres.
+    fn grid(&self, min_width: f64, seek: usize) -> Grid {
+        let positions = self.bodies.iter().map(|body| wrapped(self.position_of(body), self.period));
+        Grid::over(positions, self.period, min_width, seek)
+    }
+
+    /// A grid for lists of neighbours, if spheres are of one level and crowded in `grid`.
+    pub(super) fn crowded_grid(&self, grid: &Grid) -> Option<CrowdedGrid> {
+        let count = self.bodies.len();
+        let diameter = 2.0 * self.radius_of(0);
+        let volume = grid.len() as f64 * grid.width().element_product();
+        let crowd = count as f64 / volume * (diameter * diameter * diameter);
+        let is_crowded = self.spheres_collide && self.level_count() == 1 && crowd > CROWDED;
+        is_crowded.then(|| {
+            let grid = self.grid(diameter * (1.0 + LIST_MARGIN), count);
+            // Two regions side by side, and the spheres that reach out of them, are as wide as a cell.
+            let reach = grid.width().min_element() / (2.0 * SLACK);
+            CrowdedGrid { half_edges: DVec3::splat(reach - self.radius_of(0)), grid }
+        })
+    }
+
+    /// Slots in an order in which neighbours are near each other in memory: along a space-filling
+    /// curve through the cells of the smallest spheres.
+    pub fn curve_order(&self) -> Vec<u32> {
+        let Some(grid) = self.grids().pop() else { return Vec::new() };
+        let key = |slot: &u32| {
+            let position = self.position_of(&self.bodies[*slot as usize]);
+            grid.curve_key(wrapped(position, self.period))
+        };
+        let mut order: Vec<u32> = (0..self.bodies.len() as u32).collect();
+        order.sort_by_cached_key(key);
+        order
+    }
+}

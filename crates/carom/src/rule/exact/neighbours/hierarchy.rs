@@ -1,0 +1,443 @@
+//! The neighbours of all spheres, by cell and by list.
+
+use fearless_simd::Simd;
+use glam::DVec3;
+use prefetch_index::prefetch_index;
+
+use super::buffer::NeighbourBuffer;
+use super::cells::Cells;
+use super::contents::Contents;
+use super::grid::{Grid, Side};
+use super::images::{Images, PeriodicBox, offset_between};
+use super::level::{Level, Levels};
+use super::neighbour::Neighbour;
+use super::neighbour_lists::{Crowd, NeighbourLists};
+use super::region::{CROSSING, LEAD, Region};
+use crate::lanes::{LANES, Lanes};
+use crate::norm::Norm;
+use crate::real::Vector;
+use crate::rule::exact::flights::{AxisMotion, Body, Species};
+use crate::rule::exact::periodic;
+
+/// The regions of all spheres, and which spheres and surfaces are near them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Neighbours {
+    /// From the largest spheres to the smallest.
+    levels: Vec<Level>,
+    /// By slot.
+    regions: Vec<Region>,
+    /// By slot, where spheres are crowded.
+    lists: Option<NeighbourLists>,
+    periodic_box: PeriodicBox,
+    images: Images,
+    /// Whether spheres have to find each other at all.
+    spheres_collide: bool,
+}
+
+/// A cell, and the side of it where spheres are new, if it is one.
+#[derive(Clone, Copy)]
+struct Arrival {
+    cell: [u16; 3],
+    side: Option<Side>,
+}
+
+impl Neighbours {
+    /// Finds the neighbours of all spheres.
+    pub fn new(contents: Contents) -> Self {
+        let Contents { bodies, species, period, spheres_collide, .. } = contents;
+        let Levels { levels, are_crowded } = Levels::new(contents);
+        let nowhere = |body: &Body| Region::nowhere(species[body.species as usize].radius);
+        // A neighbour is less than three cells away along each axis, of the coarsest grid.
+        let images = match levels.first() {
+            _ if !period.is_finite_mask().any() => Images::None,
+            Some(level) if level.grid.is_wide() => Images::ByPlace,
+            _ => Images::ByMark,
+        };
+        let mut neighbours = Self {
+            levels,
+            regions: bodies.iter().map(nowhere).collect(),
+            lists: are_crowded.then(|| NeighbourLists::new(bodies.len())),
+            periodic_box: PeriodicBox::new(period),
+            images,
+            spheres_collide,
+        };
+        let mut new = NeighbourBuffer::default();
+        for (slot, body) in (0u32..).zip(bodies) {
+            let level = species[body.species as usize].level;
+            let state = [contents.position_of(body), body.velocity];
+            let cell = neighbours.place(slot, level, state);
+            neighbours.enter_cells(slot, level, cell);
+            new.clear();
+            neighbours.update_list(slot, &mut new);
+        }
+        neighbours
+    }
+
+    /// Whether a sphere is found among its neighbours.
+    #[inline(always)]
+    pub fn finds_itself(&self) -> bool {
+        self.lists.is_none()
+    }
+
+    /// How images are told from others.
+    #[inline(always)]
+    pub fn images(&self) -> Images {
+        self.images
+    }
+
+    /// Finds the spheres that the one at `slot`, of level `level`, may meet before one of them
+    /// leaves its neighbour region, perhaps with itself.
+    #[inline(always)]
+    pub fn find(&self, slot: u32, level: u32, near: &mut NeighbourBuffer) {
+        near.clear();
+        let Some(NeighbourLists { lists, .. }) = &self.lists else {
+            let cell = self.cell_of(slot, &self.levels[level as usize].grid);
+            return self.gather(slot, level, Arrival { cell, side: None }, near);
+        };
+        near.add_list(lists, slot);
+    }
+
+    /// Fetches the region of a sphere into the cache, and its list if there are lists.
+    #[inline]
+    pub fn prefetch_place(&self, slot: u32) {
+        self.prefetch_region(slot);
+        if let Some(NeighbourLists { lists, .. }) = &self.lists {
+            lists.prefetch(slot as usize);
+        }
+    }
+
+    /// Fetches a region, from its beginning to its end: that may be two lines of the cache.
+    #[inline(always)]
+    fn prefetch_region(&self, slot: u32) {
+        prefetch_index(&self.regions, slot as usize);
+        prefetch_index(&self.regions, slot as usize + 1);
+    }
+
+    /// Fetches the cells around a sphere, if they are needed: where there are lists, only if it leaves
+    /// its neighbour region.
+    #[inline]
+    pub fn prefetch_cells(&self, slot: u32, leaves: bool) {
+        let [Level { grid, own, .. }] = &self.levels[..] else { return };
+        if self.lists.is_some() && !leaves {
+            return;
+        }
+        grid.for_each_block(self.cell_of(slot, grid), None, |block| {
+            block.for_each_row(|row| {
+                own.prefetch(row.start);
+                own.prefetch(row.end - 1);
+            });
+        });
+    }
+
+    /// Fetches, if there are lists, the `bodies` on the list of a sphere; if it leaves its neighbour
+    /// region, the regions of the spheres that may come onto its list.
+    #[inline]
+    pub fn prefetch_near(&self, slot: u32, leaves: bool, bodies: &[Body]) {
+        let ([Level { grid, own, .. }], Some(NeighbourLists { lists, .. })) =
+            (&self.levels[..], &self.lists)
+        else {
+            return;
+        };
+        if !leaves {
+            let near = lists.first(slot as usize).iter();
+            return near.for_each(|near| prefetch_index(bodies, near.slot() as usize));
+        }
+        grid.for_each_block(self.cell_of(slot, grid), None, |block| {
+            block.for_each_row(|row| {
+                for other in row.flat_map(|cell| own.first(cell)) {
+                    self.prefetch_region(other.slot());
+                }
+            });
+        });
+    }
+
+    fn region(&self, slot: u32) -> &Region {
+        &self.regions[slot as usize]
+    }
+
+    /// The shift that brings a neighbour of the sphere at `slot` near \[m\].
+    pub fn shift_of(&self, slot: u32, neighbour: Neighbour) -> DVec3 {
+        if neighbour.is_in_same_box() {
+            return DVec3::ZERO;
+        }
+        let (region, other) = (self.region(slot), self.region(neighbour.slot()));
+        self.periodic_box.shift(offset_between(region, other, neighbour.image_offset()))
+    }
+
+    /// The shifts \[m\] that bring several neighbours near, side by side.
+    #[inline(always)]
+    pub fn shifts_of<S: Simd>(
+        &self,
+        simd: S,
+        slot: u32,
+        some: &[Neighbour; LANES],
+    ) -> Vector<Lanes<S>> {
+        let others = some.each_ref().map(|one| &self.regions[one.slot() as usize]);
+        self.periodic_box.shifts_of(simd, &self.regions[slot as usize], others, some)
+    }
+
+    /// The shifts \[m\] that bring neighbours near, where images are told by their positions, from
+    /// their offsets at a time when all are in their neighbour regions \[m\].
+    #[inline(always)]
+    pub fn shifts_to_nearest<S: Simd>(
+        &self,
+        simd: S,
+        offset: Vector<Lanes<S>>,
+    ) -> Vector<Lanes<S>> {
+        self.periodic_box.shifts_to_nearest(simd, offset)
+    }
+
+    /// From the box about the origin to where the position of the sphere counts \[m\].
+    #[inline]
+    pub fn shift_from_box(&self, slot: u32) -> DVec3 {
+        self.periodic_box.shift_from_box(self.region(slot))
+    }
+
+    /// Surfaces that the sphere may meet in its neighbour region, with the shift \[m\] that brings them
+    /// to where its position counts.
+    pub fn surfaces_near(&self, slot: u32, level: u32) -> impl Iterator<Item = (u32, DVec3)> {
+        let Level { grid, surfaces, .. } = &self.levels[level as usize];
+        let offset = self.region(slot).image_offset;
+        let near = if surfaces.is_empty() {
+            &[]
+        } else {
+            surfaces.of_cell(grid.index(self.cell_of(slot, grid)))
+        };
+        near.iter().map(move |near| {
+            let shift = match (near.image_offset, offset) {
+                ([0, 0, 0], [0, 0, 0]) => DVec3::ZERO,
+                (of_image, offset) => {
+                    let boxes = [0, 1, 2].map(|axis| i32::from(of_image[axis]) + offset[axis]);
+                    self.periodic_box.shift(boxes)
+                }
+            };
+            (near.surface, shift)
+        })
+    }
+
+    /// A time before which the sphere does not leave its neighbour region, on the world's clock \[s\].
+    #[inline(always)]
+    pub fn crossing_time(&self, slot: u32, body: &Body, species: &Species, now: f64) -> f64 {
+        let Level { grid, half_edges, .. } = &self.levels[species.level as usize];
+        let center = self.regions[slot as usize].center;
+        let center_here = center + self.shift_from_box(slot);
+        let half_edges = CROSSING * half_edges;
+        if grid.is_closed() && species.flies_straight() {
+            // Without branches on the direction, which the processor cannot predict. What is at rest
+            // on a side has 0 / 0 there, which is never the least.
+            let velocity = body.velocity;
+            let offset = center_here - (body.position + (now - body.time) * velocity);
+            let distance = half_edges + DVec3::ONE.copysign(velocity) * offset;
+            let first = (distance.max(DVec3::ZERO) / velocity.abs()).min_element();
+            return (now + first).max(now.next_up());
+        }
+        let (position, velocity) = body.state_at(species, now);
+        let offset = center_here - position;
+        let (low, high) = grid.without_ends(center, offset - half_edges, offset + half_edges);
+        let mut first = f64::INFINITY;
+        for axis in 0..3 {
+            let motion = AxisMotion {
+                velocity: velocity[axis],
+                acceleration: species.acceleration[axis],
+                drag_rate: species.drag_rate,
+            };
+            first = first.min(motion.leaves(low[axis], high[axis]));
+        }
+        // The clock has to move on, however fast the sphere is.
+        (now + first).max(now.next_up())
+    }
+
+    /// Whether the sphere certainly does not leave its neighbour region until `horizon`, on the world's
+    /// clock \[s\].
+    #[inline]
+    pub fn stays(&self, slot: u32, body: &Body, species: &Species, horizon: f64) -> bool {
+        let Level { half_edges, .. } = &self.levels[species.level as usize];
+        let center = self.region(slot).center;
+        let offset = center + self.shift_from_box(slot) - body.position;
+        let way = body.flight(species).farthest(horizon - body.time);
+        (offset.abs() + way).cmple(CROSSING * half_edges).all()
+    }
+
+    /// Gives a sphere with this position \[m\] and velocity \[m/s\] another neighbour region, and
+    /// finds those that were not near it before, perhaps with others that were and with itself.
+    pub fn cross_cell(
+        &mut self,
+        slot: u32,
+        level: u32,
+        state: [DVec3; 2],
+        near: &mut NeighbourBuffer,
+    ) {
+        near.clear();
+        let before = self.cell_of(slot, &self.levels[level as usize].grid);
+        self.leave_cells(slot, level, before);
+        let cell = self.place(slot, level, state);
+        self.enter_cells(slot, level, cell);
+        if self.lists.is_some() {
+            self.update_list(slot, near);
+        } else {
+            let side = self.levels[level as usize].grid.side(before, cell);
+            self.gather(slot, level, Arrival { cell, side }, near);
+        }
+    }
+
+    /// Lays the region of a sphere about it, and gives the cell that it lies about.
+    fn place(&mut self, slot: u32, level: u32, [position, velocity]: [DVec3; 2]) -> [u16; 3] {
+        let Level { grid, half_edges, .. } = &self.levels[level as usize];
+        let period = self.periodic_box.period;
+        let region = &mut self.regions[slot as usize];
+        let is_listed = self.lists.is_some();
+        let speed = if is_listed { velocity.norm() } else { 0.0 };
+        let lead = if speed > 0.0 && speed.is_finite() {
+            LEAD * half_edges * (velocity / speed)
+        } else {
+            DVec3::ZERO
+        };
+        let center = position + lead;
+        region.image_offset = periodic::image_offset_of(center, period);
+        region.center = center - periodic::image_shift(region.image_offset, period);
+        let cell = grid.cell_of(region.center);
+        if !is_listed {
+            region.center = grid.center(cell);
+        }
+        cell
+    }
+
+    /// The cell of a grid that the region of a sphere lies about.
+    #[inline(always)]
+    fn cell_of(&self, slot: u32, grid: &Grid) -> [u16; 3] {
+        grid.cell_of(self.regions[slot as usize].center)
+    }
+
+    fn enter_cells(&mut self, slot: u32, level: u32, own_cell: [u16; 3]) {
+        self.for_its_cells(slot, level, own_cell, |cells, cell, mark| cells.add(cell, mark));
+    }
+
+    fn leave_cells(&mut self, slot: u32, level: u32, own_cell: [u16; 3]) {
+        self.for_its_cells(slot, level, own_cell, |cells, cell, mark| cells.remove(cell, mark));
+    }
+
+    /// Does something about a sphere, or an image of it, in its cell, in those that hold it on the
+    /// levels above, and in the ghosts of these.
+    #[inline]
+    fn for_its_cells(
+        &mut self,
+        slot: u32,
+        own_level: u32,
+        own_cell: [u16; 3],
+        mut act: impl FnMut(&mut Cells, usize, Neighbour),
+    ) {
+        let region = self.region(slot);
+        let own_mark = if region.is_in_box() {
+            Neighbour::in_same_box(slot)
+        } else {
+            Neighbour::image(slot, [0; 3])
+        };
+        let mark = |offset: [i32; 3]| match offset {
+            [0, 0, 0] => own_mark,
+            _ => Neighbour::image(slot, offset),
+        };
+        let mut act = |grid: &Grid, cells: &mut Cells, cell| {
+            grid.for_each_copy(cell, |number, offset| act(cells, number, mark(offset)));
+        };
+        let center = region.center;
+        for Level { grid, visitors, .. } in &mut self.levels[..own_level as usize] {
+            if let Some(visitors) = visitors {
+                act(grid, visitors, grid.cell_of(center));
+            }
+        }
+        let Level { grid, own, .. } = &mut self.levels[own_level as usize];
+        act(grid, own, own_cell);
+    }
+
+    /// Appends the spheres in the cells around a sphere; of its own level, and of smaller spheres, those
+    /// on the side where they are new.
+    #[inline(always)]
+    fn gather(&self, slot: u32, own_level: u32, own: Arrival, near: &mut NeighbourBuffer) {
+        if !self.spheres_collide {
+            return;
+        }
+        for Level { grid, own, .. } in &self.levels[..own_level as usize] {
+            let all = Arrival { cell: self.cell_of(slot, grid), side: None };
+            self.gather_from(grid, own, slot, all, near);
+        }
+        let Level { grid, own: spheres, visitors, .. } = &self.levels[own_level as usize];
+        self.gather_from(grid, spheres, slot, own, near);
+        if let Some(visitors) = visitors {
+            self.gather_from(grid, visitors, slot, own, near);
+        }
+    }
+
+    /// Appends the spheres in a cell and those around it, or on one side of it.
+    #[inline(always)]
+    fn gather_from(
+        &self,
+        grid: &Grid,
+        spheres: &Cells,
+        slot: u32,
+        Arrival { cell, side }: Arrival,
+        near: &mut NeighbourBuffer,
+    ) {
+        let is_in_box = self.regions[slot as usize].is_in_box();
+        grid.for_each_block(cell, side, |block| {
+            let start = near.len;
+            near.add_block(spheres, &block);
+            if !is_in_box {
+                // Even those in the box about the origin are images.
+                near.make_images(start);
+            }
+        });
+    }
+
+    /// Brings the list of a sphere and those of its neighbours up to date, where there are lists. Adds
+    /// those to `new` that are new on its own.
+    fn update_list(&mut self, slot: u32, new: &mut NeighbourBuffer) {
+        let Self { levels, regions, lists, periodic_box, .. } = self;
+        if let ([level], Some(lists)) = (&levels[..], lists) {
+            lists.update(Crowd { level, regions, periodic_box }, slot, new);
+        }
+    }
+
+    /// Whether a position is in the periodic box.
+    #[inline(always)]
+    pub fn is_in_box(&self, position: DVec3) -> bool {
+        periodic::is_in_box(position, self.periodic_box.period)
+    }
+
+    /// Wraps the position of a sphere, where a flight of it begins, into the periodic box, if it is
+    /// elsewhere.
+    pub fn wrap(&mut self, slot: u32, level: u32, position: DVec3) -> Option<DVec3> {
+        let period = self.periodic_box.period;
+        let offset = periodic::image_offset_of(position, period);
+        if offset == [0; 3] {
+            return None;
+        }
+        self.drop_offset(slot, level, offset);
+        Some(position - periodic::image_shift(offset, period))
+    }
+
+    /// Takes boxes from the image offset of a sphere: of its neighbours, others are now in the same box.
+    fn drop_offset(&mut self, slot: u32, level: u32, offset: [i32; 3]) {
+        let cell = self.cell_of(slot, &self.levels[level as usize].grid);
+        self.leave_cells(slot, level, cell);
+        let near = self.lists.as_ref().map(|lists| lists.lists.members(slot as usize));
+        let near = near.unwrap_or_default();
+        let in_box = |near: &Neighbour| {
+            if near.is_in_same_box() {
+                offset_between(self.region(near.slot()), self.region(slot), [0; 3])
+            } else {
+                near.image_offset()
+            }
+        };
+        let in_box: Vec<_> = near.iter().map(in_box).collect();
+        let region = &mut self.regions[slot as usize];
+        (0..3).for_each(|axis| region.image_offset[axis] -= offset[axis]);
+        let Self { levels, regions, lists, periodic_box, .. } = self;
+        if let ([crowded], Some(lists)) = (&levels[..], lists) {
+            let crowd = Crowd { level: crowded, regions, periodic_box };
+            for (old, in_box) in near.into_iter().zip(in_box) {
+                lists.replace(slot, old, crowd.neighbour(slot, old.slot(), in_box));
+            }
+        }
+        self.enter_cells(slot, level, cell);
+    }
+}

@@ -1,0 +1,142 @@
+//! A neighbour of a sphere.
+
+use glam::DVec3;
+
+use crate::rule::exact::periodic::image_shift;
+
+/// Bits of the slot in a [`Neighbour`].
+const SLOT_BITS: u32 = 27;
+/// The number of the image with offset 0, among those at -1, 0 or 1 boxes along each axis.
+const MIDDLE_IMAGE: i32 = 13;
+/// How many images can be told apart, with the sphere in the same box, and some that are none.
+pub(super) const IMAGES: usize = 1 << (u32::BITS - SLOT_BITS);
+/// The offset of each image, by its number and one more: to look it up takes less than to count.
+const OFFSETS: [[i32; 3]; IMAGES] = {
+    let mut offsets = [[0; 3]; IMAGES];
+    let mut number = 0;
+    while number <= 2 * MIDDLE_IMAGE {
+        offsets[number as usize + 1] = [number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1];
+        number += 1;
+    }
+    offsets
+};
+
+const OFFSETS_IN_NUMBERS: [(DVec3, f64); IMAGES] = {
+    let mut numbers = [(DVec3::ZERO, 1.0); IMAGES];
+    numbers[0].1 = 0.0;
+    let mut image = 0;
+    while image < IMAGES {
+        let [x, y, z] = OFFSETS[image];
+        numbers[image].0 = DVec3::new(x as f64, y as f64, z as f64);
+        image += 1;
+    }
+    numbers
+};
+
+/// More spheres than this cannot be told apart.
+pub(crate) const MAX_SPHERES: usize = 1 << SLOT_BITS;
+
+/// A neighbour of a sphere: its slot, and which of its images it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Neighbour(u32);
+
+impl Neighbour {
+    /// Not a neighbour: an image that there is not.
+    pub const NONE: Self = Self((IMAGES as u32 - 1) << SLOT_BITS);
+
+    /// One whose position counts in the same box as that of the sphere.
+    #[inline(always)]
+    pub fn in_same_box(slot: u32) -> Self {
+        Self(slot)
+    }
+
+    /// One whose image is near, this offset from itself in the box about the origin.
+    pub fn image(slot: u32, [x, y, z]: [i32; 3]) -> Self {
+        let number = x + 3 * y + 9 * z + MIDDLE_IMAGE;
+        Self(slot | (number as u32 + 1) << SLOT_BITS)
+    }
+
+    #[inline(always)]
+    pub fn slot(self) -> u32 {
+        self.0 & ((1 << SLOT_BITS) - 1)
+    }
+
+    /// The slot in numbers.
+    #[inline(always)]
+    pub fn slot_in_numbers(self) -> f64 {
+        // The conversion of a signed number takes less.
+        f64::from(self.slot() as i32)
+    }
+
+    #[inline(always)]
+    pub fn is_in_same_box(self) -> bool {
+        self.0 < 1 << SLOT_BITS
+    }
+
+    /// A value that is an image if this one or the other is; it names no sphere.
+    #[inline(always)]
+    pub fn joined(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// The offset of an image.
+    pub fn image_offset(self) -> [i32; 3] {
+        OFFSETS[self.image_number()]
+    }
+
+    /// The offset of an image in numbers, and 1; zeros if it is no image.
+    #[inline(always)]
+    pub fn image_offset_in_numbers(self) -> &'static (DVec3, f64) {
+        &OFFSETS_IN_NUMBERS[self.image_number()]
+    }
+
+    /// This neighbour where even those in the box about the origin are images.
+    #[inline(always)]
+    pub fn as_image(self) -> Self {
+        if self.is_in_same_box() { Self::image(self.slot(), [0; 3]) } else { self }
+    }
+
+    /// Which image it is.
+    #[inline(always)]
+    pub fn image_number(self) -> usize {
+        (self.0 >> SLOT_BITS) as usize
+    }
+
+    /// The shift to each image in a periodic box with these edges \[m\], by its number.
+    pub fn image_shifts(period: DVec3) -> [DVec3; IMAGES] {
+        OFFSETS.map(|offset| image_shift(offset, period))
+    }
+
+    /// What the sphere at `slot`, of which this is a neighbour, is to it.
+    #[inline]
+    pub fn mirrored(self, slot: u32) -> Self {
+        match self.0 >> SLOT_BITS {
+            0 => Self(slot),
+            image => Self(slot | (2 * (MIDDLE_IMAGE as u32 + 1) - image) << SLOT_BITS),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn image_gives_its_offset_and_mirrors_it() {
+        let slot = MAX_SPHERES as u32 - 1;
+        for number in 0..27 {
+            let offset = [number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1];
+            let image = Neighbour::image(slot, offset);
+            assert_eq!((image.slot(), image.is_in_same_box()), (slot, false));
+            assert_eq!((image.image_offset(), image.as_image()), (offset, image));
+            let numbers = DVec3::from_array(offset.map(f64::from));
+            assert_eq!(*image.image_offset_in_numbers(), (numbers, 1.0));
+            assert_eq!(image.mirrored(7), Neighbour::image(7, offset.map(|offset| -offset)));
+        }
+        let plain = Neighbour::in_same_box(slot);
+        assert_eq!(*plain.image_offset_in_numbers(), (DVec3::ZERO, 0.0));
+        assert!(plain.is_in_same_box() && plain.slot() == slot);
+        assert_eq!(plain.mirrored(7), Neighbour::in_same_box(7));
+        assert_eq!(plain.as_image(), Neighbour::image(slot, [0; 3]));
+    }
+}

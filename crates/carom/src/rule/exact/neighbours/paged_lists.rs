@@ -1,0 +1,289 @@
+//! Short lists, many of them, each in one piece of memory as long as it fits there.
+
+use std::ops::Range;
+
+use prefetch_index::prefetch_index;
+
+/// A part of a list.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(8))]
+struct Page<T, const SIZE: usize> {
+    members: [T; SIZE],
+    /// How many members there are, and the number of the next page.
+    link: Link,
+}
+
+/// Four bits of length, and the number of a page; 0 is none, for there a list begins.
+#[derive(Debug, Clone, Copy, Default)]
+struct Link(u32);
+
+const LEN_BITS: u32 = 4;
+
+impl Link {
+    #[inline(always)]
+    fn len(self) -> usize {
+        (self.0 & ((1 << LEN_BITS) - 1)) as usize
+    }
+
+    fn set_len(&mut self, len: usize) {
+        self.0 = self.0 >> LEN_BITS << LEN_BITS | len as u32;
+    }
+
+    #[inline(always)]
+    fn next(self) -> Option<usize> {
+        let next = self.0 >> LEN_BITS;
+        (next > 0).then_some(next as usize)
+    }
+
+    fn set_next(&mut self, next: Option<usize>) {
+        self.0 = self.len() as u32 | (next.unwrap_or(0) as u32) << LEN_BITS;
+    }
+}
+
+/// PagedLists by number, their members in no order, in pages of so many (at most 15).
+#[derive(Debug, Clone, Default)]
+pub(super) struct PagedLists<T, const SIZE: usize> {
+    /// The first page of each list, by its number, and behind them the others.
+    pages: Vec<Page<T, SIZE>>,
+    /// Pages that no list has.
+    spare: Vec<u32>,
+}
+
+impl<T: Copy + Default, const SIZE: usize> Page<T, SIZE> {
+    fn empty() -> Self {
+        Self { members: [T::default(); SIZE], link: Link::default() }
+    }
+}
+
+impl<T: Copy + PartialEq + Default, const SIZE: usize> PagedLists<T, SIZE> {
+    /// So many empty lists, with room for a page more for every other one: what is not used of it is
+    /// no memory yet, where to grow would be twice all for a moment.
+    pub fn new(count: usize) -> Self {
+        let mut pages = Vec::with_capacity(count + count / 2);
+        pages.resize(count, Page::empty());
+        Self { pages, spare: Vec::new() }
+    }
+
+    /// For how many members there has to be room to copy the first pages of so many lists.
+    #[inline(always)]
+    pub fn room(&self, lists: usize) -> usize {
+        lists * SIZE
+    }
+
+    /// Copies the members on the first pages of lists into `members`, from `end` on, and tells where
+    /// they end, and whether there are further pages. What is behind the end has no meaning.
+    #[inline(always)]
+    pub fn copy_first(
+        &self,
+        lists: Range<usize>,
+        members: &mut [T],
+        mut end: usize,
+    ) -> (usize, bool) {
+        let mut links = 0;
+        for page in &self.pages[lists] {
+            // Always a whole page: no processor can foresee how many there are.
+            members[end..end + SIZE].copy_from_slice(&page.members);
+            end += page.link.len();
+            links |= page.link.0;
+        }
+        (end, Link(links).next().is_some())
+    }
+
+    /// Copies the members on the further pages.
+    pub fn copy_rest(&self, lists: Range<usize>, members: &mut Vec<T>, mut end: usize) -> usize {
+        for mut page in &self.pages[lists] {
+            while let Some(next) = page.link.next() {
+                page = &self.pages[next];
+                let most = end + SIZE;
+                if members.len() < most {
+                    members.resize(most, T::default());
+                }
+                members[end..most].copy_from_slice(&page.members);
+                end += page.link.len();
+            }
+        }
+        end
+    }
+
+    /// Puts the members of a list into `members`, from `len` on, and gives where they end. What is
+    /// there behind that has no meaning.
+    #[inline(always)]
+    pub fn gather(&self, list: usize, members: &mut Vec<T>, len: usize) -> usize {
+        if members.len() < len + SIZE {
+            members.resize(len + SIZE, T::default());
+        }
+        match self.copy_first(list..list + 1, members, len) {
+            (end, false) => end,
+            (end, true) => self.copy_rest(list..list + 1, members, end),
+        }
+    }
+
+    /// The first members of a list.
+    #[inline]
+    pub fn first(&self, list: usize) -> &[T] {
+        let page = &self.pages[list];
+        &page.members[..page.link.len()]
+    }
+
+    /// Has the first page of a list fetched into the cache, from its beginning to its end: that may be
+    /// two lines.
+    #[inline(always)]
+    pub fn prefetch(&self, list: usize) {
+        prefetch_index(&self.pages, list);
+        prefetch_index(&self.pages, list + 1);
+    }
+
+    /// The first page of a list: its first members, and behind them former ones.
+    #[inline(always)]
+    pub fn first_page(&self, list: usize) -> &[T; SIZE] {
+        &self.pages[list].members
+    }
+
+    /// The members of a list.
+    pub fn members(&self, list: usize) -> Vec<T> {
+        let mut members = Vec::new();
+        let end = self.gather(list, &mut members, 0);
+        members.truncate(end);
+        members
+    }
+
+    /// Puts other members in the place of those of a list.
+    pub fn set(&mut self, list: usize, members: &[T]) {
+        let mut number = list;
+        let mut rest = members;
+        loop {
+            let (now, later) = rest.split_at(rest.len().min(SIZE));
+            let page = &mut self.pages[number];
+            page.members[..now.len()].copy_from_slice(now);
+            page.link.set_len(now.len());
+            rest = later;
+            if rest.is_empty() {
+                break;
+            }
+            number = self.page_after(number);
+        }
+        self.cut_after(number);
+    }
+
+    pub fn add(&mut self, list: usize, member: T) {
+        let mut number = list;
+        while self.pages[number].link.len() == SIZE {
+            number = self.page_after(number);
+        }
+        let page = &mut self.pages[number];
+        let len = page.link.len();
+        page.members[len] = member;
+        page.link.set_len(len + 1);
+    }
+
+    /// Takes a member out of a list, if it is there.
+    pub fn remove(&mut self, list: usize, member: T) {
+        let Some((number, place, before)) = self.find(list, member) else { return };
+        let page = &mut self.pages[number];
+        let last = page.link.len() - 1;
+        page.members[place] = page.members[last];
+        page.link.set_len(last);
+        if last == 0 && number != list {
+            let next = page.link.next();
+            self.pages[before].link.set_next(next);
+            self.spare.push(number as u32);
+        }
+    }
+
+    /// Puts a member in the place of another, if that is there.
+    pub fn replace(&mut self, list: usize, old: T, new: T) {
+        if let Some((number, place, _)) = self.find(list, old) {
+            self.pages[number].members[place] = new;
+        }
+    }
+
+    /// Page and place of a member, and the page before that one; the first is before itself.
+    fn find(&self, list: usize, member: T) -> Option<(usize, usize, usize)> {
+        let (mut number, mut before) = (list, list);
+        loop {
+            let page = &self.pages[number];
+            let there = &page.members[..page.link.len()];
+            if let Some(place) = there.iter().position(|&other| other == member) {
+                return Some((number, place, before));
+            }
+            (before, number) = (number, page.link.next()?);
+        }
+    }
+
+    /// The page after one, or a new one.
+    fn page_after(&mut self, number: usize) -> usize {
+        if let Some(next) = self.pages[number].link.next() {
+            return next;
+        }
+        let next = match self.spare.pop() {
+            Some(next) => {
+                self.pages[next as usize] = Page::empty();
+                next as usize
+            }
+            None => {
+                self.pages.push(Page::empty());
+                self.pages.len() - 1
+            }
+        };
+        self.pages[number].link.set_next(Some(next));
+        next
+    }
+
+    /// Gives back the pages after one.
+    fn cut_after(&mut self, number: usize) {
+        let mut next = self.pages[number].link.next();
+        self.pages[number].link.set_next(None);
+        while let Some(page) = next {
+            self.spare.push(page as u32);
+            next = self.pages[page].link.next();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! PagedLists against plain vectors: proves that members come and go singly, whatever the length of
+    //! the list; not that pages are used again.
+
+    use super::*;
+
+    #[test]
+    fn members_come_and_go_as_in_a_plain_list() {
+        let mut lists: PagedLists<u32, 3> = PagedLists::new(3);
+        let mut plain = vec![Vec::new(); 3];
+        let mut seed = 1u32;
+        let mut random = |below: u32| {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 16) % below
+        };
+        for round in 0..4000 {
+            let list = random(3) as usize;
+            match random(9) {
+                0..4 => {
+                    lists.add(list, round);
+                    plain[list].push(round);
+                }
+                4..8 if !plain[list].is_empty() => {
+                    let place = random(plain[list].len() as u32) as usize;
+                    lists.remove(list, plain[list].swap_remove(place));
+                    lists.remove(list, u32::MAX);
+                }
+                _ if round % 16 == 0 => {
+                    plain[list] = (round..round + random(40)).collect();
+                    lists.set(list, &plain[list]);
+                }
+                _ => {}
+            }
+            let mut found = vec![1];
+            let end = lists.gather(list, &mut found, 1);
+            found.truncate(end);
+            assert_eq!(found.remove(0), 1);
+            found.sort_unstable();
+            let mut members = lists.members(list);
+            members.sort_unstable();
+            assert_eq!(members, found);
+            plain[list].sort_unstable();
+            assert_eq!(found, plain[list]);
+        }
+    }
+}

@@ -1,0 +1,318 @@
+//! The pair kernel: a sphere against its neighbours that fly alike, several side by side, one in each
+//! lane of the processor's vectors.
+//!
+//! Every operation is the one that a single pair needs, so no bit depends on how many lanes a processor
+//! has.
+
+use std::array;
+
+use fearless_simd::{Level, Simd, SimdMask, dispatch, mask64x4};
+use glam::DVec3;
+
+use super::relative::Relative;
+use crate::contact_time::{self, Approach};
+use crate::lanes::{LANES, Lanes};
+use crate::norm::Norm;
+use crate::real::{Real, Vector};
+use crate::rule::exact::flights::{Body, FlightLanes, Species};
+use crate::rule::exact::neighbours::{Images, Neighbour};
+use crate::rule::exact::timeline::Timeline;
+
+/// Relative rounding of the positions and of the speeds of two spheres that touch.
+const TOUCH_ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// Only within this part of the distance of centres may spheres be taken to touch.
+const NEARLY_TOUCHING: f64 = 1e-6;
+
+/// A sphere, and the neighbours that it is tested against.
+#[derive(Clone, Copy)]
+pub(super) struct PairQuery<'a> {
+    pub timeline: &'a Timeline,
+    pub slot: u32,
+    /// The neighbours, and in the last lanes perhaps other spheres.
+    pub near: &'a [[Neighbour; LANES]],
+    /// How many neighbours there are.
+    pub count: usize,
+    /// Whether images may be among them, if they are from a list.
+    pub has_images: bool,
+    /// A time on the world's clock \[s\] when all are in their neighbour regions.
+    pub now: f64,
+    /// A sphere that may be near.
+    pub exempt: u32,
+    /// Part of the sum of radii by which the gap to a sphere that is near may be open.
+    pub margin: f64,
+}
+
+/// A meeting with another sphere.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Meeting {
+    /// On the world's clock \[s\]; infinite if there is none.
+    pub time: f64,
+    /// The slot of the other sphere.
+    pub other: u32,
+}
+
+/// The result of a query.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PairResult {
+    /// Whether a sphere is near, but the one that may be.
+    pub is_near: bool,
+    /// The first two meetings.
+    pub meetings: [Meeting; 2],
+}
+
+impl PairQuery<'_> {
+    /// Tests the neighbours that fly alike, by a kernel that is compiled for the cases that occur.
+    pub fn result(&self) -> PairResult {
+        let level = Level::new();
+        let only_species = self.timeline.flights.only_species();
+        let falls = only_species.map(|species| species.acceleration != DVec3::ZERO);
+        let neighbours = &self.timeline.neighbours;
+        macro_rules! run {
+            ($($case:ident),*) => {
+                dispatch!(level, simd => PairKernel::<{ 0 $(| $case)* }>::of(self).result(simd))
+            };
+        }
+        match (falls, neighbours.finds_itself(), neighbours.images()) {
+            (Some(false), false, _) if !self.has_images => run!(),
+            (Some(false), false, Images::ByPlace) => run!(NEAREST),
+            (Some(false), true, Images::ByPlace) => run!(NEAREST, ITSELF),
+            (Some(false), true, Images::None) => run!(ITSELF),
+            (Some(false), ..) => run!(IMAGES, ITSELF),
+            (Some(true), ..) => run!(IMAGES, ITSELF, FALLS),
+            (None, ..) => run!(IMAGES, ITSELF, FALLS, SPECIES),
+        }
+    }
+}
+
+/// The result of a test of four neighbours.
+struct LaneResult<S: Simd> {
+    /// When the sphere meets each, on the world's clock \[s\]; infinite if never.
+    time: Lanes<S>,
+    /// Which of them are near.
+    is_near: mask64x4<S>,
+}
+
+/// Cases that a neighbour may be: an image, the sphere itself, falling, of another species.
+const IMAGES: u8 = 1;
+const ITSELF: u8 = 2;
+const FALLS: u8 = 4;
+const SPECIES: u8 = 8;
+/// Images are told by the positions of their spheres, none of which falls.
+const NEAREST: u8 = 16;
+
+/// A query where only these `CASES` occur.
+struct PairKernel<'a, const CASES: u8> {
+    query: &'a PairQuery<'a>,
+    body: &'a Body,
+    species: &'a Species,
+    /// Where the sphere is now \[m\], if it flies straight.
+    here: DVec3,
+}
+
+impl<'a, const CASES: u8> PairKernel<'a, CASES> {
+    #[inline(always)]
+    fn of(query: &'a PairQuery<'a>) -> Self {
+        let flights = &query.timeline.flights;
+        let body = &flights.bodies[query.slot as usize];
+        let here = body.position + (query.now - body.time) * body.velocity;
+        Self { query, body, species: &flights.species[body.species as usize], here }
+    }
+
+    #[inline(always)]
+    fn species_of(&self, other: &Body) -> &Species {
+        if covers::<CASES>(SPECIES) {
+            &self.query.timeline.flights.species[other.species as usize]
+        } else {
+            self.species
+        }
+    }
+
+    #[inline(always)]
+    fn result<S: Simd>(&self, simd: S) -> PairResult {
+        let PairQuery { near, count, exempt, .. } = *self.query;
+        let all = |number: f64| Lanes::all(simd, number);
+        let mut number = Lanes::each(simd, array::from_fn(|lane| lane as f64));
+        let mut firsts = FirstTwo { times: [all(f64::INFINITY); 2], numbers: [all(0.0); 2] };
+        let (mut near_count, mut nearest) = (all(0.0), all(0.0));
+        for four in near {
+            let mut is_there = number.is_less(all(count as f64));
+            if covers::<CASES>(ITSELF) {
+                let slots = Lanes::each(simd, four.map(Neighbour::slot_in_numbers));
+                is_there &= !slots.is_equal(all(f64::from(self.query.slot)));
+            }
+            let LaneResult { time, is_near } = self.test(simd, four, is_there);
+            near_count = near_count + all(1.0).select(is_near, all(0.0));
+            nearest = number.select(is_near, nearest);
+            firsts = firsts.with(time, number);
+            number = number + all(LANES as f64);
+        }
+        let slot_of = |number: f64| {
+            let neighbour = near.as_flattened().get(number as u32 as usize);
+            neighbour.map_or(0, |neighbour| neighbour.slot())
+        };
+        let near_count: f64 = near_count.to_array().iter().sum();
+        // If there is one alone, all other lanes are zero.
+        let nearest: f64 = nearest.to_array().iter().sum();
+        PairResult {
+            is_near: near_count > 1.0 || (near_count == 1.0 && slot_of(nearest) != exempt),
+            meetings: firsts
+                .of_all_lanes()
+                .map(|(time, number)| Meeting { time, other: slot_of(number) }),
+        }
+    }
+
+    /// Tests four, of which only some may be there.
+    #[inline(always)]
+    fn test<S: Simd>(
+        &self,
+        simd: S,
+        four: &[Neighbour; LANES],
+        is_there: mask64x4<S>,
+    ) -> LaneResult<S> {
+        let Self { query: PairQuery { timeline, slot, margin, now, .. }, body, species, here } =
+            self;
+        let all = |number: f64| Lanes::all(simd, number);
+        let own = FlightLanes {
+            position: Vector::all(simd, body.position),
+            velocity: Vector::all(simd, body.velocity),
+            time: all(body.time),
+        };
+        let others = four.each_ref().map(|one| &timeline.flights.bodies[one.slot() as usize]);
+        let flights = FlightLanes::of_each(simd, others);
+        let image_shift = if covers::<CASES>(NEAREST) {
+            let there = flights.position + flights.velocity * (all(*now) - flights.time);
+            Some(timeline.neighbours.shifts_to_nearest(simd, there - Vector::all(simd, *here)))
+        } else {
+            covers::<CASES>(IMAGES).then(|| timeline.neighbours.shifts_of(simd, *slot, four))
+        };
+        let acceleration = covers::<CASES>(FALLS).then(|| Vector::all(simd, species.acceleration));
+        let Relative { start, offset, velocity } =
+            Relative::between(&own, &flights, image_shift, acceleration);
+        let (mut radius_sum, mut is_alike) = (all(species.radius + species.radius), is_there);
+        if covers::<CASES>(SPECIES) {
+            let theirs = others.map(|other| self.species_of(other));
+            radius_sum = all(species.radius) + Lanes::each(simd, theirs.map(|it| it.radius));
+            let alike = theirs.map(|other| f64::from(species.flies_like(other)));
+            is_alike = is_there & all(0.0).is_less(Lanes::each(simd, alike));
+        }
+        let approach = Approach::of(offset, velocity, radius_sum);
+        let comes = approach.closing.is_less(all(0.0));
+        let meets = is_alike & comes & all(0.0).is_at_most(approach.discriminant);
+        let distance_squared = offset.length_squared();
+        let distance = distance_squared.sqrt();
+        // For all of them: a branch on whether one is met takes longer, for the processor cannot
+        // predict it.
+        let delay = approach.time(distance - radius_sum, distance + radius_sum);
+        let mut time = (start + delay).select(meets, all(f64::INFINITY));
+        let square = radius_sum * radius_sum;
+        let is_close = meets & (distance_squared - square).is_at_most(square * NEARLY_TOUCHING);
+        if is_close.any_true() {
+            let times = self.close_meetings(four, time.to_array(), is_close.to_bitmask());
+            time = Lanes::each(simd, times);
+        }
+        let reach = radius_sum * (1.0 + margin);
+        LaneResult { time, is_near: is_alike & distance_squared.is_at_most(reach * reach) }
+    }
+
+    /// Replaces the times \[s\] of neighbours that nearly touch, given by bits.
+    #[cold]
+    #[inline(never)]
+    fn close_meetings(
+        &self,
+        four: &[Neighbour; LANES],
+        mut times: [f64; LANES],
+        bits: u64,
+    ) -> [f64; LANES] {
+        for lane in (0..LANES).filter(|lane| bits >> lane & 1 == 1) {
+            times[lane] = self.close_meeting(four[lane]);
+        }
+        times
+    }
+
+    /// When the sphere meets a neighbour that nearly touches it, on the world's clock \[s\]; infinite if
+    /// never.
+    fn close_meeting(&self, near: Neighbour) -> f64 {
+        let PairQuery { timeline, slot, .. } = *self.query;
+        let other = &timeline.flights.bodies[near.slot() as usize];
+        let [own, theirs] = [self.body, other].map(FlightLanes::of_one);
+        let shift = || timeline.neighbours.shift_of(slot, near).into();
+        let image_shift = covers::<CASES>(IMAGES | NEAREST).then(shift);
+        let acceleration = covers::<CASES>(FALLS).then(|| self.species.acceleration.into());
+        let relative = Relative::between(&own, &theirs, image_shift, acceleration);
+        let radius_sum = self.species.radius + self.species_of(other).radius;
+        if only_touch([self.body, other], &relative, radius_sum) {
+            return f64::INFINITY;
+        }
+        let Relative { start, offset, velocity } = relative;
+        match contact_time::sphere_sphere_linear(offset.into(), velocity.into(), radius_sum) {
+            Some(delay) => start + delay,
+            None => f64::INFINITY,
+        }
+    }
+}
+
+#[inline(always)]
+const fn covers<const CASES: u8>(case: u8) -> bool {
+    CASES & case != 0
+}
+
+/// In each lane, the first two of some times, and the numbers that go with them.
+#[derive(Clone, Copy)]
+struct FirstTwo<S: Simd> {
+    times: [Lanes<S>; 2],
+    numbers: [Lanes<S>; 2],
+}
+
+impl<S: Simd> FirstTwo<S> {
+    #[inline(always)]
+    fn with(self, time: Lanes<S>, number: Lanes<S>) -> Self {
+        let [first, second] = self.times;
+        let [first_number, second_number] = self.numbers;
+        let is_first = time.is_less(first);
+        let later = first.select(is_first, time);
+        let later_number = first_number.select(is_first, number);
+        let is_second = later.is_less(second);
+        Self {
+            times: [time.select(is_first, first), later.select(is_second, second)],
+            numbers: [
+                number.select(is_first, first_number),
+                later_number.select(is_second, second_number),
+            ],
+        }
+    }
+
+    /// Of all lanes.
+    #[inline(always)]
+    fn of_all_lanes(self) -> [(f64, f64); 2] {
+        let halves = self.joined(self.rotated::<2>());
+        let Self { times, numbers } = halves.joined(halves.rotated::<1>());
+        [(times[0].first(), numbers[0].first()), (times[1].first(), numbers[1].first())]
+    }
+
+    #[inline(always)]
+    fn joined(self, Self { times, numbers }: Self) -> Self {
+        self.with(times[0], numbers[0]).with(times[1], numbers[1])
+    }
+
+    #[inline(always)]
+    fn rotated<const BY: usize>(self) -> Self {
+        Self {
+            times: [self.times[0].rotated::<BY>(), self.times[1].rotated::<BY>()],
+            numbers: [self.numbers[0].rotated::<BY>(), self.numbers[1].rotated::<BY>()],
+        }
+    }
+}
+
+/// Whether two spheres touch or overlap a little, and close by no more than the rounding of their
+/// speeds.
+fn only_touch(bodies: [&Body; 2], relative: &Relative<f64>, radius_sum: f64) -> bool {
+    let (offset, velocity) = (DVec3::from(relative.offset), DVec3::from(relative.velocity));
+    let gap = offset.length_squared() - radius_sum * radius_sum;
+    let speed: f64 = bodies.iter().map(|body| body.velocity.norm()).sum();
+    let place: f64 = bodies.iter().map(|body| body.position.norm()).sum();
+    // How far they move in the rounding of the clock is in doubt, too.
+    let size = radius_sum + place + speed * relative.start.abs();
+    gap.abs() <= NEARLY_TOUCHING * radius_sum * radius_sum
+        && gap <= TOUCH_ROUNDING * radius_sum * size
+        && -offset.dot(velocity) <= TOUCH_ROUNDING * radius_sum * speed
+}

@@ -1,0 +1,7 @@
+//! Pair times: when spheres meet their neighbours.
+
+mod kernel;
+mod relative;
+mod search;
+
+pub(super) use search::{NearTest, Nearness, PairSearch};

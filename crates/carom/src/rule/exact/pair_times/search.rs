@@ -1,0 +1,183 @@
+//! The pair search: the neighbours of a sphere, and which of them it meets first.
+
+use glam::DVec3;
+use prefetch_index::prefetch_index;
+
+use super::kernel::{Meeting, PairQuery};
+use crate::contact_time::{self, Reach};
+use crate::detect::contact::Bodies;
+use crate::rule::exact::events::NextEvents;
+use crate::rule::exact::flights::{Body, Species};
+use crate::rule::exact::neighbours::{Neighbour, NeighbourBuffer};
+use crate::rule::exact::timeline::Timeline;
+
+/// A search among the neighbours of a sphere, with its result.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct PairSearch {
+    pub near: NeighbourBuffer,
+    /// The first two meetings with spheres that fly alike.
+    meetings: [Meeting; 2],
+}
+
+/// Which neighbours count as near: all but one, nearer than the sum of radii and a part of it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct NearTest {
+    /// The slot of the sphere that does not count.
+    pub exempt: u32,
+    /// Part of the sum of radii.
+    pub margin: f64,
+}
+
+impl PairSearch {
+    /// Searches, `now` \[s\], for the first meetings of a sphere with its neighbours. Tells whether one
+    /// of those that fly alike is near.
+    #[inline(always)]
+    pub fn search(
+        &mut self,
+        timeline: &Timeline,
+        slot: u32,
+        now: f64,
+        near_test: NearTest,
+    ) -> bool {
+        let level = timeline.flights.species_of(slot).level;
+        timeline.neighbours.find(slot, level, &mut self.near);
+        self.search_found(timeline, slot, now, near_test)
+    }
+
+    /// Searches for the first meetings among the neighbours that were found already.
+    #[inline(always)]
+    pub fn search_found(
+        &mut self,
+        timeline: &Timeline,
+        slot: u32,
+        now: f64,
+        near_test: NearTest,
+    ) -> bool {
+        if timeline.are_many() {
+            let slots = self.near.found().iter().map(|near| near.slot() as usize);
+            slots.for_each(|slot| prefetch_index(&timeline.flights.bodies, slot));
+        }
+        let (count, has_images) = (self.near.len, self.near.has_images());
+        let NearTest { exempt, margin } = near_test;
+        let near = self.near.in_fours();
+        let query = PairQuery { timeline, slot, near, count, has_images, now, exempt, margin };
+        let result = query.result();
+        self.meetings = result.meetings;
+        result.is_near
+    }
+
+    /// Whether one of the spheres that fly differently is near to a sphere when its flight begins.
+    pub fn is_near_others(&self, timeline: &Timeline, slot: u32, near_test: NearTest) -> bool {
+        let flights = &timeline.flights;
+        let (body, species) = (&flights.bodies[slot as usize], flights.species_of(slot));
+        let nearness =
+            Nearness { position: body.position, time: body.time, margin: near_test.margin };
+        self.near.others(slot).any(|near| {
+            near.slot() != near_test.exempt
+                && !flights.species_of(near.slot()).flies_like(species)
+                && nearness.includes(timeline, slot, near)
+        })
+    }
+
+    /// Whether any neighbour is that near to a sphere.
+    pub fn is_near_any(&mut self, timeline: &Timeline, slot: u32, nearness: Nearness) -> bool {
+        let level = timeline.flights.species_of(slot).level;
+        timeline.neighbours.find(slot, level, &mut self.near);
+        self.near.others(slot).any(|near| nearness.includes(timeline, slot, near))
+    }
+
+    /// The first two meetings that the search has found, or that the sphere has with spheres that fly
+    /// differently.
+    #[inline(always)]
+    pub fn first_meetings(&self, timeline: &Timeline, slot: u32) -> NextEvents {
+        let [first, second] = self.meetings;
+        let mut events = NextEvents {
+            first: timeline.meeting(first.time, first.other),
+            second: timeline.meeting(second.time, second.other),
+        };
+        if timeline.flights.only_species().is_none() {
+            self.add_meetings_with_others(timeline, slot, &mut events);
+        }
+        events
+    }
+
+    #[inline(never)]
+    fn add_meetings_with_others(&self, timeline: &Timeline, slot: u32, events: &mut NextEvents) {
+        let species = timeline.flights.species_of(slot);
+        for near in self.near.others(slot) {
+            if !species.flies_like(timeline.flights.species_of(near.slot())) {
+                let time = time_of_meeting(timeline, slot, near);
+                events.add(timeline.meeting(time, near.slot()));
+            }
+        }
+    }
+}
+
+/// Where a sphere is, and how near to it counts.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Nearness {
+    /// Centre of the sphere \[m\].
+    pub position: DVec3,
+    /// When it is there, on the world's clock \[s\].
+    pub time: f64,
+    /// Part of the sum of radii by which the gap to a neighbour may be open.
+    pub margin: f64,
+}
+
+impl Nearness {
+    /// Whether a neighbour of the sphere at `slot` is that near.
+    fn includes(&self, timeline: &Timeline, slot: u32, neighbour: Neighbour) -> bool {
+        let flights = &timeline.flights;
+        let shift = timeline.neighbours.shift_of(slot, neighbour);
+        let offset = flights.state_of(neighbour.slot(), self.time).0 + shift - self.position;
+        let radius_sum =
+            flights.species_of(slot).radius + flights.species_of(neighbour.slot()).radius;
+        let reach = radius_sum * (1.0 + self.margin);
+        offset.length_squared() <= reach * reach
+    }
+}
+
+/// When a sphere meets one that flies differently, on the world's clock \[s\]; infinite if never.
+fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 {
+    let flights = &timeline.flights;
+    let slots = [slot, neighbour.slot()];
+    let bodies = slots.map(|slot| &flights.bodies[slot as usize]);
+    let species = slots.map(|slot| flights.species_of(slot));
+    let indices @ [index, other_index] = slots.map(|slot| flights.index_of[slot as usize]);
+    if flights.are_held_together(Bodies::pair(indices)) {
+        // No impact ends their flights.
+        return f64::INFINITY;
+    }
+    let shift = timeline.neighbours.shift_of(slot, neighbour);
+    let [end, other_end] = species.map(|species| timeline.flight_end(species));
+    let end = end.min(other_end);
+    if end < f64::INFINITY {
+        let reach = |one: usize| {
+            let (body, species) = (bodies[one], species[one]);
+            Reach::of(body.flight(species), species.radius, end - body.time)
+        };
+        if reach(0).misses_sphere(&reach(1), shift) {
+            return f64::INFINITY;
+        }
+    }
+    if index < other_index {
+        time_of_contact(bodies, species, shift)
+    } else {
+        // In the order of ids: the other way round the same time might round differently.
+        time_of_contact([bodies[1], bodies[0]], [species[1], species[0]], -shift)
+    }
+}
+
+/// When two spheres meet that fly differently, on the world's clock \[s\]; infinite if never. The search
+/// has no end time: what is known already must not change by a bit what is found.
+fn time_of_contact(bodies: [&Body; 2], species: [&Species; 2], shift: DVec3) -> f64 {
+    let start = bodies[0].time.max(bodies[1].time);
+    let first = bodies[0].flight_from(species[0], start);
+    let mut second = bodies[1].flight_from(species[1], start);
+    second.position += shift;
+    let radius_sum = species[0].radius + species[1].radius;
+    match contact_time::sphere_sphere(&first, &second, radius_sum, f64::INFINITY) {
+        Some(delay) => start + delay,
+        None => f64::INFINITY,
+    }
+}

@@ -1,0 +1,113 @@
+//! Forces that are held constant over a frame.
+
+use glam::DVec3;
+
+use super::planar::{self, PlanarSupport};
+use crate::detect::contact::Bodies;
+use crate::forces::{self, SphereState};
+use crate::rule::exact::contacts::{Corner, Member, Plane};
+use crate::rule::exact::timeline::Timeline;
+use crate::system::System;
+
+/// Begins a new flight of every sphere at the start of a frame, or of a part of it, under the forces
+/// that act on it in the middle: an error of the third order in its length, of the second over all
+/// frames (the midpoint rule). Lasting contacts with planes go on where forces are the same
+/// everywhere; others are found anew.
+pub(crate) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64; 2]) {
+    for slot in 0..timeline.flights.bodies.len() as u32 {
+        let species = *timeline.flights.free_species_of(slot);
+        let index = timeline.flights.index_of[slot as usize] as usize;
+        let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
+        let (linear, is_all) = forces::total_linear(system.forces, species.radius, species.mass);
+        let uniform = linear.acceleration + applied;
+        if is_all {
+            begin_under(timeline, system, slot, uniform, [start, end]);
+            timeline.find_clearance(system, slot);
+        } else {
+            timeline.set_free(slot);
+            begin_under_varying(timeline, system, slot, uniform, [start, end]);
+        }
+    }
+}
+
+/// Begins the flight of a sphere at `start` \[s\] under an acceleration \[m/s²\] that is the same
+/// everywhere.
+fn begin_under(
+    timeline: &mut Timeline,
+    system: &System,
+    slot: u32,
+    acceleration: DVec3,
+    [start, end]: [f64; 2],
+) {
+    let (position, velocity) = timeline.flights.state_of(slot, start);
+    timeline.flights.set_free_acceleration(slot, acceleration);
+    let species = *timeline.flights.free_species_of(slot);
+    let member = Member { slot, position, velocity, species };
+    let Some((cluster, planar)) = planar_support(timeline, system, &member, end - start) else {
+        timeline.set_free(slot);
+        timeline.begin_flight(slot, position, velocity, start);
+        return;
+    };
+    let PlanarSupport { velocity, acceleration, valid_for, persists } = planar;
+    timeline.flights.set_acceleration(slot, acceleration);
+    let cluster = timeline.flights.clusters.get_mut(cluster);
+    cluster.renewal = start + valid_for;
+    let (before, mut persists) = (cluster.contacts.len(), persists.into_iter());
+    cluster.contacts.retain(|_| persists.next().unwrap_or(false));
+    if cluster.contacts.len() < before {
+        timeline.drop_clearance(slot);
+    }
+    timeline.begin_flight(slot, position, velocity, start);
+}
+
+/// How the lasting contacts of a sphere go on, with the number of its cluster, if that is known
+/// for a `duration` \[s\] without finding them anew.
+fn planar_support(
+    timeline: &Timeline,
+    system: &System,
+    member: &Member,
+    duration: f64,
+) -> Option<(u32, PlanarSupport)> {
+    let number = timeline.flights.species_of(member.slot).cluster?;
+    let cluster = timeline.flights.clusters.get(number);
+    // In a periodic box a surface may bear the sphere by one of its images.
+    if cluster.members.len() != 1 || system.settings.boundary.period() != DVec3::INFINITY {
+        return None;
+    }
+    let plane_of = |bodies: &Bodies| match *bodies {
+        Bodies::Surface { surface, .. } => Plane::under(member.position, surface, system.surfaces),
+        Bodies::Pair(..) => None,
+    };
+    let mut corner = Corner::default();
+    for contact in &cluster.contacts {
+        corner.add(plane_of(contact)?)?;
+    }
+    let scale = member.scale(false);
+    let contact_duration = scale.duration(timeline.parameters.contact_duration, timeline.frame[0]);
+    let planar = planar::support(member, &corner, contact_duration, duration)?;
+    Some((number, planar))
+}
+
+/// Begins the flight of a sphere under forces that depend on where it is and how it moves, besides
+/// an acceleration \[m/s²\] that is the same everywhere.
+fn begin_under_varying(
+    timeline: &mut Timeline,
+    system: &System,
+    slot: u32,
+    uniform: DVec3,
+    [start, end]: [f64; 2],
+) {
+    let half = 0.5 * (end - start);
+    let species = *timeline.flights.species_of(slot);
+    let acceleration_in = |(position, velocity): (DVec3, DVec3), time: f64| {
+        let state = SphereState { position, velocity, radius: species.radius, mass: species.mass };
+        uniform + forces::total_of_others(system.forces, &state, time) / species.mass
+    };
+    let (position, velocity) = timeline.flights.state_of(slot, start);
+    timeline.begin_flight(slot, position, velocity, start);
+    // In a periodic box the flight may begin at an image of that place.
+    let before = acceleration_in(timeline.flights.state_of(slot, start), start);
+    timeline.flights.set_acceleration(slot, before);
+    let middle = acceleration_in(timeline.flights.state_of(slot, start + half), start + half);
+    timeline.flights.set_acceleration(slot, middle);
+}

@@ -1,0 +1,13 @@
+//! Persistent contacts: contact forces, and the motion of spheres that they hold together.
+
+mod accelerations;
+mod correction;
+pub(super) mod held_forces;
+mod piece;
+pub(super) mod piece_end;
+pub(super) mod planar;
+mod sliding;
+pub(super) mod solve;
+
+pub(super) use accelerations::free_acceleration;
+pub(super) use solve::{REST, is_back_within};

@@ -1,0 +1,214 @@
+//! A piece of path along a curve: a parabola through the middle of a turn of the normals.
+
+use glam::DVec3;
+
+use super::accelerations::{Accelerations, IDLE, accelerations_under, forces, is_idle};
+use super::correction::corrections;
+use crate::flight::Propagator;
+use crate::norm::Norm;
+use crate::rule::exact::contact_scale::{ContactScale, MOST_MISSED, TOUCHING};
+use crate::rule::exact::contacts::{Group, Member, Touch};
+use crate::rule::exact::context::StepContext;
+use crate::sum::Sum;
+
+/// How far the normal of a lasting contact turns before its force is found anew \[rad\]. The path
+/// between is a parabola through the middle of the turn; its gap to the true one is of the third
+/// order, below 1e-10 of the radius of the curve.
+pub(super) const TURN: f64 = 1e-3;
+/// Part of a radius by which a piece of path may close the gap of a persistent contact: more than what
+/// rounding opens.
+const MOST_CLOSED: f64 = 1e-10;
+/// A force that is found from the gap at the end of a turn differs from that of the middle by no more
+/// than this part of the accelerations at work.
+const MOST_CORRECTED: f64 = 1e-2;
+/// Part of the kinetic energy at the end of a piece of path that may be its error.
+const MOST_GAINED: f64 = 0.1;
+/// Below this turn \[rad\] a force that ends within a piece of the path ends at its beginning.
+const SHORTEST_TURN: f64 = 1e-6;
+
+/// Time \[s\] in which the normal of some contact turns by [`TURN`]; infinite where none does. How
+/// a surface turns is known for what is left of the frame \[s\].
+pub(super) fn turning_time(
+    members: &[Member],
+    touches: &[Touch],
+    accelerations: &Accelerations,
+    frame_left: f64,
+) -> f64 {
+    let mut time = f64::INFINITY;
+    for touch in touches {
+        let spin = touch.surface_spin.norm();
+        if spin > 0.0 {
+            time = time.min(TURN / spin).min(frame_left);
+        }
+        let acceleration = |place: usize| {
+            accelerations.each[place] - members[place].species.drag_rate * members[place].velocity
+        };
+        let relative = acceleration(touch.second) - touch.first.map_or(DVec3::ZERO, acceleration);
+        let velocity = touch.across(touch.relative_velocity(members));
+        let (Some((velocity, distance)), Some((acceleration, _))) =
+            (touch.curvature.turning(velocity), touch.curvature.turning(touch.across(relative)))
+        else {
+            continue;
+        };
+        let scale = IDLE * (accelerations.largest + relative.norm());
+        if velocity.norm() > 0.0 {
+            time = time.min(TURN * distance / velocity.norm());
+        }
+        if velocity.norm() > 0.0 || acceleration.norm() > scale {
+            let radii = touch.places().map(|place| members[place].species.radius);
+            let length = 0.25 * radii.fold(distance, f64::min);
+            let acceleration = acceleration.norm().max(scale);
+            time = time.min((2.0 * TURN * length / acceleration).sqrt());
+        }
+    }
+    time
+}
+
+/// Accelerations in the middle of a turn that takes `turning` \[s\], and how long they hold \[s\];
+/// or the contacts that part before.
+pub(super) fn through_the_middle(
+    context: &StepContext,
+    group: &Group,
+    touches: &[Touch],
+    (start, forces_before): (&Accelerations, &[f64]),
+    turning: f64,
+) -> Result<(Accelerations, f64), Vec<bool>> {
+    let mut hold = turning;
+    loop {
+        let middle: Vec<Member> = group
+            .members
+            .iter()
+            .zip(&start.each)
+            .map(|(member, &acceleration)| member.after(acceleration, 0.5 * hold))
+            .collect();
+        let time = group.time + 0.5 * hold;
+        let measured: Vec<Option<Touch>> =
+            touches.iter().map(|touch| touch.measured_at(context, &middle, time)).collect();
+        let still: Vec<Touch> = measured.iter().flatten().copied().collect();
+        let forces = forces(context.work, &middle, &still);
+        let accelerations = accelerations_under(&middle, &still, &forces);
+        // Where contacts are redundant one may do without a force, and does not open for that.
+        let opens = |touch: &Touch| !is_idle(&accelerations, touch, &middle);
+        let mut in_middle = forces.iter();
+        let released: Vec<bool> = measured
+            .iter()
+            .zip(forces_before)
+            .map(|(measured, &before)| match measured {
+                Some(touch) => in_middle.next() == Some(&0.0) && before > 0.0 && opens(touch),
+                None => true,
+            })
+            .collect();
+        let is_shortest = 0.5 * hold < turning * (SHORTEST_TURN / TURN);
+        if !released.contains(&true) {
+            let end = ending_in_contact(context, group, touches, accelerations, hold);
+            if end.keeps_energy && end.is_followed {
+                return Ok((end.accelerations, hold));
+            }
+            if is_shortest {
+                let is_jammed = !end.keeps_energy && is_at_rest(&group.members, touches);
+                return Ok(if is_jammed {
+                    (stopped(end.accelerations, touches), f64::INFINITY)
+                } else {
+                    (end.accelerations, hold)
+                });
+            }
+        } else if is_shortest {
+            return Err(released);
+        }
+        hold *= 0.5;
+    }
+}
+
+/// A piece of path that ends in contact.
+struct Ending {
+    accelerations: Accelerations,
+    /// Whether the forces of the middle alone keep the contacts to a part of a radius, so that the
+    /// piece is short enough.
+    is_followed: bool,
+    /// Whether no energy appears on it.
+    keeps_energy: bool,
+}
+
+/// Whether no sphere in contact moves.
+fn is_at_rest(members: &[Member], touches: &[Touch]) -> bool {
+    touches.iter().flat_map(Touch::places).all(|place| members[place].velocity == DVec3::ZERO)
+}
+
+/// The accelerations where spheres in contact have none: a motion that from rest would gain energy is
+/// the rounding of a cluster that is jammed.
+fn stopped(mut accelerations: Accelerations, touches: &[Touch]) -> Accelerations {
+    for place in touches.iter().flat_map(Touch::places) {
+        accelerations.each[place] = DVec3::ZERO;
+    }
+    accelerations
+}
+
+/// Accelerations under which the gaps of contacts after `hold` \[s\] are what they are now, or a little
+/// less where they are open: constraint forces that are found from positions, as in SHAKE (Ryckaert,
+/// Ciccotti and Berendsen, J. Comput. Phys. 23, 327 (1977)).
+fn ending_in_contact(
+    context: &StepContext,
+    group: &Group,
+    touches: &[Touch],
+    mut accelerations: Accelerations,
+    hold: f64,
+) -> Ending {
+    let members = group.members.iter().zip(&accelerations.each);
+    let end: Vec<Member> =
+        members.map(|(member, &acceleration)| member.after(acceleration, hold)).collect();
+    let mut is_followed = true;
+    let mut at_end = |touch: &Touch| {
+        let after = touch.measured_at(context, &end, group.time + hold)?;
+        let ContactScale { radius, length, .. } = group.scale(touch);
+        let closed = (0.5 * touch.gap).clamp(0.0, MOST_CLOSED * radius);
+        let excess = after.gap - (touch.gap - closed);
+        is_followed &= excess.abs() <= MOST_MISSED * radius;
+        Some((after, if excess.abs() > TOUCHING * length { excess } else { 0.0 }))
+    };
+    let (touches, excess): (Vec<Touch>, Vec<f64>) = touches.iter().filter_map(&mut at_end).unzip();
+    let moves = corrections(context.work, &end, &touches, &excess);
+    let needed = |(way, member): (DVec3, &Member)| {
+        way / Propagator::over(hold, member.species.drag_rate).fall
+    };
+    let changes: Vec<DVec3> = moves.into_iter().zip(&end).map(needed).collect();
+    // Of the order of the turn; where contacts hardly differ, rounding may ask for any.
+    let is_small = |(member, change): (&Member, &DVec3)| {
+        change.norm()
+            <= MOST_CORRECTED * (member.species.acceleration.norm() + accelerations.largest)
+    };
+    let keeps = |each: &[DVec3]| keeps_energy(group, &touches, each, hold);
+    if end.iter().zip(&changes).all(is_small) {
+        let pairs = accelerations.each.iter().zip(changes);
+        let corrected: Vec<DVec3> = pairs.map(|(middle, change)| middle + change).collect();
+        // Between contacts that all but lock each other, a gap of rounding asks for large moves.
+        if keeps(&corrected) {
+            accelerations.each = corrected;
+            return Ending { accelerations, is_followed, keeps_energy: true };
+        }
+    }
+    let keeps_energy = keeps(&accelerations.each);
+    Ending { accelerations, is_followed, keeps_energy }
+}
+
+/// Whether spheres that fly so for `hold` \[s\] rise no higher than their kinetic energy lifts them, and
+/// gain or lose so little by the error of the path that it can be made up for in that. Contact forces
+/// at surfaces at rest do no work; where surfaces move, or with drag, nothing is asked.
+fn keeps_energy(group: &Group, touches: &[Touch], accelerations: &[DVec3], hold: f64) -> bool {
+    let has_drag = group.members.iter().any(|member| member.species.drag_rate > 0.0);
+    if has_drag || touches.iter().any(Touch::does_work) {
+        return true;
+    }
+    let [mut before, mut after, mut lifted, mut moved] = [Sum::default(); 4];
+    for (member, &acceleration) in group.members.iter().zip(accelerations) {
+        let Member { position, velocity, species, .. } = member;
+        let end = member.after(acceleration, hold);
+        let work = species.mass * species.acceleration.dot(end.position - *position);
+        before.add(0.5 * species.mass * velocity.length_squared());
+        after.add(0.5 * species.mass * end.velocity.length_squared());
+        lifted.add(-work);
+        moved.add(work.abs());
+    }
+    let [before, after, lifted, moved] = [before, after, lifted, moved].map(|sum| sum.value());
+    let gained = (after - before) + lifted;
+    lifted <= before + IDLE * moved && gained.abs() <= MOST_GAINED * after + IDLE * moved
+}

@@ -1,0 +1,44 @@
+//! Reading ahead: what the next events need, fetched into the cache so that it is there by then.
+
+use prefetch_index::prefetch_index;
+
+use super::events::UpcomingEvent;
+use super::timeline::Timeline;
+use crate::system::System;
+
+/// Fetches what the events at the head of the queue need, where that is not in the fast caches.
+#[inline]
+pub(super) fn upcoming_events(timeline: &Timeline, system: &System) {
+    if !timeline.are_many() {
+        return;
+    }
+    let Timeline { flights, neighbours, schedule, work, .. } = timeline;
+    // What one step fetches is found from what the steps before have fetched.
+    let at_work = |place: usize| {
+        let slot = schedule.upcoming(place);
+        let next = slot.map(|slot| schedule.first(slot));
+        let leaves = matches!(next, Some(UpcomingEvent::CellCrossing(_)));
+        let other = match next {
+            Some(UpcomingEvent::Event(event)) => event.target.slot(),
+            _ => None,
+        };
+        slot.into_iter().chain(other).map(move |slot| (slot, leaves))
+    };
+    if let Some(slot) = schedule.upcoming(10) {
+        schedule.prefetch(slot);
+    }
+    for (slot, _) in at_work(8) {
+        prefetch_index(&flights.bodies, slot as usize);
+        schedule.prefetch(slot);
+        prefetch_index(&flights.index_of, slot as usize);
+        work.prefetch(slot);
+        neighbours.prefetch_place(slot);
+    }
+    for (slot, leaves) in at_work(5) {
+        prefetch_index(&system.spheres.id, flights.index_of[slot as usize] as usize);
+        neighbours.prefetch_cells(slot, leaves);
+    }
+    for (slot, leaves) in at_work(2) {
+        neighbours.prefetch_near(slot, leaves, &flights.bodies);
+    }
+}
