@@ -15,7 +15,7 @@ pub(super) const CLOCK_ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// of the third order in the turn of its normal.
 const CURVE_RESOLUTION: f64 = 1e-9;
 /// Part of a radius by which a piece of path along a curve may miss its contacts at its end, before that
-/// is corrected. A bounce that is lower cannot be told from it.
+/// is corrected. A bounce that is lower cannot be distinguished from it.
 pub(super) const MOST_MISSED: f64 = 1e-7;
 /// Impacts between which the bodies move by more than this part of a radius count as separate, however
 /// short the time between them is.
@@ -58,7 +58,7 @@ impl ContactScale {
         }
     }
 
-    /// A gap \[m\] that cannot be told from none.
+    /// A gap \[m\] that cannot be distinguished from none.
     pub fn resolved_gap(&self) -> f64 {
         let rounding = TOUCHING * self.length;
         if self.is_curved { rounding.max(CURVE_RESOLUTION * self.radius) } else { rounding }
@@ -68,7 +68,7 @@ impl ContactScale {
     /// \[s\].
     ///
     /// A bounce of the duration t under the acceleration A is `A t²/8` high: `t = √(8 h/A)` is the
-    /// shortest one, where h is the lowest bounce that can be told from a contact that persists.
+    /// shortest one, where h is the lowest bounce that can be distinguished from a contact that persists.
     pub fn duration(&self, setting: f64, time: f64) -> f64 {
         let least = setting.max(CLOCK_ROUNDING * time.abs());
         if self.acceleration <= 0.0 {
@@ -77,7 +77,7 @@ impl ContactScale {
         least.max((8.0 * self.lowest_bounce() / self.acceleration).sqrt())
     }
 
-    /// Height \[m\] of the lowest bounce that can be told from a contact that persists.
+    /// Height \[m\] of the lowest bounce that can be distinguished from a contact that persists.
     fn lowest_bounce(&self) -> f64 {
         let gap = self.resolved_gap();
         let is_missed = self.is_curved && !self.is_elastic;

@@ -170,10 +170,9 @@ impl<'a> Gathering<'a> {
     fn touch_surfaces(&mut self, slot: u32) {
         let timeline = self.timeline;
         let sphere = timeline.flights.index_of[slot as usize];
-        let state = timeline.flights.state_of(slot, self.time);
-        let radius = timeline.flights.species_of(slot).radius;
+        let member = self.members[&sphere];
         for (surface, shift) in timeline.surfaces_near(slot) {
-            if touches_surface(self.context, (state, radius), (surface, shift), self.time) {
+            if touches_surface(self.context, &member, surface, shift, self.time) {
                 let bodies = Bodies::Surface { sphere, surface };
                 let found = Found { shift: -shift, is_predicted: false };
                 self.touches.entry(bodies).or_insert(found);

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::member::Member;
 use crate::detect::{Separation, sphere_rectangle_known_in_front, sphere_surface};
 use crate::norm::Norm;
 use crate::rule::exact::contact_scale::{CLOCK_ROUNDING, TOUCHING};
@@ -38,14 +39,17 @@ pub(super) fn touching_gap(coordinates: f64, speed: f64, time: f64) -> f64 {
     TOUCHING * coordinates + CLOCK_ROUNDING * time.abs() * speed
 }
 
-/// Whether a sphere, by its centre \[m\], velocity \[m/s\] and radius \[m\], touches a surface or its
-/// image, where a shift \[m\] brings it, at `time` \[s\].
+/// Whether a sphere touches a surface, or the image of it where a `shift` \[m\] brings it, at `time`
+/// \[s\].
 pub(crate) fn touches_surface(
     context: &StepContext,
-    ((center, velocity), radius): ((DVec3, DVec3), f64),
-    (surface, shift): (u32, DVec3),
+    member: &Member,
+    surface: u32,
+    shift: DVec3,
     time: f64,
 ) -> bool {
+    let Member { position: center, velocity, species, .. } = *member;
+    let radius = species.radius;
     let Surface { form, motion, .. } = &context.system.surfaces[surface as usize];
     if motion.is_at_rest() {
         // Where they touch, the point of the surface is no farther from the origin than that.

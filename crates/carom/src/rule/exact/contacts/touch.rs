@@ -128,7 +128,7 @@ impl Touch {
         Self { gap: distance, normal, point, ..self }
     }
 
-    /// PairResult from a frame that moves and turns with the surface, at the centre of the sphere.
+    /// Seen from a coordinate system that moves and turns with the surface, at the centre of the sphere.
     fn with_motion(self, motion: &SurfaceMotion, center: DVec3) -> Self {
         let surface_velocity = motion.velocity_at(center);
         let spin = motion.angular_velocity;

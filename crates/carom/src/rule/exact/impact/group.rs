@@ -233,7 +233,7 @@ fn contacts_of(timeline: &Timeline, context: &StepContext, group: &Group) -> Vec
     group.touches.iter().map(contact).collect()
 }
 
-/// Begins a new flight of every sphere of the group, borne by its lasting contacts. Bodies that were
+/// Begins a new flight of every sphere of the group, borne by its persistent contacts. Bodies that were
 /// `struck` begin it by that.
 fn begin_flights(
     timeline: &mut Timeline,

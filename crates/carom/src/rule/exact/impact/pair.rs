@@ -81,7 +81,7 @@ fn is_alone(timeline: &Timeline, context: &mut StepContext, slots: [u32; 2], one
     let near_test = NearTest { exempt: other, margin: NEARBY };
     let search = &mut context.searches[one];
     let mut is_near = search.search(timeline, slot, time, near_test);
-    // The two fly alike: where all are of one kind, all do.
+    // The two fly alike: where all are of one species, all do.
     if timeline.flights.species.len() > 1 {
         is_near |= search.is_near_others(timeline, slot, near_test);
     }

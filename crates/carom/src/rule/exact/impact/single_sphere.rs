@@ -21,7 +21,7 @@ use crate::rule::exact::predict::{self, Unresolved};
 use crate::rule::exact::timeline::Timeline;
 
 /// Answers what happens to a sphere at `time` \[s\]: it meets a `surface`, or else the forces of its
-/// lasting contacts have to be found anew. The answer is that of its group, but for rounding.
+/// persistent contacts have to be found anew. The answer is that of its group, but for rounding.
 pub(crate) fn of_sphere(
     timeline: &mut Timeline,
     context: &mut StepContext,

@@ -1,5 +1,5 @@
-//! Spheres alone with surfaces: what one touches, if that is nothing but surfaces at rest at right
-//! angles to each other. Then it feels each of them as if there were no other.
+//! Surface contacts of a single sphere: what it touches, if that is nothing but surfaces at rest at
+//! right angles to each other. Then each of them acts on it as if there were no other.
 
 use glam::DVec3;
 
@@ -109,7 +109,7 @@ impl<'a> SurfaceContacts<'a> {
 }
 
 /// The sphere at `slot` at `time` \[s\], if it touches nothing but the `surface` that it meets, its
-/// lasting contacts and others, all of them at rest and at right angles to each other, and does not
+/// persistent contacts and others, all of them at rest and at right angles to each other, and does not
 /// stay at what is round.
 pub(super) fn single_sphere<'a>(
     timeline: &Timeline,
@@ -131,12 +131,11 @@ pub(super) fn single_sphere<'a>(
     let (position, velocity) = timeline.flights.state_of(slot, time);
     let member =
         Member { slot, position, velocity, species: *timeline.flights.free_species_of(slot) };
-    let sphere = ((position, velocity), member.species.radius);
     let mut touched = SurfaceContacts::default();
-    for near in timeline.surfaces_near(slot) {
-        let is_known = surface == Some(near.0) || timeline.flights.is_held_by(slot, near.0);
-        if is_known || contacts::touches_surface(context, sphere, near, time) {
-            touched.add(context, &member, near.0)?;
+    for (near, shift) in timeline.surfaces_near(slot) {
+        let is_known = surface == Some(near) || timeline.flights.is_held_by(slot, near);
+        if is_known || contacts::touches_surface(context, &member, near, shift, time) {
+            touched.add(context, &member, near)?;
         }
     }
     let is_felt_apart = match &touched.round {

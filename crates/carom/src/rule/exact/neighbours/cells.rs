@@ -1,4 +1,4 @@
-//! Who is in which cell of a grid.
+//! Cell lists: the spheres in each cell of a grid.
 
 use super::grid::Block;
 use super::neighbour::Neighbour;

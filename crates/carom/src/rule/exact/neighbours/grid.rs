@@ -314,7 +314,7 @@ impl Grid {
     /// The side of a cell that another one is on, if it is a neighbour along one axis.
     pub fn side(&self, from: [u16; 3], to: [u16; 3]) -> Option<Side> {
         let [x, y, z] = [0, 1, 2].map(|axis| usize::from(from[axis] != to[axis]));
-        // Without branches on the axis, which no processor can foresee.
+        // Without branches on the axis, which the processor cannot predict.
         let axis = y + 2 * z;
         if x + y + z != 1 {
             return None;

@@ -79,7 +79,7 @@ impl Neighbours {
         self.lists.is_none()
     }
 
-    /// How images are told from others.
+    /// How images are distinguished from others.
     #[inline(always)]
     pub fn images(&self) -> Images {
         self.images
@@ -176,7 +176,7 @@ impl Neighbours {
         self.periodic_box.shifts_of(simd, &self.regions[slot as usize], others, some)
     }
 
-    /// The shifts \[m\] that bring neighbours near, where images are told by their positions, from
+    /// The shifts \[m\] that bring neighbours near, where images are recognised by their positions, from
     /// their offsets at a time when all are in their neighbour regions \[m\].
     #[inline(always)]
     pub fn shifts_to_nearest<S: Simd>(

@@ -9,7 +9,7 @@ use crate::lanes::{LANES, Lanes};
 use crate::real::Vector;
 use crate::rule::exact::periodic;
 
-/// How images of spheres are told from others.
+/// How images of spheres are distinguished from others.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) enum Images {
     /// There are none: all axes are open.
@@ -74,7 +74,7 @@ impl PeriodicBox {
         ((in_box + (here - there)) * is_image).scaled(Vector::all(simd, self.edges))
     }
 
-    /// The shifts \[m\] that bring neighbours near a sphere, where images are told by their positions,
+    /// The shifts \[m\] that bring neighbours near a sphere, where images are recognised by their positions,
     /// from their offsets at a time when all are in their regions \[m\].
     #[inline(always)]
     pub fn shifts_to_nearest<S: Simd>(

@@ -8,7 +8,7 @@ use crate::rule::exact::periodic::image_shift;
 const SLOT_BITS: u32 = 27;
 /// The number of the image with offset 0, among those at -1, 0 or 1 boxes along each axis.
 const MIDDLE_IMAGE: i32 = 13;
-/// How many images can be told apart, with the sphere in the same box, and some that are none.
+/// How many images can be distinguished, with the sphere in the same box, and some that are none.
 pub(super) const IMAGES: usize = 1 << (u32::BITS - SLOT_BITS);
 /// The offset of each image, by its number and one more: to look it up takes less than to count.
 const OFFSETS: [[i32; 3]; IMAGES] = {
@@ -33,7 +33,7 @@ const OFFSETS_IN_NUMBERS: [(DVec3, f64); IMAGES] = {
     numbers
 };
 
-/// More spheres than this cannot be told apart.
+/// More spheres than this cannot be distinguished.
 pub(crate) const MAX_SPHERES: usize = 1 << SLOT_BITS;
 
 /// A neighbour of a sphere: its slot, and which of its images it is.

@@ -81,7 +81,7 @@ impl<T: Copy + PartialEq + Default, const SIZE: usize> PagedLists<T, SIZE> {
     ) -> (usize, bool) {
         let mut links = 0;
         for page in &self.pages[lists] {
-            // Always a whole page: no processor can foresee how many there are.
+            // Always a whole page: the processor cannot predict how many there are.
             members[end..end + SIZE].copy_from_slice(&page.members);
             end += page.link.len();
             links |= page.link.0;

@@ -97,7 +97,7 @@ const IMAGES: u8 = 1;
 const ITSELF: u8 = 2;
 const FALLS: u8 = 4;
 const SPECIES: u8 = 8;
-/// Images are told by the positions of their spheres, none of which falls.
+/// Images are recognised by the positions of their spheres, none of which falls.
 const NEAREST: u8 = 16;
 
 /// A query where only these `CASES` occur.

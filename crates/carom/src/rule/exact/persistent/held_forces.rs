@@ -1,4 +1,4 @@
-//! Forces that are held constant over a frame.
+//! Held forces: forces without a closed form, constant over a frame.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ use crate::system::System;
 
 /// Begins a new flight of every sphere at the start of a frame, or of a part of it, under the forces
 /// that act on it in the middle: an error of the third order in its length, of the second over all
-/// frames (the midpoint rule). Lasting contacts with planes go on where forces are the same
+/// frames (the midpoint rule). Persistent contacts with planes go on where forces are the same
 /// everywhere; others are found anew.
 pub(crate) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64; 2]) {
     for slot in 0..timeline.flights.bodies.len() as u32 {
@@ -60,7 +60,7 @@ fn begin_under(
     timeline.begin_flight(slot, position, velocity, start);
 }
 
-/// How the lasting contacts of a sphere go on, with the number of its cluster, if that is known
+/// How the persistent contacts of a sphere go on, with the number of its cluster, if that is known
 /// for a `duration` \[s\] without finding them anew.
 fn planar_support(
     timeline: &Timeline,

@@ -11,7 +11,7 @@ use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::sum::Sum;
 
-/// How far the normal of a lasting contact turns before its force is found anew \[rad\]. The path
+/// How far the normal of a persistent contact turns before its force is found anew \[rad\]. The path
 /// between is a parabola through the middle of the turn; its gap to the true one is of the third
 /// order, below 1e-10 of the radius of the curve.
 pub(super) const TURN: f64 = 1e-3;
@@ -27,7 +27,7 @@ const MOST_GAINED: f64 = 0.1;
 const SHORTEST_TURN: f64 = 1e-6;
 
 /// Time \[s\] in which the normal of some contact turns by [`TURN`]; infinite where none does. How
-/// a surface turns is known for what is left of the frame \[s\].
+/// a surface turns is known for the rest of the frame \[s\].
 pub(super) fn turning_time(
     members: &[Member],
     touches: &[Touch],
@@ -64,24 +64,32 @@ pub(super) fn turning_time(
     time
 }
 
-/// Accelerations in the middle of a turn that takes `turning` \[s\], and how long they hold \[s\];
+/// The contact forces with which a turn begins.
+#[derive(Clone, Copy)]
+pub(super) struct TurnStart<'a> {
+    pub accelerations: &'a Accelerations,
+    /// One per contact \[N\].
+    pub forces: &'a [f64],
+}
+
+/// Accelerations in the middle of a turn that takes `turning` \[s\], and how long they are valid \[s\];
 /// or the contacts that part before.
 pub(super) fn through_the_middle(
     context: &StepContext,
     group: &Group,
     touches: &[Touch],
-    (start, forces_before): (&Accelerations, &[f64]),
+    start: TurnStart,
     turning: f64,
 ) -> Result<(Accelerations, f64), Vec<bool>> {
-    let mut hold = turning;
+    let mut valid_for = turning;
     loop {
         let middle: Vec<Member> = group
             .members
             .iter()
-            .zip(&start.each)
-            .map(|(member, &acceleration)| member.after(acceleration, 0.5 * hold))
+            .zip(&start.accelerations.each)
+            .map(|(member, &acceleration)| member.after(acceleration, 0.5 * valid_for))
             .collect();
-        let time = group.time + 0.5 * hold;
+        let time = group.time + 0.5 * valid_for;
         let measured: Vec<Option<Touch>> =
             touches.iter().map(|touch| touch.measured_at(context, &middle, time)).collect();
         let still: Vec<Touch> = measured.iter().flatten().copied().collect();
@@ -92,30 +100,30 @@ pub(super) fn through_the_middle(
         let mut in_middle = forces.iter();
         let released: Vec<bool> = measured
             .iter()
-            .zip(forces_before)
+            .zip(start.forces)
             .map(|(measured, &before)| match measured {
                 Some(touch) => in_middle.next() == Some(&0.0) && before > 0.0 && opens(touch),
                 None => true,
             })
             .collect();
-        let is_shortest = 0.5 * hold < turning * (SHORTEST_TURN / TURN);
+        let is_shortest = 0.5 * valid_for < turning * (SHORTEST_TURN / TURN);
         if !released.contains(&true) {
-            let end = ending_in_contact(context, group, touches, accelerations, hold);
+            let end = ending_in_contact(context, group, touches, accelerations, valid_for);
             if end.keeps_energy && end.is_followed {
-                return Ok((end.accelerations, hold));
+                return Ok((end.accelerations, valid_for));
             }
             if is_shortest {
                 let is_jammed = !end.keeps_energy && is_at_rest(&group.members, touches);
                 return Ok(if is_jammed {
                     (stopped(end.accelerations, touches), f64::INFINITY)
                 } else {
-                    (end.accelerations, hold)
+                    (end.accelerations, valid_for)
                 });
             }
         } else if is_shortest {
             return Err(released);
         }
-        hold *= 0.5;
+        valid_for *= 0.5;
     }
 }
 
@@ -143,7 +151,7 @@ fn stopped(mut accelerations: Accelerations, touches: &[Touch]) -> Accelerations
     accelerations
 }
 
-/// Accelerations under which the gaps of contacts after `hold` \[s\] are what they are now, or a little
+/// Accelerations under which the gaps of contacts after `valid_for` \[s\] are what they are now, or a little
 /// less where they are open: constraint forces that are found from positions, as in SHAKE (Ryckaert,
 /// Ciccotti and Berendsen, J. Comput. Phys. 23, 327 (1977)).
 fn ending_in_contact(
@@ -151,14 +159,14 @@ fn ending_in_contact(
     group: &Group,
     touches: &[Touch],
     mut accelerations: Accelerations,
-    hold: f64,
+    valid_for: f64,
 ) -> Ending {
     let members = group.members.iter().zip(&accelerations.each);
     let end: Vec<Member> =
-        members.map(|(member, &acceleration)| member.after(acceleration, hold)).collect();
+        members.map(|(member, &acceleration)| member.after(acceleration, valid_for)).collect();
     let mut is_followed = true;
     let mut at_end = |touch: &Touch| {
-        let after = touch.measured_at(context, &end, group.time + hold)?;
+        let after = touch.measured_at(context, &end, group.time + valid_for)?;
         let ContactScale { radius, length, .. } = group.scale(touch);
         let closed = (0.5 * touch.gap).clamp(0.0, MOST_CLOSED * radius);
         let excess = after.gap - (touch.gap - closed);
@@ -168,19 +176,19 @@ fn ending_in_contact(
     let (touches, excess): (Vec<Touch>, Vec<f64>) = touches.iter().filter_map(&mut at_end).unzip();
     let moves = corrections(context.work, &end, &touches, &excess);
     let needed = |(way, member): (DVec3, &Member)| {
-        way / Propagator::over(hold, member.species.drag_rate).fall
+        way / Propagator::over(valid_for, member.species.drag_rate).fall
     };
     let changes: Vec<DVec3> = moves.into_iter().zip(&end).map(needed).collect();
-    // Of the order of the turn; where contacts hardly differ, rounding may ask for any.
+    // Of the order of the turn; where contacts hardly differ, rounding may make it any.
     let is_small = |(member, change): (&Member, &DVec3)| {
         change.norm()
             <= MOST_CORRECTED * (member.species.acceleration.norm() + accelerations.largest)
     };
-    let keeps = |each: &[DVec3]| keeps_energy(group, &touches, each, hold);
+    let keeps = |each: &[DVec3]| keeps_energy(group, &touches, each, valid_for);
     if end.iter().zip(&changes).all(is_small) {
         let pairs = accelerations.each.iter().zip(changes);
         let corrected: Vec<DVec3> = pairs.map(|(middle, change)| middle + change).collect();
-        // Between contacts that all but lock each other, a gap of rounding asks for large moves.
+        // Between contacts that all but lock each other, a gap of rounding leads to large moves.
         if keeps(&corrected) {
             accelerations.each = corrected;
             return Ending { accelerations, is_followed, keeps_energy: true };
@@ -190,10 +198,10 @@ fn ending_in_contact(
     Ending { accelerations, is_followed, keeps_energy }
 }
 
-/// Whether spheres that fly so for `hold` \[s\] rise no higher than their kinetic energy lifts them, and
+/// Whether spheres that fly so for `valid_for` \[s\] rise no higher than their kinetic energy lifts them, and
 /// gain or lose so little by the error of the path that it can be made up for in that. Contact forces
-/// at surfaces at rest do no work; where surfaces move, or with drag, nothing is asked.
-fn keeps_energy(group: &Group, touches: &[Touch], accelerations: &[DVec3], hold: f64) -> bool {
+/// at surfaces at rest do no work; where surfaces move, or with drag, anything passes.
+fn keeps_energy(group: &Group, touches: &[Touch], accelerations: &[DVec3], valid_for: f64) -> bool {
     let has_drag = group.members.iter().any(|member| member.species.drag_rate > 0.0);
     if has_drag || touches.iter().any(Touch::does_work) {
         return true;
@@ -201,7 +209,7 @@ fn keeps_energy(group: &Group, touches: &[Touch], accelerations: &[DVec3], hold:
     let [mut before, mut after, mut lifted, mut moved] = [Sum::default(); 4];
     for (member, &acceleration) in group.members.iter().zip(accelerations) {
         let Member { position, velocity, species, .. } = member;
-        let end = member.after(acceleration, hold);
+        let end = member.after(acceleration, valid_for);
         let work = species.mass * species.acceleration.dot(end.position - *position);
         before.add(0.5 * species.mass * velocity.length_squared());
         after.add(0.5 * species.mass * end.velocity.length_squared());

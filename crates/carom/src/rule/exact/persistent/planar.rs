@@ -1,4 +1,4 @@
-//! Lasting contacts of a sphere in a corner: which ones stay, with which forces, and for how long.
+//! Persistent contacts of a sphere in a corner: which ones stay, with which forces, and for how long.
 
 use glam::DVec3;
 
@@ -11,23 +11,23 @@ use crate::rule::exact::contacts::{Corner, MOST_PLANES, Member, beyond};
 use crate::rule::exact::flights::AxisMotion;
 use crate::surface::Form;
 
-/// How a sphere goes on in its lasting contacts.
+/// How a sphere goes on in its persistent contacts.
 pub(crate) struct PlanarSupport {
     /// \[m/s\]
     pub velocity: DVec3,
     /// Of everything but drag \[m/s²\].
     pub acceleration: DVec3,
-    /// How long that holds \[s\]; infinite if it is for longer than was asked.
+    /// How long that holds \[s\]; infinite if longer than the given duration.
     pub valid_for: f64,
-    /// Which contacts last, in the order of the planes; the others part.
+    /// Which contacts persist, in the order of the planes; the others part.
     pub persists: [bool; MOST_PLANES],
 }
 
 /// How a sphere that touches the planes of a corner goes on: where it is pressed on one, without the
 /// part along the normal; elsewhere the contact parts. `None` where no contact is left.
 ///
-/// All of that is asked for a `duration` \[s\]. Contacts that part for less than a contact's duration
-/// \[s\] last, and what holds for less is in doubt only by rounding.
+/// All of that holds for a `duration` \[s\]. Contacts that part for less than a contact's duration
+/// \[s\] persist, and what holds for less is in doubt only by rounding.
 ///
 /// Forces at right angles do not depend on each other, so each follows from its own plane, as it
 /// would from [`contact_forces`](crate::respond::contact_forces).

@@ -1,12 +1,14 @@
-//! Persistent contacts: which ones stay, with which forces, and for how long those hold.
+//! Persistent contacts: which ones stay, with which forces, and for how long those valid_for.
 
 use std::collections::BTreeMap;
+
+use glam::DVec3;
 
 use super::accelerations::{
     Accelerations, IDLE, accelerations_under, bias, forces, free_acceleration, is_idle,
 };
 use super::correction::correct;
-use super::piece::{TURN, through_the_middle, turning_time};
+use super::piece::{TURN, TurnStart, through_the_middle, turning_time};
 use super::sliding::sliding_time;
 use crate::norm::Norm;
 use crate::respond::restitution_of;
@@ -16,47 +18,51 @@ use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Support;
 use crate::work::Work;
 
-use glam::DVec3;
-
-/// Spheres in lasting contact whose speed is below this part of the speeds they came with are at
+/// Spheres in persistent contact whose speed is below this part of the speeds they came with are at
 /// rest, but for rounding.
 pub(crate) const REST: f64 = 1e-12;
+
 /// Finds the contacts of a group that stay closed and what they do; brings their gaps and normal
 /// velocities to zero.
 pub(crate) fn find(context: &StepContext, group: &mut Group) -> Vec<Support> {
-    let may_persist = may_persist(context, group);
-    let (mut lasting, known_forces) = pressing_contacts(context.work, &group.members, &may_persist);
+    let candidates = may_persist(context, group);
+    let (mut persistent, known_forces) = pressing(context.work, &group.members, &candidates);
     let mut known_forces = Some(known_forces);
-    while !lasting.is_empty() {
-        let has_moved = correct(context, group, &mut lasting);
+    while !persistent.is_empty() {
+        let has_moved = correct(context, group, &mut persistent);
         // Contacts that push nothing were left out: the forces of the others are the same, unless drag
         // has changed with the velocities.
         let has_drag = group.members.iter().any(|member| member.species.drag_rate > 0.0);
         let known_forces = known_forces.take().filter(|_| !(has_moved || has_drag));
-        let forces = known_forces.unwrap_or_else(|| forces(context.work, &group.members, &lasting));
-        let accelerations =
-            zero_roundoff(context, group, accelerations_under(&group.members, &lasting, &forces));
+        let forces =
+            known_forces.unwrap_or_else(|| forces(context.work, &group.members, &persistent));
+        let accelerations = zero_roundoff(
+            context,
+            group,
+            accelerations_under(&group.members, &persistent, &forces),
+        );
         let frame_left = (context.start + context.length - group.time).max(0.0);
-        let turning = turning_time(&group.members, &lasting, &accelerations, frame_left);
-        let (accelerations, hold) = if turning == f64::INFINITY {
+        let turning = turning_time(&group.members, &persistent, &accelerations, frame_left);
+        let (accelerations, valid_for) = if turning == f64::INFINITY {
             (accelerations, turning)
         } else {
-            match through_the_middle(context, group, &lasting, (&accelerations, &forces), turning) {
-                Ok((middle, hold)) => (zero_roundoff(context, group, middle), hold),
+            let start = TurnStart { accelerations: &accelerations, forces: &forces };
+            match through_the_middle(context, group, &persistent, start, turning) {
+                Ok((middle, valid_for)) => (zero_roundoff(context, group, middle), valid_for),
                 Err(released) => {
                     let mut released = released.into_iter();
-                    lasting.retain(|_| !released.next().unwrap_or(false));
+                    persistent.retain(|_| !released.next().unwrap_or(false));
                     continue;
                 }
             }
         };
-        if hold < f64::INFINITY {
-            add_closing(&group.members, &may_persist, &accelerations, &mut lasting);
+        if valid_for < f64::INFINITY {
+            add_closing(&group.members, &candidates, &accelerations, &mut persistent);
         }
-        let hold = hold.min(sliding_time(context, group, &lasting, &accelerations));
+        let valid_for = valid_for.min(sliding_time(context, group, &persistent, &accelerations));
         // What holds for less than a contact's duration is in doubt only by rounding.
-        let hold = hold.max(context.parameters.contact_duration);
-        return connected(group, &lasting, &accelerations, group.time + hold);
+        let valid_for = valid_for.max(context.parameters.contact_duration);
+        return connected(group, &persistent, &accelerations, group.time + valid_for);
     }
     Vec::new()
 }
@@ -77,49 +83,47 @@ fn may_persist(context: &StepContext, group: &Group) -> Vec<Touch> {
     group.touches.iter().filter(persists).copied().collect()
 }
 
-/// Of slow touches, those that stay closed, for their forces press; with the forces \[N\].
-fn pressing_contacts(
-    work: &Work,
-    members: &[Member],
-    may_persist: &[Touch],
-) -> (Vec<Touch>, Vec<f64>) {
-    if may_persist.is_empty() {
+/// Of touches that may persist, those whose forces press, so that they stay closed; with the forces
+/// \[N\].
+fn pressing(work: &Work, members: &[Member], candidates: &[Touch]) -> (Vec<Touch>, Vec<f64>) {
+    if candidates.is_empty() {
         return (Vec::new(), Vec::new());
     }
-    let forces = forces(work, members, may_persist);
-    let mut is_borne = vec![false; members.len()];
-    for (touch, &force) in may_persist.iter().zip(&forces) {
+    let forces = forces(work, members, candidates);
+    let mut is_carried = vec![false; members.len()];
+    for (touch, &force) in candidates.iter().zip(&forces) {
         if force > 0.0 {
-            touch.places().for_each(|place| is_borne[place] = true);
+            touch.places().for_each(|place| is_carried[place] = true);
         }
     }
-    let accelerations = accelerations_under(members, may_persist, &forces);
+    let accelerations = accelerations_under(members, candidates, &forces);
     let stays = |(&touch, force): (&Touch, f64)| {
-        let all_borne = is_borne[touch.second] && touch.first.is_none_or(|first| is_borne[first]);
-        let persists = force > 0.0 || (all_borne && is_idle(&accelerations, &touch, members));
+        let all_carried =
+            is_carried[touch.second] && touch.first.is_none_or(|first| is_carried[first]);
+        let persists = force > 0.0 || (all_carried && is_idle(&accelerations, &touch, members));
         persists.then_some((touch, force))
     };
-    may_persist.iter().zip(forces).filter_map(stays).unzip()
+    candidates.iter().zip(forces).filter_map(stays).unzip()
 }
 
-/// Adds slow touches that open now and would close under the accelerations of the middle of a turn:
-/// for this piece of the path their bodies add_closing on each other without a force, and the gap that is
-/// missing is of the third order in the turn, like that of the piece.
+/// Adds touches that may persist, that open now and would close under the accelerations of the middle of
+/// a turn: for this piece of the path their bodies rest on each other without a force, and the gap that
+/// is missing is of the third order in the turn, like that of the piece.
 fn add_closing(
     members: &[Member],
-    may_persist: &[Touch],
+    candidates: &[Touch],
     accelerations: &Accelerations,
-    lasting: &mut Vec<Touch>,
+    persistent: &mut Vec<Touch>,
 ) {
-    let leans = |touch: &&Touch| {
+    let closes = |touch: &&Touch| {
         let closing = -accelerations.along(touch, members);
         closing > 0.0
             && closing <= TURN * accelerations.scale_at(touch, members)
-            && !lasting.iter().any(|known| known.bodies == touch.bodies)
+            && !persistent.iter().any(|known| known.bodies == touch.bodies)
     };
-    let leaning: Vec<Touch> = may_persist.iter().filter(leans).copied().collect();
-    lasting.extend(leaning);
-    lasting.sort_unstable_by_key(|touch| touch.bodies);
+    let closing: Vec<Touch> = candidates.iter().filter(closes).copied().collect();
+    persistent.extend(closing);
+    persistent.sort_unstable_by_key(|touch| touch.bodies);
 }
 
 /// Whether what parts with a speed \[m/s\] against an acceleration \[m/s²\] is back within a `duration`
@@ -147,7 +151,7 @@ fn zero_roundoff(
     accelerations
 }
 
-/// The spheres and contacts that hang together, each set by itself.
+/// The connected sets of spheres and contacts.
 fn connected(
     group: &Group,
     touches: &[Touch],
@@ -155,11 +159,11 @@ fn connected(
     renewal: f64,
 ) -> Vec<Support> {
     let mut root: Vec<usize> = (0..group.members.len()).collect();
-    let mut is_borne = vec![false; root.len()];
+    let mut is_carried = vec![false; root.len()];
     for touch in touches {
-        is_borne[touch.second] = true;
+        is_carried[touch.second] = true;
         if let Some(first) = touch.first {
-            is_borne[first] = true;
+            is_carried[first] = true;
             let (a, b) = (root_of(&root, first), root_of(&root, touch.second));
             root[a.max(b)] = a.min(b);
         }
@@ -171,7 +175,8 @@ fn connected(
         supports.entry(root).or_insert_with(empty);
         root
     };
-    for (place, member) in group.members.iter().enumerate().filter(|(place, _)| is_borne[*place]) {
+    for (place, member) in group.members.iter().enumerate().filter(|(place, _)| is_carried[*place])
+    {
         let root = of(&mut supports, place);
         if let Some(support) = supports.get_mut(&root) {
             support.members.push((member.slot, accelerations.each[place]));
@@ -186,7 +191,7 @@ fn connected(
     supports.into_values().collect()
 }
 
-/// The smallest place that hangs together with this one.
+/// The smallest place that is connected with this one.
 fn root_of(root: &[usize], mut place: usize) -> usize {
     while root[place] != place {
         place = root[place];
