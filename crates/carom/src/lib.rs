@@ -64,7 +64,8 @@ pub use forces::{ConstantForce, Force, ForceId, Gravity, LinearForce, SphereStat
 pub use hash::StateHash;
 pub use integrate::Integrator;
 pub use report::{
-    Impact, ImpactGroup, LedgerEntry, Overlap, Participants, StepReport, TriggerContact,
+    Impact, ImpactGroup, LedgerEntry, Overlap, Participants, StageCounts, StepReport,
+    TriggerContact,
 };
 pub use respond::ImpactLaw;
 pub use rule::{Bisect, Exact, Rule, WindBack};

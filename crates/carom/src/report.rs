@@ -1,5 +1,7 @@
 //! What a step reports.
 
+use std::ops::AddAssign;
+
 use glam::DVec3;
 
 use crate::bodies::SphereId;
@@ -26,6 +28,38 @@ pub struct StepReport {
     /// frame: they count as come to rest, the rest of it was taken in one piece, and what then
     /// overlapped was answered as in `discrete`.
     pub unfinished_islands: u32,
+    /// The work of the step, by stage.
+    pub work: StageCounts,
+}
+
+/// The work of a step, counted by stage: integers that depend on the world alone, not on the machine
+/// or on the number of threads.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct StageCounts {
+    /// Predict: how often the next events of a sphere were predicted, under the rule `exact`.
+    pub predictions: u64,
+    /// Predict, or detect: pairs of spheres that were tested for a meeting, or for a contact.
+    pub pair_tests: u64,
+    /// Queue: events that were taken from it, void ones among them, under the rule `exact`.
+    pub events: u64,
+    /// Queue: of these events, cell crossings.
+    pub cell_crossings: u64,
+    /// Respond: groups of touching bodies that were answered as a whole, under the rule `exact`.
+    pub groups: u64,
+    /// Respond: iterations of the solvers of these groups, each counted once for every contact.
+    pub solver_iterations: u64,
+}
+
+impl AddAssign for StageCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.predictions += other.predictions;
+        self.pair_tests += other.pair_tests;
+        self.events += other.events;
+        self.cell_crossings += other.cell_crossings;
+        self.groups += other.groups;
+        self.solver_iterations += other.solver_iterations;
+    }
 }
 
 impl StepReport {
@@ -36,6 +70,7 @@ impl StepReport {
         self.emitted.clear();
         self.retired.clear();
         self.unfinished_islands = 0;
+        self.work = StageCounts::default();
     }
 }
 

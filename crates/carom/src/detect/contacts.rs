@@ -20,6 +20,15 @@ pub(crate) struct Search {
     everyone: BroadPhase,
     some: BroadPhase,
     near: Vec<u32>,
+    /// Pairs of spheres that were tested since the count was last taken.
+    pair_tests: u64,
+}
+
+impl Search {
+    /// Takes the number of pairs of spheres that were tested since this was last done.
+    pub fn take_pair_tests(&mut self) -> u64 {
+        std::mem::take(&mut self.pair_tests)
+    }
 }
 
 /// Contacts that are not `Separate` among all spheres and solid surfaces, sorted by bodies.
@@ -33,7 +42,10 @@ pub(crate) fn of_everyone(
     let count = instant.system.spheres.id.len() as u32;
     if instant.system.settings.spheres_collide {
         search.everyone.rebuild((0..count).map(|i| at(instant, i)), tolerance);
-        search.everyone.for_each_pair(|i, j| keep(instant.pair(i, j, tolerance), contacts));
+        search.everyone.for_each_pair(|i, j| {
+            search.pair_tests += 1;
+            keep(instant.pair(i, j, tolerance), contacts);
+        });
     }
     of_surfaces(instant, 0..count, tolerance, &mut search.near, contacts);
     contacts.sort_unstable_by_key(|contact| contact.bodies);
@@ -50,7 +62,9 @@ pub(crate) fn of_overlapping_pairs(
     if !instant.system.settings.spheres_collide {
         return;
     }
+    let mut pair_tests = 0;
     let mut keep = |i, j| {
+        pair_tests += 1;
         let contact = instant.pair(i, j, 0.0);
         if contact.separation.distance < -tolerance {
             contacts.push(contact);
@@ -58,6 +72,7 @@ pub(crate) fn of_overlapping_pairs(
     };
     let everyone = 0..instant.system.spheres.id.len() as u32;
     for_each_candidate(instant, everyone, 0.0, &mut search.some, &mut keep);
+    search.pair_tests += pair_tests;
     contacts.sort_unstable_by_key(|contact| contact.bodies);
 }
 
@@ -99,6 +114,7 @@ pub(crate) fn of_some(
     if instant.system.settings.spheres_collide {
         let members = members.iter().copied();
         for_each_candidate(instant, members, tolerance, &mut search.some, |i, j| {
+            search.pair_tests += 1;
             keep(instant.pair(i, j, tolerance), contacts);
         });
     }
@@ -143,13 +159,14 @@ pub(crate) fn of_moved(
 ) {
     of_some(instant, moved.list, tolerance, search, contacts);
     if instant.system.settings.spheres_collide {
-        let Search { everyone, some, .. } = search;
+        let Search { everyone, some, pair_tests, .. } = search;
         if moved.list.len() <= FEW {
             // More than a few are arranged already, by the search among themselves.
             some.rebuild(moved.list.iter().map(|&i| at(instant, i)), tolerance);
         }
         everyone.for_each_pair_with(some, |i, j| {
             if !(moved.contains)(i) {
+                *pair_tests += 1;
                 keep(instant.pair(i, j, tolerance), contacts);
             }
         });

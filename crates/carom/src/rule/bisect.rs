@@ -83,6 +83,7 @@ pub(super) fn step(
     }
 
     islands.report(report);
+    report.work.pair_tests += buffers.search.take_pair_tests();
     report_triggers(&frame, buffers, report);
     let colliding = contacts.iter().filter(|contact| contact.state == ContactState::Colliding);
     report.impacts.extend(respond::sequentially(colliding, system, &mut buffers.end, interval.h));

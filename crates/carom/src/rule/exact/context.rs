@@ -9,7 +9,7 @@ use super::timeline::Timeline;
 use crate::bodies::SphereId;
 use crate::detect::sphere_surface;
 use crate::norm::Norm;
-use crate::report::{Impact, ImpactGroup, StepReport};
+use crate::report::{Impact, ImpactGroup, StageCounts, StepReport};
 use crate::rule::Exact;
 use crate::settings::RestitutionRule;
 use crate::surface::{Form, SurfaceMotion};
@@ -21,6 +21,8 @@ pub(super) struct StepContext<'a> {
     pub system: &'a System<'a>,
     pub parameters: Exact,
     pub report: &'a mut StepReport,
+    /// The work of the stages.
+    pub counts: StageCounts,
     /// Counted and bounded.
     pub work: &'a Work<'a>,
     /// Start of the step, on the world's clock \[s\]: impacts count their time from there, and there
@@ -43,8 +45,8 @@ impl<'a> StepContext<'a> {
         report: &'a mut StepReport,
     ) -> Self {
         let period = system.settings.boundary.period();
-        let searches = Default::default();
-        Self { system, parameters, report, work, start, length, period, searches }
+        let (searches, counts) = Default::default();
+        Self { system, parameters, report, counts, work, start, length, period, searches }
     }
 
     pub fn restitution_rule(&self) -> RestitutionRule {

@@ -1,5 +1,7 @@
 //! The frame: how it begins and ends, and how spheres are taken in between frames.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use super::clearance::Clearance;
 use super::context::StepContext;
 use super::events::{Prediction, Schedule};
@@ -182,9 +184,17 @@ fn predict_all(timeline: &mut Timeline, system: &System, time: f64) {
     timeline.schedule = Schedule::default();
     let count = timeline.flights.bodies.len();
     let known = &*timeline;
+    // A sum of integers is the same in any order.
+    let pair_tests = AtomicU64::new(0);
     let predictions: Vec<Prediction> = parallel::map(count, |search: &mut PairSearch, slot| {
-        predict::prediction(known, system, slot as u32, search, time)
+        let before = search.tests();
+        let prediction = predict::prediction(known, system, slot as u32, search, time);
+        pair_tests.fetch_add(search.tests() - before, Ordering::Relaxed);
+        prediction
     });
+    let counts = &mut timeline.work.unreported;
+    counts.predictions += count as u64;
+    counts.pair_tests += pair_tests.into_inner();
     let horizon = timeline.horizon();
     timeline.schedule = Schedule::new(predictions, &timeline.flights.index_of, horizon);
 }

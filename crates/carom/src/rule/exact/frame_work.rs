@@ -3,6 +3,7 @@
 use prefetch_index::prefetch_index;
 
 use super::flights::Body;
+use crate::report::StageCounts;
 
 /// Units of work that count as much as one flight of a sphere.
 pub(super) const UNITS_PER_FLIGHT: u64 = 32;
@@ -14,6 +15,8 @@ pub(super) struct FrameWork {
     generations_before: Vec<u32>,
     /// Work of the groups of each sphere; empty where there was none.
     of_groups: Vec<u64>,
+    /// What no report has counted yet.
+    pub unreported: StageCounts,
 }
 
 impl FrameWork {

@@ -29,12 +29,15 @@ pub(crate) use neighbours::MAX_SPHERES;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
 
+use std::mem::take;
+
 use context::StepContext;
 use events::{EventTarget, UpcomingEvent};
 use frame_work::UNITS_PER_FLIGHT;
+use pair_times::PairSearch;
 
 use crate::bodies::SphereId;
-use crate::report::StepReport;
+use crate::report::{StageCounts, StepReport};
 use crate::system::System;
 use crate::work::Work;
 
@@ -65,6 +68,7 @@ pub(crate) fn advance(
     report: &mut StepReport,
 ) -> Result<(), Unfinished> {
     let mut context = StepContext::new(system, timeline.parameters, span, work, report);
+    let before = WorkSoFar::of(timeline, work);
     while let Some((slot, next)) = timeline.next(span.end) {
         prefetch::upcoming_events(timeline, system);
         if !work.spend(UNITS_PER_FLIGHT) {
@@ -97,7 +101,38 @@ pub(crate) fn advance(
         }
         check_work(timeline, &context, slot, event.time)?;
     }
+    let counts = before.counts_since(timeline, &context);
+    context.report.work += take(&mut timeline.work.unreported);
+    context.report.work += counts;
     Ok(())
+}
+
+/// Work before a part of a frame.
+struct WorkSoFar {
+    events: u64,
+    cell_crossings: u64,
+    /// In units of [`Work`].
+    units: u64,
+}
+
+impl WorkSoFar {
+    fn of(timeline: &Timeline, work: &Work) -> Self {
+        let Timeline { events, cell_crossings, .. } = *timeline;
+        Self { events, cell_crossings, units: work.done() }
+    }
+
+    /// The work of the stages since then.
+    fn counts_since(&self, timeline: &Timeline, context: &StepContext) -> StageCounts {
+        let events = timeline.events - self.events;
+        let units = context.work.done() - self.units;
+        StageCounts {
+            events,
+            cell_crossings: timeline.cell_crossings - self.cell_crossings,
+            pair_tests: context.searches.iter().map(PairSearch::tests).sum(),
+            solver_iterations: units - UNITS_PER_FLIGHT * events,
+            ..context.counts
+        }
+    }
 }
 
 /// Refuses more work of a sphere in a frame than the parameters allow.

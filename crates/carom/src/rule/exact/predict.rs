@@ -13,6 +13,7 @@ use crate::system::System;
 
 /// Predicts what a sphere meets next as of `now` \[s\], and enters it into the schedule.
 pub(super) fn predict(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+    context.counts.predictions += 1;
     let prediction = prediction(timeline, context.system, slot, &mut context.searches[0], now);
     timeline.enter(slot, prediction);
 }
@@ -40,7 +41,7 @@ pub(super) fn prediction(
     search: &mut PairSearch,
     now: f64,
 ) -> Prediction {
-    search.search(timeline, slot, now, NearTest { exempt: slot, margin: 0.0 });
+    search.search(timeline, slot, now, NearTest::none(slot));
     prediction_from_found(timeline, system, slot, search, now)
 }
 
@@ -135,11 +136,12 @@ pub(super) fn restart(timeline: &mut Timeline, context: &mut StepContext, slot: 
 /// Gives a sphere that leaves its neighbour region at `now` \[s\] another one, and searches for what it
 /// may meet there.
 pub(super) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
+    context.counts.predictions += 1;
     let state = timeline.flights.state_of(slot, now);
     let search = &mut context.searches[0];
     timeline.cross_cell(slot, state.into(), &mut search.near);
     let mut events = timeline.schedule.next_events(slot);
-    search.search_found(timeline, slot, now, NearTest { exempt: slot, margin: 0.0 });
+    search.search_found(timeline, slot, now);
     let found = search.first_meetings(timeline, slot);
     events.add(found.first);
     events.add(found.second);

@@ -41,6 +41,7 @@ pub(super) fn answer(
         }
         merged.extend(found);
     };
+    context.counts.groups += 1;
     record(context, &group, &answer);
     let struck = answer.struck(&group);
     let supports = solve::find(context, &mut group);

@@ -63,6 +63,7 @@ pub(crate) fn of_spheres(
             // In another place distances round differently.
             predict::predict(timeline, context, slot, time);
         } else {
+            context.counts.predictions += 1;
             let search = &context.searches[one];
             let prediction =
                 predict::prediction_from_found(timeline, context.system, slot, search, time);

@@ -17,6 +17,8 @@ pub(crate) struct PairSearch {
     pub near: NeighbourBuffer,
     /// The first two meetings with spheres that fly alike.
     meetings: [Meeting; 2],
+    /// How many pairs were tested in all searches so far.
+    tests: u64,
 }
 
 /// Which neighbours count as near: all but one, nearer than the sum of radii and a part of it.
@@ -26,6 +28,14 @@ pub(crate) struct NearTest {
     pub exempt: u32,
     /// Part of the sum of radii.
     pub margin: f64,
+}
+
+impl NearTest {
+    /// A test for the neighbours of a sphere whose result is not needed.
+    #[inline(always)]
+    pub fn none(slot: u32) -> Self {
+        Self { exempt: slot, margin: 0.0 }
+    }
 }
 
 impl PairSearch {
@@ -41,12 +51,20 @@ impl PairSearch {
     ) -> bool {
         let level = timeline.flights.species_of(slot).level;
         timeline.neighbours.find(slot, level, &mut self.near);
-        self.search_found(timeline, slot, now, near_test)
+        // Where spheres pass through each other, it finds not even itself.
+        let itself = usize::from(timeline.neighbours.finds_itself());
+        self.tests += self.near.len.saturating_sub(itself) as u64;
+        self.test_found(timeline, slot, now, near_test)
     }
 
     /// Searches for the first meetings among the neighbours that were found already.
+    pub fn search_found(&mut self, timeline: &Timeline, slot: u32, now: f64) {
+        self.tests += self.near.others(slot).count() as u64;
+        self.test_found(timeline, slot, now, NearTest::none(slot));
+    }
+
     #[inline(always)]
-    pub fn search_found(
+    fn test_found(
         &mut self,
         timeline: &Timeline,
         slot: u32,
@@ -64,6 +82,11 @@ impl PairSearch {
         let result = query.result();
         self.meetings = result.meetings;
         result.is_near
+    }
+
+    /// How many pairs were tested in all searches so far.
+    pub fn tests(&self) -> u64 {
+        self.tests
     }
 
     /// Whether one of the spheres that fly differently is near to a sphere when its flight begins.

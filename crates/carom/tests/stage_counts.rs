@@ -1,0 +1,73 @@
+//! The work of a step, counted by stage: proves that the counts follow from the world alone, and what
+//! the simplest worlds cost; nothing about time.
+
+use carom::{Collider, DVec3, Gravity, Pose, Rule, Settings, Shape, Sphere, StageCounts, World};
+
+fn row_of_spheres(rule: Rule, count: u32) -> World {
+    let mut world = World::new(Settings { rule, ..Settings::default() }).unwrap();
+    for place in 0..count {
+        let position = DVec3::new(3.0 * f64::from(place), 0.0, 0.0);
+        world.add_sphere(Sphere::new(position, 1.0)).unwrap();
+    }
+    world
+}
+
+#[test]
+fn a_lone_sphere_costs_one_prediction_and_no_pair_test() {
+    let mut world = row_of_spheres(Rule::default(), 1);
+    let counts = world.step(1.0).unwrap().work;
+    assert_eq!((counts.predictions, counts.pair_tests, counts.events), (1, 0, 0));
+}
+
+#[test]
+fn nothing_is_predicted_anew_while_nothing_happens() {
+    let mut world = row_of_spheres(Rule::default(), 5);
+    assert_eq!(world.step(1.0).unwrap().work.predictions, 5);
+    assert_eq!(world.step(1.0).unwrap().work, StageCounts::default());
+}
+
+#[test]
+fn each_rule_tests_the_pairs_that_its_broad_phase_leaves() {
+    let spheres = 5;
+    let pairs = spheres * (spheres - 1) / 2;
+    // `exact` has one cell for so few spheres, and predicts each of them; `bisect` sorts them, and
+    // they are apart; `discrete` tests all pairs of so few.
+    for (rule, tests) in [
+        (Rule::default(), 2 * pairs),
+        (Rule::Bisect(carom::Bisect::default()), 0),
+        (Rule::Discrete, pairs),
+    ] {
+        let mut world = row_of_spheres(rule, spheres);
+        assert_eq!(world.step(0.1).unwrap().work.pair_tests, u64::from(tests), "{rule:?}");
+    }
+}
+
+#[test]
+fn a_pyramid_that_comes_to_rest_needs_groups_and_iterations_of_their_solver() {
+    let mut world = World::new(Settings::default()).unwrap();
+    world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0))).unwrap();
+    let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
+    world.add_collider(floor.with_restitution(0.0)).unwrap();
+    for (x, y) in [(-1.0, 1.0), (1.0, 1.0), (0.0, 2.8)] {
+        let sphere = Sphere::new(DVec3::new(x, y, 0.0), 1.0);
+        world.add_sphere(sphere.with_restitution(0.0)).unwrap();
+    }
+    let counts = world.step(0.5).unwrap().work;
+    assert!(counts.groups > 0 && counts.solver_iterations > 0, "{counts:?}");
+    assert!(counts.events >= counts.groups + counts.cell_crossings, "{counts:?}");
+}
+
+#[test]
+fn a_copy_of_a_world_does_the_same_work() {
+    let mut world = row_of_spheres(Rule::default(), 40);
+    let mut sphere = Sphere::new(DVec3::new(-3.0, 0.0, 0.0), 1.0);
+    sphere.velocity = DVec3::X;
+    world.add_sphere(sphere).unwrap();
+    world.step(1.0).unwrap();
+    let mut copy = world.clone();
+    for _ in 0..5 {
+        let counts = world.step(1.0).unwrap().work;
+        assert_eq!(copy.step(1.0).unwrap().work, counts);
+        assert!(counts.events > 0);
+    }
+}
