@@ -3,13 +3,17 @@
 #![warn(clippy::unwrap_used)]
 
 mod architecture;
+mod circles;
 mod demo;
+mod imports;
 mod js_package;
 mod native_hashes;
 mod python;
 mod schema;
 mod setup;
 mod shell;
+mod sizes;
+mod sources;
 mod test;
 mod wasm;
 mod wasm_toolchain;
@@ -31,6 +35,8 @@ Usage: cargo xtask COMMAND
             tests it in a browser; `web --package` makes the package alone, `web --test-package`
             tests it in Node.js
   python    make the wheel of the Python package; `python --test` also installs and tests it
+  circles   refuse modules that use each other in a circle
+  sizes     refuse files and functions that are too long
   schema    write scenes/scene.schema.json anew from the scene types
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
             pictures and of the interface, `bench web` the JavaScript package against the native
@@ -52,6 +58,8 @@ fn main() -> ExitCode {
         ["web", "--test-package"] => js_package::test(),
         ["python"] => python::build().map(drop),
         ["python", "--test"] => python::test(),
+        ["circles"] => circles::check(),
+        ["sizes"] => sizes::check(),
         ["schema"] => schema::write(),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "web"] => js_package::bench(),

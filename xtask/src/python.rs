@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::shell::{Outcome, finish, output, root, target_folder};
+use crate::shell::{Outcome, finish, root, target_folder};
 use crate::{native_hashes, setup};
 
 /// Builds the wheel, and says where it is.
@@ -82,7 +82,8 @@ impl Environment {
             fs::remove_dir_all(&folder).map_err(|error| said(&folder, error))?;
         }
         let place = folder.join("environment");
-        finish(&python(), Command::new(python()).args(["-m", "venv"]).arg(place))?;
+        let python = setup::python_program();
+        finish(&python, Command::new(&python).args(["-m", "venv"]).arg(place))?;
         Ok(Self { folder })
     }
 
@@ -107,18 +108,6 @@ impl Environment {
         let scripts = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
         Command::new(self.folder.join("environment").join(scripts))
     }
-}
-
-/// The Python of this machine: `$PYTHON`, or the usual one.
-fn python() -> String {
-    let usual = if cfg!(windows) { "python" } else { "python3" };
-    std::env::var("PYTHON").unwrap_or_else(|_| usual.to_owned())
-}
-
-/// Whether it is there, new enough, and can make environments.
-pub fn is_there() -> bool {
-    let program = "import ensurepip, sys, venv; print(sys.version_info >= (3, 10))";
-    output(python(), &["-c", program]).is_some_and(|answer| answer.trim() == "True")
 }
 
 fn said(path: &Path, error: std::io::Error) -> String {

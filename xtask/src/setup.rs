@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use crate::python;
 use crate::shell::{Outcome, output, run, succeeds};
 
 /// Adds the toolchain's formatter and linter where they are missing.
@@ -51,8 +50,7 @@ const BROWSER: &[Need] = &[
 ];
 
 /// What builds and tests the Python package.
-const PYTHON: &[Need] =
-    &[Need { is_met: python::is_there, packages: &["python3", "python3-venv"] }];
+const PYTHON: &[Need] = &[Need { is_met: has_python, packages: &["python3", "python3-venv"] }];
 
 /// What compiles for browsers where the standard library for them cannot be fetched.
 const DEBIAN_WASM: &[Need] = &[Need {
@@ -88,7 +86,7 @@ pub fn browser() -> Outcome {
 /// Installs what builds and tests the Python package.
 pub fn python() -> Outcome {
     install(PYTHON)?;
-    if python::is_there() {
+    if has_python() {
         Ok(())
     } else {
         Err("the Python package needs CPython 3.10 or newer, with venv".to_owned())
@@ -152,4 +150,16 @@ fn has_node() -> bool {
     let major = output("node", &["--version"])
         .and_then(|text| text.trim_start_matches('v').split('.').next()?.parse::<u32>().ok());
     major.is_some_and(|major| major >= NODE) && succeeds("npm", &["--version"])
+}
+
+/// The Python of this machine: `$PYTHON`, or the usual one.
+pub fn python_program() -> String {
+    let usual = if cfg!(windows) { "python" } else { "python3" };
+    std::env::var("PYTHON").unwrap_or_else(|_| usual.to_owned())
+}
+
+/// Whether Python is there, new enough, and can make environments.
+fn has_python() -> bool {
+    let program = "import ensurepip, sys, venv; print(sys.version_info >= (3, 10))";
+    output(python_program(), &["-c", program]).is_some_and(|answer| answer.trim() == "True")
 }
