@@ -318,7 +318,7 @@ Integrator: TypeAlias = Literal[
     "semi-implicit-euler", "explicit-euler", "velocity-verlet", "runge-kutta-4"
 ]
 """How spheres move under forces, by the rules ``bisect`` and ``discrete``."""
-RestitutionRule: TypeAlias = Literal["product", "minimum", "maximum", "average"]
+CombineRule: TypeAlias = Literal["product", "minimum", "maximum", "average"]
 """Restitution of a contact from that of its two bodies."""
 ImpactLaw: TypeAlias = Literal["reflection", "simultaneous", "sequential"]
 """How impacts at one instant among spheres that touch are answered, by the rule ``exact``."""
@@ -334,7 +334,7 @@ class Simulation(Part):
         frame_time: Length of a frame [s], > 0.
         duration: Time worth watching [s], > 0: what a run takes unless told.
         spheres_collide: Whether spheres collide with one another; with colliders they always do.
-        restitution_rule: Restitution of a contact from that of its two bodies.
+        combine_rule: Restitution of a contact from that of its two bodies.
         allow_overlap: Whether spheres may overlap each other or colliders at the start.
         impact_law: How impacts at one instant are answered.
         boundary: What is around the spheres, besides colliders.
@@ -347,7 +347,7 @@ class Simulation(Part):
     frame_time: float = 1.0 / 60.0
     duration: float = 10.0
     spheres_collide: bool = True
-    restitution_rule: RestitutionRule = "product"
+    combine_rule: CombineRule = "product"
     allow_overlap: bool = False
     impact_law: ImpactLaw = "reflection"
     boundary: Literal["open"] | Periodic = "open"

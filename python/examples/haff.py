@@ -39,7 +39,7 @@ def gas(cells: int = 16) -> carom.Scene:
     spacing = (np.pi / 6 / PACKING_FRACTION) ** (1 / 3)
     edge, first = cells * spacing, 0.5 * (1 - cells) * spacing
     lattice = carom.Lattice([cells] * 3, [first] * 3, [spacing] * 3, carom.Sphere(diameter=1.0))
-    box = carom.Simulation(boundary=carom.Periodic([edge] * 3), restitution_rule="minimum")
+    box = carom.Simulation(boundary=carom.Periodic([edge] * 3), combine_rule="minimum")
     return carom.Scene(name="gas", simulation=box, generators=[lattice])
 
 

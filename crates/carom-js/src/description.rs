@@ -14,7 +14,7 @@ use crate::world::World;
 /// Something with the number it is known by.
 #[derive(Serialize)]
 struct Numbered<T> {
-    id: usize,
+    id: u64,
     #[serde(flatten)]
     it: T,
 }

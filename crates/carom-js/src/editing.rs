@@ -14,8 +14,8 @@ use crate::world::World;
 #[derive(Debug, Default, Serialize)]
 struct Added {
     spheres: Vec<u64>,
-    colliders: Vec<usize>,
-    forces: Vec<usize>,
+    colliders: Vec<u64>,
+    forces: Vec<u64>,
 }
 
 /// Adding.

@@ -1,6 +1,6 @@
 //! Impacts as a table of numbers: many of them reach JavaScript without an object each.
 
-use carom::{Impact, Participants};
+use carom::{BodyPair, Impact};
 
 /// Numbers in a row; what they are stands in `web/package/src/impacts.js`.
 const COLUMNS: usize = 13;
@@ -11,8 +11,8 @@ pub fn of(impacts: &[Impact]) -> Vec<f64> {
     let mut table = Vec::with_capacity(COLUMNS * impacts.len());
     for impact in impacts {
         let (is_collider, first, second) = match impact.between {
-            Participants::Spheres(first, second) => (0.0, first.number() as f64, second),
-            Participants::Collider { collider, sphere } => (1.0, collider.number() as f64, sphere),
+            BodyPair::Spheres(first, second) => (0.0, first.number() as f64, second),
+            BodyPair::Collider { collider, sphere } => (1.0, collider.number() as f64, sphere),
         };
         table.extend([impact.time, is_collider, first, second.number() as f64]);
         table.extend(impact.point.to_array());

@@ -1,7 +1,7 @@
 //! The game: the maze tilts, the ball rolls, and what it touches counts.
 
 use carom::{
-    Collider, ColliderId, DQuat, DVec3, Error, Exact, Participants, Pose, Rule, Settings, Snapshot,
+    BodyPair, Collider, ColliderId, DQuat, DVec3, Error, Exact, Pose, Rule, Settings, Snapshot,
     SphereId, World,
 };
 use carom_scene::scene::Scene;
@@ -254,8 +254,8 @@ impl Game {
             self.parts.iter().any(|part| part.id == id && part.role == Role::EndWall)
         };
         let touches = |between| match between {
-            Participants::Collider { collider, .. } => is_end_wall(collider),
-            Participants::Spheres(..) => false,
+            BodyPair::Collider { collider, .. } => is_end_wall(collider),
+            BodyPair::Spheres(..) => false,
         };
         if self.world.report().impacts.iter().any(|impact| touches(impact.between)) {
             let (time, collected) = (self.elapsed(), self.collected);

@@ -60,7 +60,7 @@ impl Engine {
 
     /// Adds the force that `text` describes, and answers with its id.
     #[pyo3(name = "_add_force")]
-    fn add_force_of(&self, py: Python<'_>, text: &str) -> PyResult<usize> {
+    fn add_force_of(&self, py: Python<'_>, text: &str) -> PyResult<u64> {
         let part = part::read(text)?;
         let force = only(&part.forces)?;
         self.change(py, |inner| {
@@ -72,7 +72,7 @@ impl Engine {
 
     /// Adds the collider that `text` describes, and answers with its id.
     #[pyo3(name = "_add_collider")]
-    fn add_collider_of(&self, py: Python<'_>, text: &str) -> PyResult<usize> {
+    fn add_collider_of(&self, py: Python<'_>, text: &str) -> PyResult<u64> {
         let part = part::read(text)?;
         let collider = collider_of(&part)?;
         self.change(py, |inner| {
@@ -85,7 +85,7 @@ impl Engine {
 
     /// Adds the emitter that `text` describes, and answers with its id.
     #[pyo3(name = "_add_emitter")]
-    fn add_emitter_of(&self, py: Python<'_>, text: &str) -> PyResult<usize> {
+    fn add_emitter_of(&self, py: Python<'_>, text: &str) -> PyResult<u64> {
         let part = part::read(text)?;
         let emitter = emitter_of(&part)?;
         self.change(py, |inner| {
@@ -278,21 +278,21 @@ fn emitter_of(part: &Scene) -> Result<Emitter, Failure> {
 /// The id of a force, and its place in the order. Asked first: to remove what is not there would
 /// let all flights begin anew.
 fn find_force(world: &World, number: u64) -> Result<(ForceId, usize), Failure> {
-    let place = world.forces().position(|(id, _)| id.number() as u64 == number);
-    let found = place.map(|place| (ForceId::from_number(number as usize), place));
+    let place = world.forces().position(|(id, _)| id.number() == number);
+    let found = place.map(|place| (ForceId::from_number(number), place));
     found.ok_or_else(|| Failure::unknown("force", number))
 }
 
 /// The id of the collider with this number, and its place in the description.
 fn find_collider(world: &World, number: u64) -> Result<(ColliderId, usize), Failure> {
-    let place = world.colliders().position(|(id, _)| id.number() as u64 == number);
-    let found = place.map(|place| (ColliderId::from_number(number as usize), place));
+    let place = world.colliders().position(|(id, _)| id.number() == number);
+    let found = place.map(|place| (ColliderId::from_number(number), place));
     found.ok_or_else(|| Failure::unknown("collider", number))
 }
 
 /// The id of the emitter with this number, and its place in the description.
 fn find_emitter(world: &World, number: u64) -> Result<(EmitterId, usize), Failure> {
-    let place = world.emitters().position(|(id, _)| id.number() as u64 == number);
-    let found = place.map(|place| (EmitterId::from_number(number as usize), place));
+    let place = world.emitters().position(|(id, _)| id.number() == number);
+    let found = place.map(|place| (EmitterId::from_number(number), place));
     found.ok_or_else(|| Failure::unknown("emitter", number))
 }

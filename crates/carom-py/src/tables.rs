@@ -3,7 +3,7 @@
 //! NumPy sees the words as records; their fields stand in `python/carom/_tables.py`, in the order in
 //! which they are written here.
 
-use carom::{Impact, LedgerEntry, Participants, StepReport, TriggerContact};
+use carom::{BodyPair, Impact, LedgerEntry, StepReport, TriggerContact};
 
 /// Rows of words, numbers as their bits.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -43,10 +43,8 @@ impl Table {
 
     fn push_impact(&mut self, start: f64, impact: &Impact) {
         let (collider, sphere_1, sphere_2) = match impact.between {
-            Participants::Spheres(first, second) => (NOBODY, first.number() as i64, second),
-            Participants::Collider { collider, sphere } => {
-                (collider.number() as i64, NOBODY, sphere)
-            }
+            BodyPair::Spheres(first, second) => (NOBODY, first.number() as i64, second),
+            BodyPair::Collider { collider, sphere } => (collider.number() as i64, NOBODY, sphere),
         };
         self.numbers([start + impact.time]);
         self.integers([collider, sphere_1, sphere_2.number() as i64]);

@@ -23,12 +23,13 @@ pub(crate) fn refuse(
         generator => format!("generators[{}]", generator - 1),
     };
     let (sphere, other) = match overlap.between {
-        carom::Participants::Spheres(first, second) => {
+        carom::BodyPair::Spheres(first, second) => {
             (second, format!("sphere number {} ({})", first.number(), path(first)))
         }
-        carom::Participants::Collider { collider, sphere } => {
+        carom::BodyPair::Collider { collider, sphere } => {
             let number = collider.number();
-            (sphere, format!("colliders[{number}] \"{}\"", scene.colliders[number].name))
+            let name = &scene.colliders[number as usize].name;
+            (sphere, format!("colliders[{number}] \"{name}\""))
         }
     };
     let text = format!(
@@ -51,8 +52,8 @@ fn rounding(world: &World, overlap: &carom::Overlap) -> f64 {
         (radius, center.abs().max_element())
     };
     let (radius, coordinate) = match overlap.between {
-        carom::Participants::Collider { sphere, .. } => of_sphere(sphere),
-        carom::Participants::Spheres(first, second) => {
+        carom::BodyPair::Collider { sphere, .. } => of_sphere(sphere),
+        carom::BodyPair::Spheres(first, second) => {
             let (first, second) = (of_sphere(first), of_sphere(second));
             (first.0.min(second.0), first.1.max(second.1))
         }

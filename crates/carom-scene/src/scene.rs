@@ -95,7 +95,7 @@ pub struct Simulation {
     /// Whether spheres collide with one another; with colliders they always do.
     pub spheres_collide: bool,
     /// Restitution of a contact from that of its two bodies.
-    pub restitution_rule: RestitutionRule,
+    pub combine_rule: CombineRule,
     /// Whether spheres may overlap each other or colliders at the start.
     pub allow_overlap: bool,
     /// How impacts at one instant among spheres that touch are answered, by the rule `exact`.
@@ -116,7 +116,7 @@ impl Default for Simulation {
             frame_time: 1.0 / 60.0,
             duration: 10.0,
             spheres_collide: true,
-            restitution_rule: RestitutionRule::default(),
+            combine_rule: CombineRule::default(),
             allow_overlap: false,
             impact_law: ImpactLaw::default(),
             boundary: Boundary::default(),
@@ -224,7 +224,7 @@ pub enum Integrator {
 /// Restitution of a contact from that of its two bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum RestitutionRule {
+pub enum CombineRule {
     /// Their product: with a sphere of 1, the collider's value governs.
     #[default]
     Product,

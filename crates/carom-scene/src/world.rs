@@ -7,8 +7,8 @@ use crate::error::Problem;
 use crate::generate;
 use crate::overlap;
 use crate::scene::{
-    Bisect, Boundary, Collider, Emitter, Exact, Force, ImpactLaw, Integrator, Quaternion,
-    RestitutionRule, Rule, Scene, Shape, Simulation, Sphere, Vector, WindBack,
+    Bisect, Boundary, Collider, CombineRule, Emitter, Exact, Force, ImpactLaw, Integrator,
+    Quaternion, Rule, Scene, Shape, Simulation, Sphere, Vector, WindBack,
 };
 
 impl Scene {
@@ -180,11 +180,11 @@ fn settings(simulation: &Simulation) -> Settings {
             Integrator::VelocityVerlet => carom::Integrator::VelocityVerlet,
             Integrator::RungeKutta4 => carom::Integrator::RungeKutta4,
         },
-        restitution_rule: match simulation.restitution_rule {
-            RestitutionRule::Product => carom::RestitutionRule::Product,
-            RestitutionRule::Minimum => carom::RestitutionRule::Minimum,
-            RestitutionRule::Maximum => carom::RestitutionRule::Maximum,
-            RestitutionRule::Average => carom::RestitutionRule::Average,
+        combine_rule: match simulation.combine_rule {
+            CombineRule::Product => carom::CombineRule::Product,
+            CombineRule::Minimum => carom::CombineRule::Minimum,
+            CombineRule::Maximum => carom::CombineRule::Maximum,
+            CombineRule::Average => carom::CombineRule::Average,
         },
         spheres_collide: simulation.spheres_collide,
         impact_law: match simulation.impact_law {

@@ -140,7 +140,7 @@ fn in_tutorial_4_a_hundred_spheres_scatter_from_the_fixed_one() {
     let mut hits = BTreeSet::new();
     let world = run(&scene, 5.0, |world| {
         for impact in &world.report().impacts {
-            if let carom::Participants::Collider { sphere, .. } = impact.between {
+            if let carom::BodyPair::Collider { sphere, .. } = impact.between {
                 hits.insert(sphere);
             }
         }

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use carom::{DVec3, Impact, Participants, StepReport, World};
+use carom::{BodyPair, DVec3, Impact, StepReport, World};
 
 /// Impacts that are remembered: more than a table shows or a picture can mark.
 pub const REMEMBERED: usize = 1024;
@@ -15,7 +15,7 @@ pub struct ListedImpact {
     /// When, since the beginning \[s\].
     pub time: f64,
     /// Who.
-    pub between: Participants,
+    pub between: BodyPair,
     /// Where \[m\].
     pub point: DVec3,
     /// Unit normal from body 1 to body 2.
@@ -42,11 +42,11 @@ pub fn energy_change_alone(impact: &Impact, reduced_mass: f64) -> f64 {
 
 /// Mass \[kg\] that answers to an impulse between two bodies, `m1 m2 / (m1 + m2)`; a collider never
 /// gives way. `None` for a sphere that is not in the world any more.
-fn reduced_mass(between: Participants, world: &World) -> Option<f64> {
+fn reduced_mass(between: BodyPair, world: &World) -> Option<f64> {
     let mass = |id| Some(world.sphere(id).ok()?.kilograms());
     match between {
-        Participants::Collider { sphere, .. } => mass(sphere),
-        Participants::Spheres(first, second) => {
+        BodyPair::Collider { sphere, .. } => mass(sphere),
+        BodyPair::Spheres(first, second) => {
             let (first, second) = (mass(first)?, mass(second)?);
             Some(first / (1.0 + first / second))
         }

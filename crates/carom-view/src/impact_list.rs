@@ -1,6 +1,6 @@
 //! The last impacts as a table.
 
-use carom::Participants;
+use carom::BodyPair;
 use carom_session::{Command, View};
 use egui::{Grid, ScrollArea, Ui};
 
@@ -19,8 +19,8 @@ pub fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             for impact in view.impacts.iter().rev().take(ROWS) {
                 ui.monospace(format!("{:.6}", impact.time));
                 let (text, ball) = match impact.between {
-                    Participants::Spheres(first, second) => (format!("{first} - {second}"), second),
-                    Participants::Collider { collider, sphere } => {
+                    BodyPair::Spheres(first, second) => (format!("{first} - {second}"), second),
+                    BodyPair::Collider { collider, sphere } => {
                         let known = view.setup.colliders.iter().find(|(id, _)| *id == collider);
                         let name = known.map_or("", |(_, collider)| collider.name.as_str());
                         let name = if name.is_empty() { "surface" } else { name };

@@ -136,10 +136,10 @@ fn add_contacts(view: &View, drawing: &mut Drawing) {
 }
 
 /// Radius of body 2 of an impact \[m\], 0 if it has gone.
-fn radius_of(view: &View, between: carom::Participants) -> f64 {
+fn radius_of(view: &View, between: carom::BodyPair) -> f64 {
     let sphere: SphereId = match between {
-        carom::Participants::Spheres(_, sphere) => sphere,
-        carom::Participants::Collider { sphere, .. } => sphere,
+        carom::BodyPair::Spheres(_, sphere) => sphere,
+        carom::BodyPair::Collider { sphere, .. } => sphere,
     };
     view.spheres.index_of(sphere).map_or(0.0, |index| view.spheres.radii[index])
 }

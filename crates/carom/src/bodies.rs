@@ -1,36 +1,12 @@
 //! Spheres: what one is, and how many are stored.
 
 use std::f64::consts::PI;
-use std::fmt::{self, Display};
 
 use glam::DVec3;
 
 use crate::error::InvalidValue;
+use crate::id::SphereId;
 use crate::validate;
-
-/// Names a sphere for as long as it lives; never given twice in one world.
-///
-/// The number counts up in the order of adding and emission, from 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct SphereId(pub(crate) u64);
-
-impl SphereId {
-    /// The id with this number. One that a world has not given names nothing there.
-    pub fn from_number(number: u64) -> Self {
-        Self(number)
-    }
-
-    /// Place in the order in which spheres came into the world, from 0.
-    pub fn number(self) -> u64 {
-        self.0
-    }
-}
-
-impl Display for SphereId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
-}
 
 /// Mass, or the density to compute it from.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,33 +1,9 @@
 //! Fixed colliders: shapes that spheres bounce off.
 
-use std::fmt::{self, Display};
-
 use glam::{DQuat, DVec3};
 
 use crate::error::InvalidValue;
 use crate::validate;
-
-/// Names a collider of a world.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct ColliderId(pub(crate) usize);
-
-impl ColliderId {
-    /// The id with this number. One that a world has not given names nothing there.
-    pub fn from_number(number: usize) -> Self {
-        Self(number)
-    }
-
-    /// Place in the order in which colliders entered the world, from 0.
-    pub fn number(self) -> usize {
-        self.0
-    }
-}
-
-impl Display for ColliderId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
-}
 
 /// Form of a collider in its own frame.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,8 +2,9 @@
 
 use std::sync::OnceLock;
 
-use crate::collider::{Collider, ColliderId};
+use crate::collider::Collider;
 use crate::detect::surface_tree::SurfaceTree;
+use crate::id::ColliderId;
 use crate::numbered::Numbered;
 use crate::surface::{self, Role, Surface};
 

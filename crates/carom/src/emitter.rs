@@ -1,40 +1,18 @@
 //! Emitters: sources of spheres.
 
 use std::collections::VecDeque;
-use std::fmt::{self, Display};
 
 use glam::{DQuat, DVec3};
 
-use crate::bodies::{Sphere, SphereId, Spheres};
+use crate::bodies::{Sphere, Spheres};
 use crate::error::InvalidValue;
+use crate::id::SphereId;
 use crate::numbered::Numbered;
 use crate::validate;
 
 /// A sphere is due when its time is at most this much after the start of a frame \[s\], so that
 /// rounding in sums of frame times cannot delay it by a frame (`docs/physics.md`, stage 1).
 pub(crate) const DUE_TOLERANCE: f64 = 1e-9;
-
-/// Names an emitter of a world.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct EmitterId(pub(crate) usize);
-
-impl EmitterId {
-    /// The id with this number. One that a world has not given names nothing there.
-    pub fn from_number(number: usize) -> Self {
-        Self(number)
-    }
-
-    /// Place in the order in which emitters entered the world, from 0.
-    pub fn number(self) -> usize {
-        self.0
-    }
-}
-
-impl Display for EmitterId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
-}
 
 /// More spheres than this in one frame are a mistake in `period`, not a wish.
 const MAX_PER_FRAME: f64 = 1e6;

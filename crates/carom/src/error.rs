@@ -4,7 +4,7 @@ use std::fmt::{self, Display};
 
 use thiserror::Error;
 
-use crate::{ColliderId, EmitterId, ForceId, SphereId};
+use crate::id::{ColliderId, EmitterId, ForceId, SphereId};
 
 /// Everything the physics can refuse. The world is unchanged after each of them.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -33,6 +33,7 @@ mod error;
 mod flight;
 mod forces;
 mod hash;
+mod id;
 mod integrate;
 mod interval;
 mod invariants;
@@ -55,20 +56,20 @@ mod world;
 
 pub use glam::{DQuat, DVec3};
 
-pub use bodies::{Mass, Sphere, SphereId, Spheres, volume};
-pub use collider::{Collider, ColliderId, Pose, Shape};
-pub use emitter::{Emitter, EmitterId};
+pub use bodies::{Mass, Sphere, Spheres, volume};
+pub use collider::{Collider, Pose, Shape};
+pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;
-pub use forces::{ConstantForce, Force, ForceId, Gravity, LinearForce, SphereState, ViscousDrag};
+pub use forces::{ConstantForce, Force, Gravity, LinearForce, SphereState, ViscousDrag};
 pub use hash::StateHash;
+pub use id::{ColliderId, EmitterId, ForceId, SphereId};
 pub use integrate::Integrator;
 pub use report::{
-    Impact, ImpactGroup, LedgerEntry, Overlap, Participants, StageCounts, StepReport,
-    TriggerContact,
+    BodyPair, Impact, ImpactGroup, LedgerEntry, Overlap, StageCounts, StepReport, TriggerContact,
 };
 pub use respond::ImpactLaw;
 pub use rule::{Bisect, Exact, Rule, WindBack};
-pub use settings::{Boundary, RestitutionRule, Settings};
+pub use settings::{Boundary, CombineRule, Settings};
 pub use work::StopRequest;
 pub use world::{Snapshot, World};

@@ -1,9 +1,11 @@
+//! Numbers of colliders, forces and emitters.
+
 /// Things that keep the number they were given, in the order in which they came.
 #[derive(Debug, Clone)]
 pub(crate) struct Numbered<T> {
     /// Ascending by number.
-    items: Vec<(usize, T)>,
-    next: usize,
+    items: Vec<(u64, T)>,
+    next: u64,
 }
 
 impl<T> Default for Numbered<T> {
@@ -14,7 +16,7 @@ impl<T> Default for Numbered<T> {
 
 impl<T> Numbered<T> {
     /// The number that the next one will get.
-    pub fn next_number(&self) -> usize {
+    pub fn next_number(&self) -> u64 {
         self.next
     }
 
@@ -23,19 +25,19 @@ impl<T> Numbered<T> {
         self.next += 1;
     }
 
-    pub fn get(&self, number: usize) -> Option<&T> {
+    pub fn get(&self, number: u64) -> Option<&T> {
         self.place(number).map(|place| &self.items[place].1)
     }
 
-    pub fn get_mut(&mut self, number: usize) -> Option<&mut T> {
+    pub fn get_mut(&mut self, number: u64) -> Option<&mut T> {
         self.place(number).map(|place| &mut self.items[place].1)
     }
 
-    pub fn remove(&mut self, number: usize) -> Option<T> {
+    pub fn remove(&mut self, number: u64) -> Option<T> {
         self.place(number).map(|place| self.items.remove(place).1)
     }
 
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = (usize, &T)> {
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = (u64, &T)> {
         self.items.iter().map(|(number, item)| (*number, item))
     }
 
@@ -43,7 +45,7 @@ impl<T> Numbered<T> {
         self.items.iter_mut().map(|(_, item)| item)
     }
 
-    fn place(&self, number: usize) -> Option<usize> {
+    fn place(&self, number: u64) -> Option<usize> {
         self.items.binary_search_by_key(&number, |item| item.0).ok()
     }
 }

@@ -4,9 +4,8 @@ use std::ops::AddAssign;
 
 use glam::DVec3;
 
-use crate::bodies::SphereId;
-use crate::collider::ColliderId;
 use crate::detect::contact::{Bodies, Contact};
+use crate::id::{ColliderId, SphereId};
 use crate::respond::ImpactLaw;
 use crate::system::System;
 
@@ -136,9 +135,9 @@ fn relative(error: f64, scale: f64) -> f64 {
     if error == 0.0 { 0.0 } else { error / scale }
 }
 
-/// Who met.
+/// The two bodies of an impact or an overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Participants {
+pub enum BodyPair {
     /// Two spheres, bodies 1 and 2; the smaller id first.
     Spheres(SphereId, SphereId),
     /// A collider, body 1, and a sphere, body 2.
@@ -150,7 +149,7 @@ pub enum Participants {
     },
 }
 
-impl Participants {
+impl BodyPair {
     pub(crate) fn of(bodies: Bodies, system: &System) -> Self {
         let id = &system.spheres.id;
         match bodies {
@@ -166,10 +165,10 @@ impl Participants {
 /// One impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact {
-    /// When, since the start of the step \[s\].
+    /// Time since the start of the step \[s\].
     pub time: f64,
-    /// Who.
-    pub between: Participants,
+    /// The two bodies.
+    pub between: BodyPair,
     /// Where on the surface of body 1 \[m\].
     pub point: DVec3,
     /// Unit normal from body 1 to body 2.
@@ -213,17 +212,14 @@ impl TriggerContact {
 /// Two bodies that overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
-    /// Who.
-    pub between: Participants,
+    /// The two bodies.
+    pub between: BodyPair,
     /// How far their surfaces overlap \[m\], > 0.
     pub depth: f64,
 }
 
 impl Overlap {
     pub(crate) fn of(contact: &Contact, system: &System) -> Self {
-        Self {
-            between: Participants::of(contact.bodies, system),
-            depth: -contact.separation.distance,
-        }
+        Self { between: BodyPair::of(contact.bodies, system), depth: -contact.separation.distance }
     }
 }

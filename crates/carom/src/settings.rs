@@ -16,7 +16,7 @@ pub struct Settings {
     /// The integrator that `discrete` and `bisect` move spheres with; `exact` needs none.
     pub integrator: Integrator,
     /// Restitution of a contact, from that of its two bodies.
-    pub restitution_rule: RestitutionRule,
+    pub combine_rule: CombineRule,
     /// Whether spheres collide with one another; colliders they always collide with.
     pub spheres_collide: bool,
     /// How impacts at one instant in one group of touching bodies are answered.
@@ -55,7 +55,7 @@ impl Default for Settings {
         Self {
             rule: Rule::default(),
             integrator: Integrator::default(),
-            restitution_rule: RestitutionRule::default(),
+            combine_rule: CombineRule::default(),
             spheres_collide: true,
             impact_law: ImpactLaw::default(),
             boundary: Boundary::default(),
@@ -90,7 +90,7 @@ impl Settings {
 /// Coefficient of restitution of a contact, from those of the two bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
-pub enum RestitutionRule {
+pub enum CombineRule {
     /// `e1 e2`: with a sphere of 1, the collider's value governs.
     #[default]
     Product,
@@ -102,7 +102,7 @@ pub enum RestitutionRule {
     Average,
 }
 
-impl RestitutionRule {
+impl CombineRule {
     /// Restitution of a contact between bodies of restitution `e1` and `e2`.
     pub fn combine(self, e1: f64, e2: f64) -> f64 {
         match self {

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use crate::collider::{Collider, ColliderId, Pose, Shape};
+use crate::collider::{Collider, Pose, Shape};
+use crate::id::ColliderId;
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::bodies::{Motion, Sphere, SphereId, Spheres};
-use crate::collider::{Collider, ColliderId, Pose};
+use crate::bodies::{Motion, Sphere, Spheres};
+use crate::collider::{Collider, Pose};
 use crate::detect::contacts::{self, Search};
-use crate::emitter::{self, Emitter, EmitterId, EmitterState};
+use crate::emitter::{self, Emitter, EmitterState};
 use crate::error::{Error, Subject};
-use crate::forces::{Force, ForceId};
+use crate::forces::Force;
 use crate::hash::{self, StateHash};
+use crate::id::{ColliderId, EmitterId, ForceId, SphereId};
 use crate::interval::Interval;
 use crate::invariants;
 use crate::numbered::Numbered;

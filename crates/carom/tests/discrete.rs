@@ -3,8 +3,7 @@
 mod common;
 
 use carom::{
-    Collider, DQuat, DVec3, Gravity, Participants, Pose, Rule, Settings, Shape, Sphere, SphereId,
-    World,
+    BodyPair, Collider, DQuat, DVec3, Gravity, Pose, Rule, Settings, Shape, Sphere, SphereId, World,
 };
 use common::{assert_close, assert_close_vec, vec, world};
 
@@ -33,7 +32,7 @@ fn a_face_reflects_with_its_restitution_and_puts_the_sphere_onto_it() {
     let [impact] = world.report().impacts[..] else { panic!("one impact") };
     assert_eq!((impact.time, impact.approach_speed, impact.impulse), (0.125, 4.0, 6.0));
     assert_eq!((impact.point, impact.normal), (vec(1.25, 0.0, 0.5), DVec3::Y));
-    assert!(matches!(impact.between, Participants::Collider { sphere, .. } if sphere == id));
+    assert!(matches!(impact.between, BodyPair::Collider { sphere, .. } if sphere == id));
 }
 
 #[test]

@@ -5,8 +5,8 @@
 mod common;
 
 use carom::{
-    Boundary, Collider, DQuat, DVec3, Emitter, Error, Exact, Force, Gravity, Participants, Pose,
-    Rule, Settings, Shape, Sphere, SphereState, ViscousDrag, World,
+    BodyPair, Boundary, Collider, DQuat, DVec3, Emitter, Error, Exact, Force, Gravity, Pose, Rule,
+    Settings, Shape, Sphere, SphereState, ViscousDrag, World,
 };
 use common::{G, Numbers, assert_close, assert_close_vec, vec, world};
 
@@ -225,9 +225,9 @@ fn spheres_a_thousand_times_as_large_meet_the_small_ones() {
     let mut with_large = 0;
     for _ in 0..120 {
         let report = world.step(1.0 / 60.0).unwrap();
-        let is_with_large = |between: &Participants| match between {
-            Participants::Spheres(first, _) => first.number() == 0,
-            Participants::Collider { .. } => false,
+        let is_with_large = |between: &BodyPair| match between {
+            BodyPair::Spheres(first, _) => first.number() == 0,
+            BodyPair::Collider { .. } => false,
         };
         with_large += report.impacts.iter().filter(|it| is_with_large(&it.between)).count();
         assert_eq!(world.overlaps(1e-12), []);

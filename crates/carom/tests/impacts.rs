@@ -7,7 +7,7 @@
 mod common;
 
 use carom::respond::{line_of_centres, reflection};
-use carom::{DVec3, Mass, Participants, RestitutionRule, Settings, Sphere, World};
+use carom::{BodyPair, CombineRule, DVec3, Mass, Settings, Sphere, World};
 use common::{Numbers, assert_close, assert_close_vec, bisect, vec, world};
 
 /// Two unit-diameter spheres that touch halfway through a frame of 1/2 s, given 2 m/s of closing speed.
@@ -31,7 +31,7 @@ fn elastic_head_on_of_equal_masses_swaps_velocities() {
     };
     assert_eq!((impact.time, impact.approach_speed, impact.impulse), (0.25, 2.0, 2.0));
     assert_eq!((impact.point, impact.normal), (vec(0.75, 0.0, 0.0), DVec3::X));
-    assert!(matches!(impact.between, Participants::Spheres(a, b) if a < b));
+    assert!(matches!(impact.between, BodyPair::Spheres(a, b) if a < b));
 }
 
 #[test]
@@ -112,13 +112,13 @@ fn density_gives_the_mass_of_the_volume() {
 #[test]
 fn restitution_of_a_pair_follows_the_selected_rule() {
     let rules = [
-        (RestitutionRule::Product, 0.4),
-        (RestitutionRule::Minimum, 0.5),
-        (RestitutionRule::Maximum, 0.8),
-        (RestitutionRule::Average, 0.65),
+        (CombineRule::Product, 0.4),
+        (CombineRule::Minimum, 0.5),
+        (CombineRule::Maximum, 0.8),
+        (CombineRule::Average, 0.65),
     ];
-    for (restitution_rule, expected) in rules {
-        let settings = Settings { restitution_rule, ..Settings::default() };
+    for (combine_rule, expected) in rules {
+        let settings = Settings { combine_rule, ..Settings::default() };
         let mut world = World::new(settings).unwrap();
         let left = Sphere::new(vec(0.0, 0.0, 0.0), 0.5).with_velocity(vec(1.0, 0.0, 0.0));
         let right = Sphere::new(vec(1.5, 0.0, 0.0), 0.5).with_velocity(vec(-1.0, 0.0, 0.0));

@@ -7,8 +7,8 @@
 mod common;
 
 use carom::{
-    Bisect, Collider, ConstantForce, DQuat, DVec3, Emitter, Error, Exact, Gravity, Integrator,
-    Pose, RestitutionRule, Rule, Settings, Shape, Sphere, ViscousDrag, WindBack, World,
+    Bisect, Collider, CombineRule, ConstantForce, DQuat, DVec3, Emitter, Error, Exact, Gravity,
+    Integrator, Pose, Rule, Settings, Shape, Sphere, ViscousDrag, WindBack, World,
 };
 use proptest::prelude::*;
 
@@ -70,17 +70,17 @@ fn settings() -> impl Strategy<Value = Settings> {
         Integrator::VelocityVerlet,
         Integrator::RungeKutta4,
     ]);
-    let restitution_rule = prop::sample::select(vec![
-        RestitutionRule::Product,
-        RestitutionRule::Minimum,
-        RestitutionRule::Maximum,
-        RestitutionRule::Average,
+    let combine_rule = prop::sample::select(vec![
+        CombineRule::Product,
+        CombineRule::Minimum,
+        CombineRule::Maximum,
+        CombineRule::Average,
     ]);
-    (rule, integrator, restitution_rule, any::<bool>()).prop_map(
-        |(rule, integrator, restitution_rule, spheres_collide)| Settings {
+    (rule, integrator, combine_rule, any::<bool>()).prop_map(
+        |(rule, integrator, combine_rule, spheres_collide)| Settings {
             rule,
             integrator,
-            restitution_rule,
+            combine_rule,
             spheres_collide,
             ..Settings::default()
         },

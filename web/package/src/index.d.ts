@@ -142,7 +142,7 @@ export interface Simulation {
   /** Whether spheres collide with one another; with colliders they always do. */
   spheresCollide: boolean;
   /** Restitution of a contact from that of its two bodies. */
-  restitutionRule: "product" | "minimum" | "maximum" | "average";
+  combineRule: "product" | "minimum" | "maximum" | "average";
   /** Whether spheres may overlap at the start. */
   allowOverlap: boolean;
   /** How impacts at one instant among spheres that touch are answered, by `exact`. */

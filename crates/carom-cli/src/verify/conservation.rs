@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use carom::{Boundary, DVec3, Participants, Rule, Settings, World};
+use carom::{BodyPair, Boundary, DVec3, Rule, Settings, World};
 
 use super::claim::{Claim, Expected, Fault, Measured, Tolerance};
 use super::setup::{add_walls, world};
@@ -85,7 +85,7 @@ fn run(mut world: World) -> Result<Kept, Fault> {
     while impacts < IMPACTS && frames < MOST_FRAMES {
         let report = world.step(FILLING.frame_time())?;
         for impact in &report.impacts {
-            if let Participants::Collider { .. } = impact.between {
+            if let BodyPair::Collider { .. } = impact.between {
                 momentum += impact.impulse * impact.normal;
             }
         }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use carom::{Participants, Rule, World};
+use carom::{BodyPair, Rule, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use crate::gas::{COLLISIONS_TO_EQUILIBRIUM, Filling, Speeds, gas, run_collisions};
@@ -81,8 +81,8 @@ fn mean_free_time(rule: Rule) -> Outcome {
     while (collisions as f64) < COLLISIONS * COUNT as f64 {
         let impacts = &world.step(h)?.impacts;
         let spheres = impacts.iter().map(|impact| match impact.between {
-            Participants::Spheres(..) => 2,
-            Participants::Collider { .. } => 0,
+            BodyPair::Spheres(..) => 2,
+            BodyPair::Collider { .. } => 0,
         });
         collisions += spheres.sum::<usize>();
     }

@@ -1,6 +1,6 @@
 //! Inelastic spheres: cooling of a gas, and collapse.
 
-use carom::{DVec3, Error, Exact, RestitutionRule, Rule, Settings, Sphere, World};
+use carom::{CombineRule, DVec3, Error, Exact, Rule, Settings, Sphere, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use super::setup::{FRAME, run_until, world};
@@ -49,8 +49,8 @@ pub fn claims() -> Vec<Claim> {
 fn about_to_cool(rule: Rule) -> Result<World, Error> {
     let mut world = gas(FILLING, Speeds::Equilibrium, rule, 1)?;
     run_collisions(&mut world, FILLING.frame_time(), COLLISIONS_TO_EQUILIBRIUM)?;
-    let restitution_rule = RestitutionRule::Minimum;
-    let mut cooling = World::new(Settings { restitution_rule, ..*world.settings() })?;
+    let combine_rule = CombineRule::Minimum;
+    let mut cooling = World::new(Settings { combine_rule, ..*world.settings() })?;
     for i in 0..world.spheres().len() {
         cooling.add_sphere(world.spheres().get(i).with_restitution(E))?;
     }
@@ -90,10 +90,7 @@ fn collapse(rule: Rule, count: usize, e: f64) -> Outcome {
         other => other,
     };
     let mut world = world(rule)?;
-    world.set_settings(Settings {
-        restitution_rule: RestitutionRule::Minimum,
-        ..*world.settings()
-    })?;
+    world.set_settings(Settings { combine_rule: CombineRule::Minimum, ..*world.settings() })?;
     for i in 0..count {
         // Towards the middle, the faster the farther.
         let place = i as f64 - 0.5 * (count - 1) as f64;

@@ -49,7 +49,7 @@ pub fn claims() -> Vec<Claim> {
 fn stacked(rule: Rule, gap: f64, e: f64) -> Result<carom::World, carom::Error> {
     let mut world = world_with_floor(rule, e)?;
     let mut settings = *world.settings();
-    settings.restitution_rule = carom::RestitutionRule::Minimum;
+    settings.combine_rule = carom::CombineRule::Minimum;
     world.set_settings(settings)?;
     for i in 0..BALLS {
         let height = 0.5 + gap + (1.0 + gap) * i as f64;

@@ -3,7 +3,7 @@
 //! The five properties are those that Smith, Kaufman, Vouga, Tamstorf and Grinspun ask of an impact
 //! operator: "Reflections on Simultaneous Impact", ACM TOG 31(4), 2012.
 
-use carom::{DVec3, Error, Impact, Participants, Rule, Sphere, World};
+use carom::{BodyPair, DVec3, Error, Impact, Rule, Sphere, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use super::setup::{FRAME, run_until, world};
@@ -260,7 +260,7 @@ fn impulse_error(answered: &Answered) -> f64 {
     let mut left: Vec<DVec3> =
         (0..masses.len()).map(|i| masses[i] * (after[i] - before[i])).collect();
     for impact in impacts {
-        let Participants::Spheres(first, second) = impact.between else { return f64::INFINITY };
+        let BodyPair::Spheres(first, second) = impact.between else { return f64::INFINITY };
         if impact.impulse < 0.0 {
             return f64::INFINITY;
         }

@@ -4,7 +4,7 @@
 //! they hit it at a known place, half so that they pass it closely. All targets are convex: a ball
 //! that is reflected never comes back.
 
-use carom::{Collider, DVec3, Error, Participants, Pose, Rule, Shape, Sphere, World};
+use carom::{BodyPair, Collider, DVec3, Error, Pose, Rule, Shape, Sphere, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use super::setup::{FRAME, half_space, world};
@@ -218,8 +218,8 @@ fn between(sides: Sides, name: &str) -> Claim {
     )
 }
 
-fn is_with_collider(between: Participants) -> bool {
-    matches!(between, Participants::Collider { .. })
+fn is_with_collider(between: BodyPair) -> bool {
+    matches!(between, BodyPair::Collider { .. })
 }
 
 /// A fixed body whose surface is 5 m and a radius from the origin along x.

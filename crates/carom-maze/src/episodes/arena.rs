@@ -135,7 +135,7 @@ impl Arena {
     /// What a collider is in the game.
     pub(super) fn role(&self, id: ColliderId) -> Role {
         // In a world made of a scene, colliders are numbered as in the scene.
-        self.roles.get(id.number()).copied().unwrap_or(Role::Wall)
+        self.roles.get(id.number() as usize).copied().unwrap_or(Role::Wall)
     }
 }
 

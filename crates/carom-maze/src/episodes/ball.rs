@@ -1,6 +1,6 @@
 //! One ball's episode.
 
-use carom::{DVec3, Participants, SphereId, StepReport};
+use carom::{BodyPair, DVec3, SphereId, StepReport};
 
 use super::Arena;
 use super::options::EpisodeOptions;
@@ -152,7 +152,7 @@ pub(super) fn note(
         }
     }
     for impact in &report.impacts {
-        let Participants::Collider { collider, sphere } = impact.between else { continue };
+        let BodyPair::Collider { collider, sphere } = impact.between else { continue };
         if arena.role(collider) != Role::EndWall {
             continue;
         }

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use carom::{Impact, Participants};
+use carom::{BodyPair, Impact};
 
 use super::{RecordingError, csv_file, digits, unwritable};
 
@@ -58,10 +58,8 @@ impl ImpactTable {
 /// Who met, when and where: the first columns of a row, as in [`HEADER`].
 pub(super) fn impact_fields(start: f64, impact: &Impact) -> Vec<String> {
     let (kind, body1, ball2) = match impact.between {
-        Participants::Spheres(first, second) => ("sphere", first.number(), second.number()),
-        Participants::Collider { collider, sphere } => {
-            ("collider", collider.number() as u64, sphere.number())
-        }
+        BodyPair::Spheres(first, second) => ("sphere", first.number(), second.number()),
+        BodyPair::Collider { collider, sphere } => ("collider", collider.number(), sphere.number()),
     };
     let mut fields =
         vec![digits(start + impact.time), kind.to_owned(), body1.to_string(), ball2.to_string()];

@@ -24,11 +24,11 @@ fn edit() -> impl Strategy<Value = Edit> {
     prop_oneof![
         (0.001..0.03).prop_map(Edit::FrameTime),
         (0.5..1.1).prop_map(Edit::AllColliderRestitutions),
-        (0..3_usize, 0.0..1.0)
+        (0..3_u64, 0.0..1.0)
             .prop_map(|(id, e)| Edit::ColliderRestitution(ColliderId::from_number(id), e)),
-        (0..3_usize, -1.0..1.0)
+        (0..3_u64, -1.0..1.0)
             .prop_map(move |(id, it)| Edit::Force(ForceId::from_number(id), force(it))),
-        (0..4_usize).prop_map(|id| Edit::RemoveForce(ForceId::from_number(id))),
+        (0..4_u64).prop_map(|id| Edit::RemoveForce(ForceId::from_number(id))),
         (-1.0..1.0).prop_map(move |it| Edit::AddForce(force(it))),
         (0..20_u64, -3.0..3.0).prop_map(move |(id, it)| {
             Edit::Sphere(SphereId::from_number(id), push(DVec3::new(it, 2.0, -it)))

@@ -1,6 +1,6 @@
 //! What is measured.
 
-use carom::{DVec3, Participants};
+use carom::{BodyPair, DVec3};
 use carom_scene::scene::{Rule, Scene, Sphere};
 use carom_session::{Edit, MARKED, MAX_POINTS, REMEMBERED, Session, SphereChange, View};
 
@@ -33,7 +33,7 @@ fn an_impact_is_listed_with_its_time_impulse_and_energy() {
         let [impact] = view.impacts[..] else { panic!("{rule:?}: {:?}", view.impacts) };
         // A gap of 1 m at 2 m/s; the reduced mass is 3/4 kg.
         assert!((impact.time - 0.5).abs() <= tolerance, "{rule:?}: {}", impact.time);
-        assert!(matches!(impact.between, Participants::Spheres(..)));
+        assert!(matches!(impact.between, BodyPair::Spheres(..)));
         assert_eq!((impact.group_size, impact.normal), (1, DVec3::X));
         let impulse = 0.75 * (1.0 + 0.5) * 2.0;
         assert!((impact.impulse - impulse).abs() < 1e-12, "{rule:?}: {}", impact.impulse);

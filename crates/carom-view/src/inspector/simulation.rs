@@ -1,6 +1,6 @@
 //! How a scene is stepped.
 
-use carom_scene::scene::{ImpactLaw, Integrator, RestitutionRule, Rule, Simulation};
+use carom_scene::scene::{CombineRule, ImpactLaw, Integrator, Rule, Simulation};
 use carom_session::{Command, Edit, View};
 use egui::{ComboBox, Ui};
 
@@ -21,11 +21,11 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         (ImpactLaw::Simultaneous, "simultaneous"),
         (ImpactLaw::Sequential, "sequential"),
     ];
-    const RESTITUTIONS: [(RestitutionRule, &str); 4] = [
-        (RestitutionRule::Product, "product"),
-        (RestitutionRule::Minimum, "minimum"),
-        (RestitutionRule::Maximum, "maximum"),
-        (RestitutionRule::Average, "average"),
+    const RESTITUTIONS: [(CombineRule, &str); 4] = [
+        (CombineRule::Product, "product"),
+        (CombineRule::Minimum, "minimum"),
+        (CombineRule::Maximum, "maximum"),
+        (CombineRule::Average, "average"),
     ];
     if view.other.is_none() {
         choice(ui, "rule", &RULES, &mut simulation.rule);
@@ -36,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         choice(ui, "integrator", &INTEGRATORS, &mut simulation.integrator);
     }
     number(ui, Field::positive("frame time", "s"), &mut simulation.frame_time);
-    choice(ui, "restitution", &RESTITUTIONS, &mut simulation.restitution_rule);
+    choice(ui, "restitution", &RESTITUTIONS, &mut simulation.combine_rule);
     ui.checkbox(&mut simulation.spheres_collide, "balls collide with each other");
     if simulation != view.setup.simulation {
         commands.push(Command::Edit(Edit::Simulation(Box::new(simulation))));

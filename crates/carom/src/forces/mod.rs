@@ -4,7 +4,7 @@ mod constant;
 mod drag;
 mod gravity;
 
-use std::fmt::{self, Debug, Display};
+use std::fmt::Debug;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -70,28 +70,6 @@ pub struct SphereState {
     pub radius: f64,
     /// Mass \[kg\].
     pub mass: f64,
-}
-
-/// Names a force of a world.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct ForceId(pub(crate) usize);
-
-impl ForceId {
-    /// The id with this number. One that a world has not given names nothing there.
-    pub fn from_number(number: usize) -> Self {
-        Self(number)
-    }
-
-    /// Place in the order in which forces entered the world, from 0.
-    pub fn number(self) -> usize {
-        self.0
-    }
-}
-
-impl Display for ForceId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        Display::fmt(&self.0, f)
-    }
 }
 
 /// Sum of all forces \[N\] on a sphere, added in the order in which they entered the world.

@@ -30,7 +30,7 @@ pub use touching::{GroupResponse, ImpactLaw, TouchingContact};
 use crate::bodies::Motion;
 use crate::detect::Separation;
 use crate::detect::contact::{Bodies, Contact};
-use crate::report::{Impact, Participants};
+use crate::report::{BodyPair, Impact};
 use crate::surface::Form;
 use crate::system::System;
 
@@ -74,7 +74,7 @@ pub(crate) fn restitution_of(bodies: Bodies, system: &System) -> f64 {
             (system.surfaces[surface as usize].restitution, of_sphere(sphere))
         }
     };
-    system.settings.restitution_rule.combine(e1, e2)
+    system.settings.combine_rule.combine(e1, e2)
 }
 
 fn answer_with(
@@ -106,7 +106,7 @@ fn answer_with(
             (-relative.dot(normal), separation_speed, mass[i] * change)
         }
     };
-    let between = Participants::of(contact.bodies, system);
+    let between = BodyPair::of(contact.bodies, system);
     Some(Impact { time, between, point, normal, approach_speed, separation_speed, impulse })
 }
 

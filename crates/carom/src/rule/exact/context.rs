@@ -6,12 +6,12 @@ use super::contact_scale::ContactScale;
 use super::pair_times::PairSearch;
 use super::span::Span;
 use super::timeline::Timeline;
-use crate::bodies::SphereId;
 use crate::detect::sphere_surface;
+use crate::id::SphereId;
 use crate::norm::Norm;
 use crate::report::{Impact, ImpactGroup, StageCounts, StepReport};
 use crate::rule::Exact;
-use crate::settings::RestitutionRule;
+use crate::settings::CombineRule;
 use crate::surface::{Form, SurfaceMotion};
 use crate::system::System;
 use crate::work::Work;
@@ -49,8 +49,8 @@ impl<'a> StepContext<'a> {
         Self { system, parameters, report, counts, work, start, length, period, searches }
     }
 
-    pub fn restitution_rule(&self) -> RestitutionRule {
-        self.system.settings.restitution_rule
+    pub fn combine_rule(&self) -> CombineRule {
+        self.system.settings.combine_rule
     }
 
     /// A time on the world's clock \[s\] as impacts count it, from the start of the step. What was

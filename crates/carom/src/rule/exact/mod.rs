@@ -36,7 +36,7 @@ use events::{EventTarget, UpcomingEvent};
 use frame_work::UNITS_PER_FLIGHT;
 use pair_times::PairSearch;
 
-use crate::bodies::SphereId;
+use crate::id::SphereId;
 use crate::report::{StageCounts, StepReport};
 use crate::system::System;
 use crate::work::Work;

@@ -74,7 +74,7 @@ impl Search<'_> {
             }
             let closing = (member.velocity - other.velocity).dot(offset) / offset.norm();
             let restitution = context
-                .restitution_rule()
+                .combine_rule()
                 .combine(member.species.restitution, other.species.restitution);
             if self.follows(&[member, &other], gap, closing, restitution) {
                 found.push(bodies);

@@ -7,7 +7,7 @@ use super::account::account_of;
 use super::follow_up;
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
-use crate::report::{Impact, ImpactGroup, Participants};
+use crate::report::{BodyPair, Impact, ImpactGroup};
 use crate::respond;
 use crate::respond::TouchingContact;
 use crate::rule::exact::contacts::{self, Group, Member, Touch};
@@ -190,7 +190,7 @@ fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
             account.momentum_after -= impulse * touch.normal;
             account.energy_after -= impulse * touch.normal.dot(touch.surface_velocity);
         }
-        let between = Participants::of(touch.bodies, context.system);
+        let between = BodyPair::of(touch.bodies, context.system);
         let point = periodic::wrapped(touch.point, context.period);
         // Faces of a box share edges and corners, where a sphere meets several at one place.
         let same = impacts.iter_mut().find(|it| it.between == between && it.point == point);
@@ -220,7 +220,7 @@ fn contacts_of(timeline: &Timeline, context: &StepContext, group: &Group) -> Vec
         let own = |place: usize| group.members[place].species.restitution;
         let restitution = match (touch.first, touch.bodies) {
             (Some(first), _) => {
-                let restitution = context.restitution_rule().combine(own(first), own(touch.second));
+                let restitution = context.combine_rule().combine(own(first), own(touch.second));
                 let slots = [slot(first), slot(touch.second)];
                 context.restitution_at(timeline, slots, restitution, group.time)
             }

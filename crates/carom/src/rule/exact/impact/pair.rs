@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::account::account_of_pair;
 use super::group;
 use crate::norm::Norm;
-use crate::report::{Impact, Participants};
+use crate::report::{BodyPair, Impact};
 use crate::respond;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Body;
@@ -113,7 +113,7 @@ impl PairImpact {
         let offset = periodic::wrapped(x2 - x1, context.period);
         let normal = offset / offset.norm();
         let [e1, e2] = species.map(|species| species.restitution);
-        let restitution = context.restitution_rule().combine(e1, e2);
+        let restitution = context.combine_rule().combine(e1, e2);
         let restitution = context.restitution_at(timeline, slots, restitution, time);
         let masses = species.map(|species| species.mass);
         let answer = respond::line_of_centres([v1, v2], masses, normal, restitution);
@@ -136,7 +136,7 @@ impl PairImpact {
         let point = self.places[0] + species[0].radius * self.normal;
         let impact = Impact {
             time: context.since_start(self.time),
-            between: Participants::Spheres(first, second),
+            between: BodyPair::Spheres(first, second),
             point: periodic::wrapped(point, context.period),
             normal: self.normal,
             approach_speed: self.approach_speed,

@@ -10,7 +10,7 @@ use super::surface_contacts::{
 };
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
-use crate::report::{Impact, ImpactGroup, Participants};
+use crate::report::{BodyPair, Impact, ImpactGroup};
 use crate::respond;
 use crate::rule::exact::contacts::Member;
 use crate::rule::exact::context::StepContext;
@@ -103,7 +103,7 @@ fn strike(
         let bodies = Bodies::Surface { sphere, surface: contact.surface };
         impacts[place] = Some(Impact {
             time: context.since_start(time),
-            between: Participants::of(bodies, context.system),
+            between: BodyPair::of(bodies, context.system),
             point: contact.point,
             normal: contact.normal,
             approach_speed,
