@@ -269,35 +269,58 @@ Generator: TypeAlias = Row | Lattice | RandomFill
 """Places for many spheres."""
 
 
-@dataclass(frozen=True)
+Integrator: TypeAlias = Literal[
+    "semi-implicit-euler", "explicit-euler", "velocity-verlet", "runge-kutta-4"
+]
+"""How spheres move under forces, by the rules ``bisect`` and ``discrete``."""
+ImpactLaw: TypeAlias = Literal["reflection", "simultaneous", "sequential"]
+"""How impacts at one instant among spheres that touch are answered, by the rule ``exact``."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Exact(Part):
     """Parameters of the rule ``exact``.
 
     Attributes:
+        impact_law: How impacts at one instant among spheres that touch are answered.
         contact_duration: How long a contact lasts at least [s], > 0: bodies that would meet sooner
             stay together.
         max_impacts: Impacts and other work per sphere in a frame, >= 1; more is refused.
     """
 
+    impact_law: ImpactLaw = "reflection"
     contact_duration: float | None = None
     max_impacts: int | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Bisect(Part):
     """Parameters of the rule ``bisect``.
 
     Attributes:
+        integrator: How spheres move under forces.
         tolerance: Distance of surfaces that counts as touching [m], >= 0.
         max_halvings: Halvings in search of a contact, >= 1.
         max_impacts: How often two bodies may meet in a frame, >= 1.
         wind_back: Which spheres go through the pieces into which a contact cuts the frame.
     """
 
+    integrator: Integrator = "semi-implicit-euler"
     tolerance: float | None = None
     max_halvings: int | None = None
     max_impacts: int | None = None
     wind_back: Literal["touched", "all"] = "touched"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Discrete(Part):
+    """Parameters of the rule ``discrete``.
+
+    Attributes:
+        integrator: How spheres move under forces.
+    """
+
+    integrator: Integrator = "semi-implicit-euler"
 
 
 @dataclass(frozen=True)
@@ -314,14 +337,8 @@ class Periodic(Part):
 
 Rule: TypeAlias = Literal["exact", "bisect", "discrete"]
 """A step rule."""
-Integrator: TypeAlias = Literal[
-    "semi-implicit-euler", "explicit-euler", "velocity-verlet", "runge-kutta-4"
-]
-"""How spheres move under forces, by the rules ``bisect`` and ``discrete``."""
 CombineRule: TypeAlias = Literal["product", "minimum", "maximum", "average"]
 """Restitution of a contact from that of its two bodies."""
-ImpactLaw: TypeAlias = Literal["reflection", "simultaneous", "sequential"]
-"""How impacts at one instant among spheres that touch are answered, by the rule ``exact``."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -330,29 +347,27 @@ class Simulation(Part):
 
     Attributes:
         rule: The step rule.
-        integrator: How spheres move under forces.
         frame_time: Length of a frame [s], > 0.
         duration: Time worth watching [s], > 0: what a run takes unless told.
         spheres_collide: Whether spheres collide with one another; with colliders they always do.
         combine_rule: Restitution of a contact from that of its two bodies.
         allow_overlap: Whether spheres may overlap each other or colliders at the start.
-        impact_law: How impacts at one instant are answered.
         boundary: What is around the spheres, besides colliders.
         exact: Parameters of the rule ``exact``.
         bisect: Parameters of the rule ``bisect``.
+        discrete: Parameters of the rule ``discrete``.
     """
 
     rule: Rule = "exact"
-    integrator: Integrator = "semi-implicit-euler"
     frame_time: float = 1.0 / 60.0
     duration: float = 10.0
     spheres_collide: bool = True
     combine_rule: CombineRule = "product"
     allow_overlap: bool = False
-    impact_law: ImpactLaw = "reflection"
     boundary: Literal["open"] | Periodic = "open"
     exact: Exact = field(default_factory=Exact)
     bisect: Bisect = field(default_factory=Bisect)
+    discrete: Discrete = field(default_factory=Discrete)
 
 
 @dataclass(frozen=True)

@@ -82,6 +82,7 @@ _KINDS: dict[str, type[parts.Part]] = {
     "colliders": parts.Collider,
     "colors": parts.Colors,
     "densities": parts.DensityColor,
+    "discrete": parts.Discrete,
     "emitters": parts.Emitter,
     "exact": parts.Exact,
     "simulation": parts.Simulation,

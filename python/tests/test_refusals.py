@@ -155,8 +155,8 @@ def test_other_parts_that_make_no_sense(world: carom.World) -> None:
     refused(world, lambda: world.add_force(drive), carom.SceneError, "viscous-drag.coefficient")
     hasty = carom.Emitter(carom.Sphere(radius=1), period=0)
     refused(world, lambda: world.add_emitter(hasty), carom.SceneError, "emitters[0].period")
-    law = carom.Simulation(impact_law="newton")  # type: ignore[arg-type]
-    words = "simulation.impact_law: unknown variant `newton`"
+    law = carom.Simulation(exact=carom.Exact(impact_law="newton"))  # type: ignore[arg-type]
+    words = "simulation.exact.impact_law: unknown variant `newton`"
     refused(world, lambda: setattr(world, "simulation", law), carom.SceneError, words)
 
 

@@ -46,8 +46,17 @@ def test_every_kind_of_part_survives_text() -> None:
         origin="here",
         simulation=carom.Simulation(
             boundary=carom.Periodic((50, float("inf"), 50)),
-            exact=carom.Exact(contact_duration=1e-9, max_impacts=1000),
-            bisect=carom.Bisect(1e-6, 30, 40, "all"),
+            exact=carom.Exact(
+                impact_law="sequential", contact_duration=1e-9, max_impacts=1000
+            ),
+            bisect=carom.Bisect(
+                integrator="runge-kutta-4",
+                tolerance=1e-6,
+                max_halvings=30,
+                max_impacts=40,
+                wind_back="all",
+            ),
+            discrete=carom.Discrete(integrator="velocity-verlet"),
         ),
         forces=[carom.Gravity(), carom.ConstantForce((1, 2, 3)), carom.ViscousDrag(1)],
         spheres=[carom.Sphere(position=np.array([0, 20, 0]), radius=1)],

@@ -28,7 +28,7 @@ def test_a_cradle_lets_only_the_last_ball_go() -> None:
 
 
 def test_impact_laws_answer_a_cradle_differently() -> None:
-    scene = cradle().with_changes({"simulation.impact_law": "simultaneous"})
+    scene = cradle().with_changes({"simulation.exact.impact_law": "simultaneous"})
     world = scene.world()
     world.run(seconds=2)
     assert np.count_nonzero(np.abs(world.velocities[:, 0]) > 1e-3) > 1

@@ -92,7 +92,7 @@ impl Filling {
 /// The gas at its start: no momentum, temperature 1, on a lattice.
 pub fn gas(filling: Filling, speeds: Speeds, rule: Rule, seed: u64) -> Result<World, Error> {
     let boundary = Boundary::Periodic { size: DVec3::splat(filling.edge()) };
-    let mut world = World::new(Settings { rule, boundary, ..Settings::default() })?;
+    let mut world = World::new(Settings::default().with_rule(rule).with_boundary(boundary))?;
     add_spheres(&mut world, filling, speeds, seed)?;
     Ok(world)
 }

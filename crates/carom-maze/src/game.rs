@@ -1,8 +1,8 @@
 //! The game: the maze tilts, the ball rolls, and what it touches counts.
 
 use carom::{
-    BodyPair, Collider, ColliderId, DQuat, DVec3, Error, Exact, Pose, Rule, Settings, Snapshot,
-    SphereId, World,
+    BodyPair, Collider, ColliderId, DQuat, DVec3, Discrete, Error, Exact, Pose, Rule, Settings,
+    Snapshot, SphereId, World,
 };
 use carom_scene::scene::Scene;
 
@@ -200,7 +200,7 @@ impl Game {
             })
             .collect::<Result<_, Error>>()?;
         self.world.set_colliders(&turned)?;
-        self.world.set_settings(settings(Rule::Discrete, &self.world))?;
+        self.world.set_settings(settings(Rule::Discrete(Discrete::default()), &self.world))?;
         let stepped = self.world.step(self.options.frame_time).map(drop);
         self.world.set_settings(settings(Rule::Exact(exact()), &self.world))?;
         Ok(stepped?)
@@ -390,11 +390,11 @@ impl Game {
 }
 
 fn exact() -> Exact {
-    Exact { max_impacts: MOST_IMPACTS, ..Exact::default() }
+    Exact::default().with_max_impacts(MOST_IMPACTS)
 }
 
 fn settings(rule: Rule, world: &World) -> Settings {
-    Settings { rule, ..*world.settings() }
+    world.settings().with_rule(rule)
 }
 
 /// Pose of a collider when the maze is turned about the origin.

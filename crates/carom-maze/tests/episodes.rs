@@ -4,13 +4,14 @@ mod common;
 
 use std::sync::Arc;
 
-use carom::{Exact, Rule};
+use carom::{Discrete, Exact, Rule};
 use carom_maze::{Arena, EpisodeError, EpisodeOptions, Episodes, Maze, Outcome, Rewards, Start};
 use carom_scene::scene::Scene;
 use common::{collectible, open_floor};
 
-const RULES: [Rule; 2] = [Rule::Discrete, Rule::Exact(EXACT)];
-const EXACT: Exact = Exact { contact_duration: 1e-10, max_impacts: 2_000 };
+fn rules() -> [Rule; 2] {
+    [Discrete::default().into(), Exact::default().with_max_impacts(2_000).into()]
+}
 
 fn episodes(maze: Maze, options: EpisodeOptions, count: usize) -> Episodes {
     Episodes::new(Arc::new(Arena::new(maze, options).unwrap()), count).unwrap()
@@ -48,7 +49,7 @@ fn state(episodes: &Episodes, ball: usize) -> (Vec<u64>, u64, Outcome) {
 
 #[test]
 fn an_episode_has_the_same_bits_alone_and_among_others() {
-    for rule in RULES {
+    for rule in rules() {
         let rewards = Rewards { shaping: 0.1, ..Rewards::default() };
         let options = EpisodeOptions { rule, max_steps: Some(40), rewards, ..Default::default() };
         let arena = Arc::new(Arena::new(Maze::course().unwrap(), options).unwrap());
@@ -76,7 +77,7 @@ fn an_episode_has_the_same_bits_alone_and_among_others() {
 
 #[test]
 fn a_ball_on_a_slope_gains_what_gravity_gives() {
-    for rule in RULES {
+    for rule in rules() {
         let tilt_speed_degrees_per_second = f64::INFINITY;
         let options = EpisodeOptions { rule, tilt_speed_degrees_per_second, ..Default::default() };
         let mut episodes = on(&open_floor(0.0), options);
@@ -109,7 +110,7 @@ fn the_tilt_follows_no_faster_than_it_may() {
 fn a_collectible_counts_once() {
     let mut scene = open_floor(0.0);
     scene.colliders.push(collectible([2.0, 0.5, 0.0]));
-    for rule in RULES {
+    for rule in rules() {
         let options = EpisodeOptions { rule, ..Default::default() };
         let mut episodes = on(&scene, options);
         let mut seen = [0.0; 7];
@@ -126,7 +127,7 @@ fn a_collectible_counts_once() {
 
 #[test]
 fn touching_an_end_wall_wins_and_nothing_is_earned_after_it() {
-    for rule in RULES {
+    for rule in rules() {
         let options = EpisodeOptions { rule, max_steps: Some(999), ..Default::default() };
         let mut episodes = on(&open_floor(0.0), options);
         let rewards = until_over(&mut episodes, [-1.0, 0.0]);
@@ -142,7 +143,7 @@ fn touching_an_end_wall_wins_and_nothing_is_earned_after_it() {
 
 #[test]
 fn a_ball_that_falls_ends_its_episode_and_starts_again_when_it_is_reset() {
-    for rule in RULES {
+    for rule in rules() {
         let options = EpisodeOptions { rule, ..Default::default() };
         let mut episodes = on(&open_floor(0.0), options);
         let rewards = until_over(&mut episodes, [0.0, 1.0]);
@@ -228,7 +229,7 @@ fn balls_start_anywhere_but_in_walls_and_where_something_is_to_be_had() {
 
 #[test]
 fn observations_keep_to_their_bounds() {
-    let options = EpisodeOptions { rule: Rule::Discrete, ..Default::default() };
+    let options = EpisodeOptions { rule: Discrete::default().into(), ..Default::default() };
     for maze in [Maze::course().unwrap(), Maze::from_scene(&open_floor(0.0)).unwrap()] {
         let mut episodes = episodes(maze, options, 20);
         let length = episodes.arena().observation_length();
@@ -250,7 +251,7 @@ fn observations_keep_to_their_bounds() {
 
 #[test]
 fn a_ball_that_meets_walls_too_often_takes_the_frame_otherwise_and_others_do_not_feel_it() {
-    let few = Rule::Exact(Exact { max_impacts: 3, ..EXACT });
+    let few = Exact::default().with_max_impacts(3).into();
     let maze = || Maze::course().unwrap();
     let mut narrow = episodes(maze(), EpisodeOptions { rule: few, ..Default::default() }, 8);
     let mut wide = episodes(maze(), EpisodeOptions::default(), 8);

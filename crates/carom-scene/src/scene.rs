@@ -84,8 +84,6 @@ impl Scene {
 pub struct Simulation {
     /// The step rule.
     pub rule: Rule,
-    /// How spheres move under forces.
-    pub integrator: Integrator,
     /// Length of a frame, in s, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub frame_time: f64,
@@ -98,30 +96,29 @@ pub struct Simulation {
     pub combine_rule: CombineRule,
     /// Whether spheres may overlap each other or colliders at the start.
     pub allow_overlap: bool,
-    /// How impacts at one instant among spheres that touch are answered, by the rule `exact`.
-    pub impact_law: ImpactLaw,
     /// What is around the spheres, besides colliders.
     pub boundary: Boundary,
     /// Parameters of the rule `exact`.
     pub exact: Exact,
     /// Parameters of the rule `bisect`.
     pub bisect: Bisect,
+    /// Parameters of the rule `discrete`.
+    pub discrete: Discrete,
 }
 
 impl Default for Simulation {
     fn default() -> Self {
         Self {
             rule: Rule::default(),
-            integrator: Integrator::default(),
             frame_time: 1.0 / 60.0,
             duration: 10.0,
             spheres_collide: true,
             combine_rule: CombineRule::default(),
             allow_overlap: false,
-            impact_law: ImpactLaw::default(),
             boundary: Boundary::default(),
             exact: Exact::default(),
             bisect: Bisect::default(),
+            discrete: Discrete::default(),
         }
     }
 }
@@ -190,6 +187,8 @@ pub enum Boundary {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Exact {
+    /// How impacts at one instant among spheres that touch are answered.
+    pub impact_law: ImpactLaw,
     /// How long a contact lasts at least, in s, > 0: bodies that would meet again sooner stay together.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub contact_duration: f64,
@@ -200,8 +199,8 @@ pub struct Exact {
 
 impl Default for Exact {
     fn default() -> Self {
-        let carom::Exact { contact_duration, max_impacts } = carom::Exact::default();
-        Self { contact_duration, max_impacts }
+        let carom::Exact { contact_duration, max_impacts, .. } = carom::Exact::default();
+        Self { impact_law: ImpactLaw::default(), contact_duration, max_impacts }
     }
 }
 
@@ -240,6 +239,8 @@ pub enum CombineRule {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bisect {
+    /// How spheres move under forces.
+    pub integrator: Integrator,
     /// Distance of surfaces that counts as touching, in m, >= 0.
     #[schemars(range(min = 0.0))]
     pub tolerance: f64,
@@ -256,7 +257,13 @@ pub struct Bisect {
 impl Default for Bisect {
     fn default() -> Self {
         let carom::Bisect { tolerance, max_halvings, max_impacts, .. } = carom::Bisect::default();
-        Self { tolerance, max_halvings, max_impacts, wind_back: WindBack::default() }
+        Self {
+            integrator: Integrator::default(),
+            tolerance,
+            max_halvings,
+            max_impacts,
+            wind_back: WindBack::default(),
+        }
     }
 }
 
@@ -269,6 +276,14 @@ pub enum WindBack {
     Touched,
     /// All, as the tutorial does; slow for many spheres.
     All,
+}
+
+/// Parameters of the rule `discrete`.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Discrete {
+    /// How spheres move under forces.
+    pub integrator: Integrator,
 }
 
 /// A force on every sphere.

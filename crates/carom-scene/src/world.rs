@@ -7,8 +7,8 @@ use crate::error::Problem;
 use crate::generate;
 use crate::overlap;
 use crate::scene::{
-    Bisect, Boundary, Collider, CombineRule, Emitter, Exact, Force, ImpactLaw, Integrator,
-    Quaternion, Rule, Scene, Shape, Simulation, Sphere, Vector, WindBack,
+    Bisect, Boundary, Collider, CombineRule, Discrete, Emitter, Exact, Force, ImpactLaw,
+    Integrator, Quaternion, Rule, Scene, Shape, Simulation, Sphere, Vector, WindBack,
 };
 
 impl Scene {
@@ -157,45 +157,63 @@ fn emitter(emitter: &Emitter, path: &str) -> Result<carom::Emitter, Problem> {
 }
 
 fn settings(simulation: &Simulation) -> Settings {
-    let Bisect { tolerance, max_halvings, max_impacts, wind_back } = simulation.bisect;
-    let Exact { contact_duration, max_impacts: most } = simulation.exact;
-    let wind_back = match wind_back {
+    let rule: carom::Rule = match simulation.rule {
+        Rule::Discrete => discrete(&simulation.discrete).into(),
+        Rule::Bisect => bisect(&simulation.bisect).into(),
+        Rule::Exact => exact(&simulation.exact).into(),
+    };
+    let combine_rule = match simulation.combine_rule {
+        CombineRule::Product => carom::CombineRule::Product,
+        CombineRule::Minimum => carom::CombineRule::Minimum,
+        CombineRule::Maximum => carom::CombineRule::Maximum,
+        CombineRule::Average => carom::CombineRule::Average,
+    };
+    let boundary = match simulation.boundary {
+        Boundary::Open => carom::Boundary::Open,
+        Boundary::Periodic { size } => carom::Boundary::Periodic { size: vector(size) },
+    };
+    Settings::default()
+        .with_rule(rule)
+        .with_combine_rule(combine_rule)
+        .with_spheres_collide(simulation.spheres_collide)
+        .with_boundary(boundary)
+}
+
+fn discrete(parameters: &Discrete) -> carom::Discrete {
+    carom::Discrete::default().with_integrator(integrator(parameters.integrator))
+}
+
+fn bisect(parameters: &Bisect) -> carom::Bisect {
+    let wind_back = match parameters.wind_back {
         WindBack::Touched => carom::WindBack::Touched,
         WindBack::All => carom::WindBack::All,
     };
-    Settings {
-        rule: match simulation.rule {
-            Rule::Discrete => carom::Rule::Discrete,
-            Rule::Exact => carom::Rule::Exact(carom::Exact { contact_duration, max_impacts: most }),
-            Rule::Bisect => carom::Rule::Bisect(carom::Bisect {
-                tolerance,
-                max_halvings,
-                max_impacts,
-                wind_back,
-            }),
-        },
-        integrator: match simulation.integrator {
-            Integrator::SemiImplicitEuler => carom::Integrator::SemiImplicitEuler,
-            Integrator::ExplicitEuler => carom::Integrator::ExplicitEuler,
-            Integrator::VelocityVerlet => carom::Integrator::VelocityVerlet,
-            Integrator::RungeKutta4 => carom::Integrator::RungeKutta4,
-        },
-        combine_rule: match simulation.combine_rule {
-            CombineRule::Product => carom::CombineRule::Product,
-            CombineRule::Minimum => carom::CombineRule::Minimum,
-            CombineRule::Maximum => carom::CombineRule::Maximum,
-            CombineRule::Average => carom::CombineRule::Average,
-        },
-        spheres_collide: simulation.spheres_collide,
-        impact_law: match simulation.impact_law {
-            ImpactLaw::Sequential => carom::ImpactLaw::Sequential,
-            ImpactLaw::Simultaneous => carom::ImpactLaw::Simultaneous,
-            ImpactLaw::Reflection => carom::ImpactLaw::Reflection,
-        },
-        boundary: match simulation.boundary {
-            Boundary::Open => carom::Boundary::Open,
-            Boundary::Periodic { size } => carom::Boundary::Periodic { size: vector(size) },
-        },
+    carom::Bisect::default()
+        .with_integrator(integrator(parameters.integrator))
+        .with_tolerance(parameters.tolerance)
+        .with_max_halvings(parameters.max_halvings)
+        .with_max_impacts(parameters.max_impacts)
+        .with_wind_back(wind_back)
+}
+
+fn exact(parameters: &Exact) -> carom::Exact {
+    let impact_law = match parameters.impact_law {
+        ImpactLaw::Sequential => carom::ImpactLaw::Sequential,
+        ImpactLaw::Simultaneous => carom::ImpactLaw::Simultaneous,
+        ImpactLaw::Reflection => carom::ImpactLaw::Reflection,
+    };
+    carom::Exact::default()
+        .with_impact_law(impact_law)
+        .with_contact_duration(parameters.contact_duration)
+        .with_max_impacts(parameters.max_impacts)
+}
+
+fn integrator(integrator: Integrator) -> carom::Integrator {
+    match integrator {
+        Integrator::SemiImplicitEuler => carom::Integrator::SemiImplicitEuler,
+        Integrator::ExplicitEuler => carom::Integrator::ExplicitEuler,
+        Integrator::VelocityVerlet => carom::Integrator::VelocityVerlet,
+        Integrator::RungeKutta4 => carom::Integrator::RungeKutta4,
     }
 }
 

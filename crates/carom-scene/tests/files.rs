@@ -137,6 +137,26 @@ fn every_mistake_is_told_with_its_line_and_field() {
 }
 
 #[test]
+fn what_one_rule_reads_stands_in_its_table_alone() {
+    let read = |key: &str| read(&format!("name = 'test'\n[simulation]\n{key}"));
+    for key in ["integrator = 'rk4'", "impact_law = 'sequential'", "restitution_rule = 'average'"] {
+        let text = read(key).unwrap_err().to_string();
+        assert!(text.starts_with("test.toml:3: simulation."), "{text}");
+        let name = key.split(' ').next().unwrap();
+        assert!(
+            text.contains(&format!("unknown field `{name}`, expected one of `rule`")),
+            "{text}"
+        );
+        assert!(text.contains("`combine_rule`") && text.contains("`discrete`"), "{text}");
+    }
+    let of_another_rule = ["exact.integrator = 'rk4'", "discrete.impact_law = 'sequential'"];
+    assert!(of_another_rule.into_iter().all(|key| read(key).is_err()));
+    for key in ["exact.impact_law = 'sequential'", "bisect.integrator = 'rk4'"] {
+        read(key).unwrap();
+    }
+}
+
+#[test]
 fn a_missing_name_is_told_without_a_line() {
     let text = refusal(&GOOD.replacen("name = \"test\"", "", 1));
     assert_eq!(text, "test.toml: missing field `name`");
@@ -153,7 +173,12 @@ fn unknown_names_bring_the_nearest_known_one() {
         ("generators.row", "generators.rows", 11, "row"),
         ("[[emitters]]", "[[emiters]]", 25, "emitters"),
         ("mass = 2", "mas = 2", 28, "mass"),
-        ("[camera]", "[simulation]\nintegrator = \"runge-kuta-4\"\n[camera]", 31, "runge-kutta-4"),
+        (
+            "[camera]",
+            "[simulation.bisect]\nintegrator = \"runge-kuta-4\"\n[camera]",
+            31,
+            "runge-kutta-4",
+        ),
     ];
     for (good, bad, line, meant) in cases {
         let text = refusal(&GOOD.replacen(good, bad, 1));
@@ -263,7 +288,7 @@ fn overrides_change_values_by_their_path() {
         "title=Hello there",
     ])
     .unwrap();
-    assert_eq!(scene.settings().rule, carom::Rule::Discrete);
+    assert_eq!(scene.settings().rule, carom::Discrete::default().into());
     assert_eq!(scene.simulation.bisect.max_halvings, 12);
     assert_eq!(scene.emitters[0].max_spheres, Some(100));
     assert_eq!(scene.spheres[0].position, [1.0, 2.0, 3.0]);
@@ -271,7 +296,9 @@ fn overrides_change_values_by_their_path() {
 
     let unlimited = ["emitters.0.max_spheres=3", "emitters[0].max_spheres=none"];
     assert_eq!(with(&unlimited).unwrap().emitters[0].max_spheres, None);
-    assert_eq!(with(&["simulation.integrator=rk4"]).unwrap().settings().integrator, RK4);
+    let of_bisect = ["simulation.rule=bisect", "simulation.bisect.integrator=rk4"];
+    let rk4 = carom::Bisect::default().with_integrator(carom::Integrator::RungeKutta4);
+    assert_eq!(with(&of_bisect).unwrap().settings().rule, rk4.into());
 
     let deep = format!("{}=3", vec!["a"; 100_000].join("."));
     for bad in ["simulation.rule", "=3", "a..b=3", ".a=3", "[]=3", &deep] {
@@ -303,8 +330,6 @@ fn overrides_change_values_by_their_path() {
     let refusal = Scene::from_toml_with(&broken, "test.toml", &harmless).unwrap_err().to_string();
     assert!(refusal.starts_with("test.toml:8: spheres[0].radius"), "{refusal}");
 }
-
-const RK4: carom::Integrator = carom::Integrator::RungeKutta4;
 
 #[test]
 fn scenes_are_found_in_folders_and_among_registered_ones() {

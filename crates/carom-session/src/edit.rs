@@ -17,7 +17,7 @@ use crate::setup::{Setup, describe_emitter};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Edit {
-    /// How the scene is stepped: rule and parameters, integrator, impact law, the frame time, ...
+    /// How the scene is stepped: the rule and its parameters, the frame time, ...
     Simulation(Box<Simulation>),
     /// Length of a frame \[s\], alone.
     FrameTime(f64),

@@ -6,7 +6,7 @@
 
 #![allow(clippy::disallowed_methods, missing_docs)]
 
-use carom::{Bisect, Collider, DQuat, DVec3, Pose, Rule, Settings, Shape, Sphere, World};
+use carom::{Bisect, Collider, DQuat, DVec3, Discrete, Pose, Rule, Settings, Shape, Sphere, World};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const RADIUS: f64 = 0.5;
@@ -32,7 +32,7 @@ impl Numbers {
 
 /// A box of `count` spheres, its walls six half-spaces.
 fn gas(count: usize, rule: Rule) -> World {
-    let mut world = World::new(Settings { rule, ..Settings::default() }).expect("good settings");
+    let mut world = World::new(Settings::default().with_rule(rule)).expect("good settings");
     let edge = (count as f64 * carom::volume(RADIUS) / VOLUME_FRACTION).cbrt();
     let (center, half) = (DVec3::splat(0.5 * edge), 0.5 * edge);
     for normal in [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z] {
@@ -56,7 +56,7 @@ fn gas(count: usize, rule: Rule) -> World {
 
 fn frames(criterion: &mut Criterion) {
     let rules = [
-        ("discrete", Rule::Discrete),
+        ("discrete", Rule::Discrete(Discrete::default())),
         ("bisect", Rule::Bisect(Bisect::default())),
         ("exact", Rule::default()),
     ];

@@ -1,9 +1,9 @@
 //! An emitter that is tilted, and keeps eight spheres alive: who comes, who goes.
 
-use carom::{DQuat, DVec3, Emitter, Error, Gravity, Rule, Settings, Sphere, World};
+use carom::{DQuat, DVec3, Discrete, Emitter, Error, Gravity, Settings, Sphere, World};
 
 fn main() -> Result<(), Error> {
-    let mut world = World::new(Settings { rule: Rule::Discrete, ..Settings::default() })?;
+    let mut world = World::new(Settings::default().with_rule(Discrete::default()))?;
     world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
     world.add_emitter(Emitter {
         sphere: Sphere::new(DVec3::ZERO, 0.05).with_velocity(DVec3::new(0.0, 6.0, 0.0)),

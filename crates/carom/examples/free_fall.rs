@@ -1,12 +1,12 @@
 //! One second of free fall with drag under each integrator and several frame lengths: how the
 //! error shrinks with the frame.
 
-use carom::{DVec3, Error, Gravity, Integrator, Rule, Settings, Sphere, ViscousDrag, World};
+use carom::{DVec3, Discrete, Error, Gravity, Integrator, Settings, Sphere, ViscousDrag, World};
 
 /// Height after one second of falling from rest at 0, of 1 kg with a drag of 0.5 kg/s.
 fn height(integrator: Integrator, frames: u32) -> Result<f64, Error> {
-    let rule = Rule::Discrete;
-    let mut world = World::new(Settings { rule, integrator, ..Settings::default() })?;
+    let rule = Discrete::default().with_integrator(integrator);
+    let mut world = World::new(Settings::default().with_rule(rule))?;
     world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
     world.add_force(ViscousDrag::new(0.5))?;
     let ball = world.add_sphere(Sphere::new(DVec3::ZERO, 0.1))?;

@@ -47,6 +47,7 @@ pub mod respond;
 mod rule;
 mod settings;
 mod state;
+mod step;
 mod sum;
 mod surface;
 mod system;
@@ -64,12 +65,11 @@ pub use flight::Flight;
 pub use forces::{ConstantForce, Force, Gravity, LinearForce, SphereState, ViscousDrag};
 pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId};
-pub use integrate::Integrator;
 pub use report::{
     BodyPair, Impact, ImpactGroup, LedgerEntry, Overlap, StageCounts, StepReport, TriggerContact,
 };
-pub use respond::ImpactLaw;
-pub use rule::{Bisect, Exact, Rule, WindBack};
-pub use settings::{Boundary, CombineRule, Settings};
+pub use settings::{
+    Bisect, Boundary, CombineRule, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings, WindBack,
+};
 pub use work::StopRequest;
 pub use world::{Snapshot, World};

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::detect::contact::{Bodies, Contact};
 use crate::id::{ColliderId, SphereId};
-use crate::respond::ImpactLaw;
+use crate::settings::ImpactLaw;
 use crate::system::System;
 
 /// What happened in one step.

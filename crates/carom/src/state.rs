@@ -8,18 +8,14 @@ use crate::bodies::{Motion, Spheres};
 use crate::clock::Clock;
 use crate::colliders::Colliders;
 use crate::detect::instant::Instant;
-use crate::emitter::{self, Emission, EmitterState};
+use crate::emitter::EmitterState;
 use crate::error::{Error, Subject};
 use crate::forces::Force;
 use crate::id::EmitterId;
 use crate::numbered::Numbered;
-use crate::report::StepReport;
-use crate::rule::Exact;
-use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished};
+use crate::rule::exact::Timeline;
 use crate::settings::Settings;
 use crate::system::System;
-use crate::validate;
-use crate::work::Work;
 
 /// Everything a world's future depends on.
 #[derive(Debug, Clone, Default)]
@@ -96,94 +92,6 @@ impl State {
     fn renewed_flights(&mut self) -> Option<&mut Timeline> {
         self.timeline = self.timeline.take().filter(Timeline::is_renewed_each_frame);
         self.timeline.as_mut()
-    }
-
-    /// Emits the spheres that are due at `time` \[s\]; those that are there fly on.
-    pub fn emit(&mut self, time: f64) -> Emission {
-        let ids = self.timeline.is_some().then(|| self.spheres.ids().to_vec());
-        let Self { emitters, spheres, next_id, .. } = self;
-        let emission = emitter::emit(emitters, spheres, next_id, time);
-        let next = emitter::next_due(emitters);
-        if let (Some(timeline), Some(ids)) = (self.timeline.take(), ids) {
-            let (system, motion) = self.split();
-            let time_of = |id| match emission.emitted.binary_search(&id) {
-                Ok(place) => emission.due[place],
-                Err(_) => time,
-            };
-            let arrivals = Arrivals { known: &ids, time_of, next };
-            self.timeline = Some(exact::adopt(&timeline, &system, motion, arrivals, time));
-        }
-        emission
-    }
-
-    /// Prepares for a frame from and to these times \[s\] under the rule `exact`.
-    ///
-    /// # Errors
-    /// [`Error::NonFiniteState`] if a force is not finite, [`Error::Invalid`] if a periodic box is
-    /// too small for the spheres or if there are too many of them.
-    pub fn begin_frame(&mut self, parameters: Exact, frame: [f64; 2]) -> Result<(), Error> {
-        self.check_count()?;
-        self.check_box()?;
-        let timeline = self.timeline.take();
-        let next_emission = emitter::next_due(&self.emitters);
-        let (system, motion) = self.split();
-        let start = || exact::start(&system, parameters, motion, frame[0]);
-        let mut timeline = timeline.unwrap_or_else(start);
-        let begun = exact::begin(&mut timeline, &system, frame, next_emission);
-        self.timeline = Some(timeline);
-        let time = frame[0];
-        begun.map_err(|sphere| Error::NonFiniteState { sphere, quantity: "velocity", time })
-    }
-
-    /// Refuses more spheres than the rule `exact` can tell apart.
-    fn check_count(&self) -> Result<(), Error> {
-        let (count, most) = (self.spheres.ids().len(), exact::MAX_SPHERES);
-        let requirement = "few enough for the rule exact: at most 2^27 spheres";
-        validate::require(count <= most, "spheres", requirement, count as f64)
-            .map_err(|invalid| invalid.about(Subject::Step))
-    }
-
-    /// Refuses a periodic box in which a sphere could touch two images of another one.
-    fn check_box(&self) -> Result<(), Error> {
-        let smallest = self.settings.boundary.period().min_element();
-        let largest = self.spheres.radii().iter().copied().fold(0.0, f64::max);
-        let requirement = "at least four times the radius of every sphere along every axis";
-        validate::require(smallest >= 4.0 * largest, "size", requirement, smallest)
-            .map_err(|invalid| invalid.about(Subject::Settings))
-    }
-
-    /// Takes a part of a frame by the rule `exact`.
-    pub fn advance_exactly(
-        &mut self,
-        span: Span,
-        work: &Work,
-        report: &mut StepReport,
-    ) -> Result<(), Error> {
-        let Some(mut timeline) = self.timeline.take() else { return Ok(()) };
-        let (system, _) = self.split();
-        let advanced = exact::advance(&system, &mut timeline, span, work, report);
-        self.timeline = Some(timeline);
-        advanced.map_err(|unfinished| match unfinished {
-            Unfinished::Stopped => Error::Stopped { time: span.start },
-            Unfinished::TooManyImpacts { sphere, limit, companions, time } => {
-                Error::TooManyImpacts { sphere, limit, companions, at: time, time: span.start }
-            }
-        })
-    }
-
-    /// Puts all spheres where they are at the end of a frame under the rule `exact`.
-    ///
-    /// # Errors
-    /// [`Error::NonFiniteState`] if one is nowhere; then none is moved.
-    pub fn end_frame(&mut self, span: Span) -> Result<(), Error> {
-        let Some(timeline) = self.timeline.take() else { return Ok(()) };
-        let (system, motion) = self.split();
-        exact::end(&timeline, &system, motion, span).map_err(|(index, quantity)| {
-            let (sphere, time) = (self.spheres.ids()[index], self.clock.seconds());
-            Error::NonFiniteState { sphere, quantity, time }
-        })?;
-        self.timeline = Some(timeline);
-        Ok(())
     }
 
     /// Refuses positions or velocities that are not finite.

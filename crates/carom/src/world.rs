@@ -4,24 +4,21 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::bodies::{Motion, Sphere, Spheres};
+use crate::bodies::{Sphere, Spheres};
 use crate::collider::{Collider, Pose};
 use crate::detect::contacts::{self, Search};
-use crate::emitter::{self, Emitter, EmitterState};
+use crate::emitter::{Emitter, EmitterState};
 use crate::error::{Error, Subject};
 use crate::forces::Force;
 use crate::hash::{self, StateHash};
 use crate::id::{ColliderId, EmitterId, ForceId, SphereId};
-use crate::interval::Interval;
 use crate::invariants;
-use crate::numbered::Numbered;
-use crate::report::{Overlap, StepReport, TriggerContact};
-use crate::rule::exact::Span;
-use crate::rule::{self, Exact, Rule, Scratch};
+use crate::report::{Overlap, StepReport};
 use crate::settings::Settings;
 use crate::state::State;
+use crate::step::{self, Scratch};
 use crate::validate;
-use crate::work::{StopRequest, Work};
+use crate::work::StopRequest;
 
 /// Spheres, what acts on them, and what they bounce off.
 ///
@@ -45,10 +42,7 @@ pub struct World {
     state: State,
     report: StepReport,
     scratch: Scratch,
-    search: Search,
-    /// Motion at the start of the step, to return to if it fails.
-    start: Motion,
-    /// Asked while a step is at work.
+    /// Looked at while a step is at work.
     stop_request: Option<StopRequest>,
 }
 
@@ -57,25 +51,6 @@ pub struct World {
 /// Holds all that the future depends on, parameters too: settings, forces, colliders, emitters.
 #[derive(Debug, Clone)]
 pub struct Snapshot(State);
-
-/// What an emission changes, to return to if the step fails.
-struct BeforeEmission {
-    emitters: Numbered<EmitterState>,
-    spheres: Spheres,
-    next_id: u64,
-}
-
-impl BeforeEmission {
-    fn of(state: &State) -> Self {
-        let State { emitters, spheres, next_id, .. } = state;
-        Self { emitters: emitters.clone(), spheres: spheres.clone(), next_id: *next_id }
-    }
-
-    fn restore(self, state: &mut State) {
-        let Self { emitters, spheres, next_id } = self;
-        (state.emitters, state.spheres, state.next_id) = (emitters, spheres, next_id);
-    }
-}
 
 impl World {
     /// An empty world, at time 0.
@@ -96,103 +71,9 @@ impl World {
     /// [`Error::TooManyImpacts`] under the rule `exact`; [`Error::Stopped`] on a request
     /// ([`Self::set_stop_request`]). The state before the step is kept.
     pub fn step(&mut self, dt: f64) -> Result<&StepReport, Error> {
-        validate::positive("dt", dt).map_err(|invalid| invalid.about(Subject::Step))?;
-        self.report.clear();
-
-        let clock = self.state.clock.after(dt);
-        let requirement = "so short that the time stays finite";
-        validate::require(clock.seconds().is_finite(), "dt", requirement, dt)
-            .map_err(|invalid| invalid.about(Subject::Step))?;
-
-        let stop_request = self.stop_request.clone();
-        if stop_request.as_ref().is_some_and(StopRequest::is_made) {
-            return Err(Error::Stopped { time: self.time() });
-        }
-        let work = Work::new(stop_request.as_ref());
-
-        let is_exact = matches!(self.state.settings.rule, Rule::Exact(_));
-        let last_emission = if is_exact { clock.seconds() } else { self.time() };
-        self.state.check_emitters(last_emission)?;
-
-        let mut before_emission = None;
-        let moved = match self.state.settings.rule {
-            Rule::Exact(parameters) => {
-                self.advance_exactly(parameters, dt, clock.seconds(), &work, &mut before_emission)
-            }
-            Rule::Discrete | Rule::Bisect(_) => self.advance_by_frame(dt, &mut before_emission),
-        };
-        if let Err(error) = moved {
-            if let Some(before) = before_emission {
-                before.restore(&mut self.state);
-            }
-            self.state.timeline = None;
-            self.report.clear();
-            return Err(error);
-        }
-        self.state.clock = clock;
-        self.state.advance_colliders(dt);
-        if is_exact {
-            let now = self.state.now();
-            contacts::of_triggers(&now, 0.0, &mut self.search, |contact| {
-                self.report.triggers.extend(TriggerContact::of(&contact, &now.system));
-            });
-        }
-        Ok(&self.report)
-    }
-
-    /// Takes a frame of `dt` \[s\] by a rule that knows nothing but frames. If that fails, the spheres are
-    /// where they were, but for what was emitted.
-    fn advance_by_frame(
-        &mut self,
-        dt: f64,
-        before: &mut Option<BeforeEmission>,
-    ) -> Result<(), Error> {
-        self.start.copy_all(&self.state.spheres.motion);
-        let frame = Interval { time: self.time(), h: dt };
-        self.emit(frame.time + emitter::DUE_TOLERANCE, before);
-        let (system, motion) = self.state.split();
-        rule::step(&system, motion, frame, &mut self.scratch, &mut self.report);
-        let checked = self.state.check_finite();
-        if checked.is_err() {
-            std::mem::swap(&mut self.state.spheres.motion, &mut self.start);
-        }
-        checked
-    }
-
-    /// Takes a frame of `length` until `end` \[s\] by the rule `exact`. What emitters have due within the
-    /// frame comes at its own time. If that fails, no sphere was moved.
-    fn advance_exactly(
-        &mut self,
-        parameters: Exact,
-        length: f64,
-        end: f64,
-        work: &Work,
-        before: &mut Option<BeforeEmission>,
-    ) -> Result<(), Error> {
-        let start = self.time();
-        self.state.begin_frame(parameters, [start, end])?;
-        self.emit(start, before);
-        loop {
-            let due = emitter::next_due(&self.state.emitters);
-            let span = Span { start, length, end: due.min(end) };
-            self.state.advance_exactly(span, work, &mut self.report)?;
-            if due >= end {
-                break;
-            }
-            self.emit(due, before);
-        }
-        self.state.end_frame(Span { start, length, end })
-    }
-
-    /// Emits the spheres that are due at `time` \[s\]; notes what was before, the first time.
-    fn emit(&mut self, time: f64, before: &mut Option<BeforeEmission>) {
-        if !emitter::any_due(&self.state.emitters, time) {
-            return;
-        }
-        before.get_or_insert_with(|| BeforeEmission::of(&self.state));
-        let emission = self.state.emit(time);
-        self.report.emitted.extend(emission.emitted);
-        self.report.retired.extend(emission.retired);
+        let Self { state, report, scratch, stop_request } = self;
+        step::step(state, dt, stop_request.as_ref(), scratch, report)?;
+        Ok(report)
     }
 
     /// Has steps end early once a request is made; `None` takes the request back. Under the rule

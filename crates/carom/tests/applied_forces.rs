@@ -1,17 +1,23 @@
 //! Forces applied to single spheres, and what goes with them: spheres put elsewhere, the clock set.
 
 use carom::{
-    Boundary, Collider, DQuat, DVec3, Error, Exact, Gravity, Pose, Rule, Settings, Shape, Sphere,
-    SphereId, World,
+    Boundary, Collider, DQuat, DVec3, Discrete, Error, Exact, Gravity, Pose, Rule, Settings, Shape,
+    Sphere, SphereId, World,
 };
 
 const FRAME: f64 = 0.02;
-const RULES: [Rule; 2] = [Rule::Discrete, Rule::Exact(EXACT)];
-const EXACT: Exact = Exact { max_impacts: 10_000, contact_duration: 1e-10 };
+
+fn rules() -> [Rule; 2] {
+    [Discrete::default().into(), exact()]
+}
+
+fn exact() -> Rule {
+    Exact::default().with_max_impacts(10_000).into()
+}
 
 /// A world of spheres that pass through each other.
 fn world_of(rule: Rule, spheres: &[Sphere], colliders: &[Collider]) -> World {
-    let settings = Settings { rule, spheres_collide: false, ..Settings::default() };
+    let settings = Settings::default().with_rule(rule).with_spheres_collide(false);
     let mut world = World::new(settings).unwrap();
     for sphere in spheres {
         world.add_sphere(*sphere).unwrap();
@@ -58,7 +64,7 @@ fn an_applied_weight_is_gravity() {
     let g = DVec3::new(0.5, -9.81, 0.25);
     let ball = Sphere::new(DVec3::new(0.0, 3.0, 0.0), 0.5).with_mass(2.0);
     let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
-    for rule in RULES {
+    for rule in rules() {
         let mut applied = world_of(rule, &[ball], &[floor]);
         let mut falling = applied.clone();
         applied.set_applied_forces(&[2.0 * g]).unwrap();
@@ -79,7 +85,7 @@ fn an_applied_weight_is_gravity() {
 fn each_sphere_follows_the_force_applied_to_it() {
     let spheres = [1.0, 2.0, 4.0].map(|mass| Sphere::new(DVec3::ZERO, 0.1).with_mass(mass));
     let forces = [DVec3::X, DVec3::Y, DVec3::Z];
-    let mut world = world_of(Rule::Exact(EXACT), &spheres, &[]);
+    let mut world = world_of(exact(), &spheres, &[]);
     world.set_applied_forces(&forces).unwrap();
     for _ in 0..50 {
         world.step(FRAME).unwrap();
@@ -94,7 +100,7 @@ fn each_sphere_follows_the_force_applied_to_it() {
 
 #[test]
 fn a_ball_on_a_floor_follows_its_tilt_and_stays_on_it() {
-    let mut world = world_of(Rule::Exact(EXACT), &balls_on_the_floor(1), &tray());
+    let mut world = world_of(exact(), &balls_on_the_floor(1), &tray());
     let start = world.spheres().get(0);
     let (mut position, mut velocity) = (start.position, start.velocity);
     for frame in 0..25 {
@@ -113,7 +119,7 @@ fn a_ball_on_a_floor_follows_its_tilt_and_stays_on_it() {
 
 #[test]
 fn contacts_that_go_on_move_spheres_like_contacts_found_anew() {
-    let mut carried = world_of(Rule::Exact(EXACT), &balls_on_the_floor(8), &tray());
+    let mut carried = world_of(exact(), &balls_on_the_floor(8), &tray());
     let mut anew = carried.clone();
     let mut impacts = 0;
     for frame in 0..300 {
@@ -135,7 +141,7 @@ fn contacts_that_go_on_move_spheres_like_contacts_found_anew() {
 #[test]
 fn a_ball_pressed_into_a_corner_stays_until_the_tilt_turns() {
     let corner = Sphere::new(DVec3::new(1.75, 0.25, 1.75), 0.25);
-    let mut world = world_of(Rule::Exact(EXACT), &[corner], &tray());
+    let mut world = world_of(exact(), &[corner], &tray());
     for _ in 0..50 {
         world.set_applied_forces(&[DVec3::new(2.0, -9.0, 1.0)]).unwrap();
         world.step(FRAME).unwrap();
@@ -162,7 +168,7 @@ fn a_ball_steered_over_the_edge_of_a_floor_falls() {
         Pose { position: DVec3::ZERO, rotation: DQuat::IDENTITY },
     );
     let ball = Sphere::new(DVec3::new(0.9, 0.1, 0.0), 0.1).with_velocity(DVec3::X);
-    let mut world = world_of(Rule::Exact(EXACT), &[ball], &[floor.with_restitution(0.0)]);
+    let mut world = world_of(exact(), &[ball], &[floor.with_restitution(0.0)]);
     for _ in 0..25 {
         world.set_applied_forces(&[DVec3::new(0.0, -9.81, 0.0)]).unwrap();
         world.step(FRAME).unwrap();
@@ -175,7 +181,7 @@ fn a_ball_steered_over_the_edge_of_a_floor_falls() {
 #[test]
 fn spheres_put_elsewhere_leave_the_others_alone_to_the_bit() {
     let count = 30;
-    let mut world = world_of(Rule::Exact(EXACT), &balls_on_the_floor(8), &tray());
+    let mut world = world_of(exact(), &balls_on_the_floor(8), &tray());
     let mut other = world.clone();
     for frame in 0..count {
         steer(&mut world, frame);
@@ -197,7 +203,7 @@ fn spheres_put_elsewhere_leave_the_others_alone_to_the_bit() {
 fn spheres_put_elsewhere_still_meet_each_other() {
     let size = DVec3::splat(4.0);
     for boundary in [Boundary::Open, Boundary::Periodic { size }] {
-        let settings = Settings { boundary, ..Settings::default() };
+        let settings = Settings::default().with_boundary(boundary);
         let mut world = World::new(settings).unwrap();
         for x in -3..=3 {
             for z in -3..=3 {
@@ -224,7 +230,7 @@ fn spheres_put_elsewhere_still_meet_each_other() {
 
 #[test]
 fn a_run_from_a_clock_set_back_repeats_to_the_bit() {
-    for rule in RULES {
+    for rule in rules() {
         let mut world = world_of(rule, &balls_on_the_floor(8), &tray());
         let start: Vec<_> = (0..8).map(|index| world.spheres().get(index)).collect();
         let mut hashes = Vec::new();
@@ -250,7 +256,7 @@ fn a_run_from_a_clock_set_back_repeats_to_the_bit() {
 
 #[test]
 fn applied_forces_go_with_the_spheres_and_with_snapshots() {
-    let mut world = world_of(Rule::Exact(EXACT), &balls_on_the_floor(3), &[]);
+    let mut world = world_of(exact(), &balls_on_the_floor(3), &[]);
     world.set_applied_forces(&[DVec3::X, DVec3::Y, DVec3::Z]).unwrap();
     let before = world.snapshot();
     world.remove_sphere(SphereId::from_number(1)).unwrap();
@@ -267,7 +273,7 @@ fn applied_forces_go_with_the_spheres_and_with_snapshots() {
 
 #[test]
 fn what_makes_no_sense_is_refused_and_changes_nothing() {
-    let mut world = world_of(Rule::Exact(EXACT), &balls_on_the_floor(2), &tray());
+    let mut world = world_of(exact(), &balls_on_the_floor(2), &tray());
     steer(&mut world, 0);
     world.step(FRAME).unwrap();
     let (hash, forces) = (world.state_hash(), world.spheres().applied_forces().to_vec());

@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use carom::contact_time::{self, Bisection, Probe};
 use carom::{
-    Bisect, Collider, DQuat, DVec3, Force, Gravity, Integrator, Pose, Rule, Settings, Shape,
-    Sphere, SphereState, WindBack, World,
+    Bisect, Collider, DQuat, DVec3, Force, Gravity, Integrator, Pose, Rule, Shape, Sphere,
+    SphereState, WindBack, World,
 };
 use common::{Numbers, assert_close, assert_close_vec, bisect, bisect_all, vec, world};
 
@@ -410,9 +410,8 @@ fn reaching_the_bound_of_impacts_is_reported_and_nothing_sinks_through() {
 fn a_bouncing_ball_comes_to_rest_when_its_bounces_end() {
     let (g, e, drop) = (9.81, 0.7, 1.0);
     // Exact under gravity, and contact times to rounding: the bounces themselves are exact.
-    let rule = Rule::Bisect(Bisect { max_halvings: 60, ..Bisect::default() });
-    let integrator = Integrator::VelocityVerlet;
-    let mut world = World::new(Settings { rule, integrator, ..Settings::default() }).unwrap();
+    let verlet = Bisect::default().with_integrator(Integrator::VelocityVerlet);
+    let mut world = common::world(verlet.with_max_halvings(60));
     world.add_force(Gravity::new(vec(0.0, -g, 0.0))).unwrap();
     let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(e);
     world.add_collider(floor).unwrap();
@@ -499,9 +498,8 @@ fn every_integrator_drives_the_rule() {
         Integrator::RungeKutta4,
     ] {
         for wind_back in [WindBack::Touched, WindBack::All] {
-            let rule = Rule::Bisect(Bisect { wind_back, max_halvings: 40, ..Bisect::default() });
-            let settings = Settings { rule, integrator, ..Settings::default() };
-            let mut world = World::new(settings).unwrap();
+            let rule = Bisect::default().with_wind_back(wind_back).with_max_halvings(40);
+            let mut world = common::world(rule.with_integrator(integrator));
             world.add_force(Gravity::new(vec(0.0, -9.81, 0.0))).unwrap();
             world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))).unwrap();
             world.add_sphere(Sphere::new(vec(0.0, 1.0, 0.0), 0.5)).unwrap();

@@ -11,7 +11,8 @@ const FRAME: f64 = 1.0 / 60.0;
 
 /// A tray with a block and a round stone in it.
 fn tray(boundary: Boundary, spheres_collide: bool) -> World {
-    let settings = Settings { boundary, spheres_collide, ..Settings::default() };
+    let settings =
+        Settings::default().with_boundary(boundary).with_spheres_collide(spheres_collide);
     let mut world = World::new(settings).unwrap();
     let floor = Shape::Rectangle { size_x: 4.0, size_z: 4.0 };
     let mut add = |shape: Shape, place: DVec3, restitution: f64| {

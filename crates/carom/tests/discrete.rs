@@ -3,14 +3,14 @@
 mod common;
 
 use carom::{
-    BodyPair, Collider, DQuat, DVec3, Gravity, Pose, Rule, Settings, Shape, Sphere, SphereId, World,
+    BodyPair, Collider, DQuat, DVec3, Gravity, Pose, Settings, Shape, Sphere, SphereId, World,
 };
-use common::{assert_close, assert_close_vec, vec, world};
+use common::{assert_close, assert_close_vec, discrete, vec, world};
 
 const PLATE: Shape = Shape::Rectangle { size_x: 4.0, size_z: 2.0 };
 
 fn world_around(collider: Collider) -> World {
-    let mut world = world(Rule::Discrete);
+    let mut world = world(discrete());
     world.add_collider(collider).unwrap();
     world
 }
@@ -163,7 +163,8 @@ fn a_trigger_box_reports_a_sphere_once_at_its_edge_and_inside() {
 #[test]
 fn spheres_collide_unless_the_scene_says_no() {
     for spheres_collide in [true, false] {
-        let settings = Settings { rule: Rule::Discrete, spheres_collide, ..Settings::default() };
+        let settings =
+            Settings::default().with_rule(discrete()).with_spheres_collide(spheres_collide);
         let mut world = World::new(settings).unwrap();
         let left = Sphere::new(vec(-0.5, 0.0, 0.0), 0.5).with_velocity(vec(1.0, 0.0, 0.0));
         let left = world.add_sphere(left).unwrap();

@@ -8,7 +8,7 @@ use carom::{
     BodyPair, Boundary, Collider, DQuat, DVec3, Emitter, Error, Exact, Force, Gravity, Pose, Rule,
     Settings, Shape, Sphere, SphereState, ViscousDrag, World,
 };
-use common::{G, Numbers, assert_close, assert_close_vec, vec, world};
+use common::{G, Numbers, assert_close, assert_close_vec, discrete, vec, world};
 
 fn exact() -> World {
     world(Rule::default())
@@ -190,8 +190,8 @@ fn a_shot_stack_falls_apart_and_keeps_its_momentum_across() {
 fn a_ball_shot_into_a_block_at_rest_keeps_the_clock_going_and_the_momentum_across() {
     // Spheres that roll on each other lean, open and close by next to nothing: the bound is far above
     // what they need, and far below events that come one rounding of the clock after another.
-    let rule = Rule::Exact(Exact { max_impacts: 20_000, ..Exact::default() });
-    let mut world = World::new(Settings { rule, ..Settings::default() }).unwrap();
+    let rule = Rule::Exact(Exact::default().with_max_impacts(20_000));
+    let mut world = World::new(Settings::default().with_rule(rule)).unwrap();
     world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
     half_space(&mut world, DVec3::ZERO, DVec3::Y, 0.5);
     let ball = |place: DVec3| Sphere::new(place, 0.5).with_mass(1.0).with_restitution(0.5);
@@ -239,7 +239,7 @@ fn spheres_a_thousand_times_as_large_meet_the_small_ones() {
 #[test]
 fn in_a_periodic_box_spheres_meet_across_its_faces() {
     let boundary = Boundary::Periodic { size: vec(10.0, 10.0, f64::INFINITY) };
-    let mut world = World::new(Settings { boundary, ..Settings::default() }).unwrap();
+    let mut world = World::new(Settings::default().with_boundary(boundary)).unwrap();
     let left = Sphere::new(vec(-4.0, 0.0, 50.0), 0.5).with_velocity(vec(-1.0, 0.0, 0.0));
     let right = Sphere::new(vec(4.0, 0.0, 50.0), 0.5).with_velocity(vec(2.0, 0.0, 0.0));
     world.add_sphere(left).unwrap();
@@ -316,7 +316,7 @@ fn in_periodic_boxes_of_any_width_balls_meet_as_in_a_search_among_all_images() {
         ([7, 6, 6], vec(7.7, 7.69, 7.69), 0.2),
     ] {
         let boundary = Boundary::Periodic { size };
-        let mut world = World::new(Settings { boundary, ..Settings::default() }).unwrap();
+        let mut world = World::new(Settings::default().with_boundary(boundary)).unwrap();
         let mut numbers = Numbers(7);
         let [nx, ny, nz] = balls;
         for n in 0..nx * ny * nz {
@@ -342,12 +342,12 @@ fn in_periodic_boxes_of_any_width_balls_meet_as_in_a_search_among_all_images() {
 #[test]
 fn a_periodic_box_needs_the_rule_and_the_room() {
     let boundary = Boundary::Periodic { size: DVec3::splat(3.0) };
-    let settings = Settings { boundary, rule: Rule::Discrete, ..Settings::default() };
+    let settings = Settings::default().with_boundary(boundary).with_rule(discrete());
     assert!(World::new(settings).unwrap_err().to_string().contains("`exact`"));
     let size = vec(1.0, -1.0, 1.0);
-    let settings = Settings { boundary: Boundary::Periodic { size }, ..Settings::default() };
+    let settings = Settings::default().with_boundary(Boundary::Periodic { size });
     assert!(World::new(settings).unwrap_err().to_string().contains("size"));
-    let mut world = World::new(Settings { boundary, ..Settings::default() }).unwrap();
+    let mut world = World::new(Settings::default().with_boundary(boundary)).unwrap();
     world.add_sphere(Sphere::new(DVec3::ZERO, 0.8)).unwrap();
     let error = world.step(0.1).unwrap_err().to_string();
     assert!(error.contains("size") && error.contains("four times"), "{error}");
@@ -461,7 +461,7 @@ fn emitters_emit_within_a_frame_at_their_own_time() {
 
 #[test]
 fn more_impacts_than_allowed_are_an_error_that_changes_nothing() {
-    let rule = Rule::Exact(Exact { max_impacts: 50, ..Exact::default() });
+    let rule = Rule::Exact(Exact::default().with_max_impacts(50));
     let mut world = world(rule);
     half_space(&mut world, DVec3::ZERO, DVec3::X, 1.0);
     half_space(&mut world, vec(1.0, 0.0, 0.0), DVec3::NEG_X, 1.0);
@@ -535,7 +535,7 @@ fn restitution_is_that_of_the_first_impact_under_a_force_of_its_own_too() {
 fn plastic_impacts_far_from_the_origin_do_not_repeat_without_end() {
     let mut numbers = Numbers(11);
     for _ in 0..200 {
-        let rule = Rule::Exact(Exact { max_impacts: 100, ..Exact::default() });
+        let rule = Rule::Exact(Exact::default().with_max_impacts(100));
         let mut world = world(rule);
         let (place, way) = (10.0 * numbers.vector(), numbers.vector().normalize());
         let drift = numbers.vector();
@@ -567,7 +567,7 @@ fn spheres_as_far_apart_as_numbers_go_do_no_harm() {
 fn the_state_is_the_same_to_the_last_bit_on_any_number_of_threads() {
     let size = DVec3::splat(16.0);
     let boundary = Boundary::Periodic { size };
-    let mut world = World::new(Settings { boundary, ..Settings::default() }).unwrap();
+    let mut world = World::new(Settings::default().with_boundary(boundary)).unwrap();
     world.add_force(Spring).unwrap();
     let mut numbers = Numbers(3);
     for i in 0..3375 {
@@ -582,7 +582,7 @@ fn the_state_is_the_same_to_the_last_bit_on_any_number_of_threads() {
 #[test]
 fn balls_on_a_floor_meet_across_the_faces_of_a_box_and_stay_on_the_floor() {
     let boundary = Boundary::Periodic { size: vec(10.0, f64::INFINITY, 10.0) };
-    let mut world = World::new(Settings { boundary, ..Settings::default() }).unwrap();
+    let mut world = World::new(Settings::default().with_boundary(boundary)).unwrap();
     world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
     half_space(&mut world, DVec3::ZERO, DVec3::Y, 0.5);
     for (x, v) in [(-4.0, -1.0), (4.0, 2.0), (4.0, 0.25)] {
@@ -606,7 +606,7 @@ fn balls_on_a_floor_meet_across_the_faces_of_a_box_and_stay_on_the_floor() {
 #[test]
 fn a_sphere_goes_round_a_periodic_box_as_often_as_it_likes() {
     let boundary = Boundary::Periodic { size: DVec3::ONE };
-    let mut world = World::new(Settings { boundary, ..Settings::default() }).unwrap();
+    let mut world = World::new(Settings::default().with_boundary(boundary)).unwrap();
     let ball = Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(1e7, 0.0, 0.0));
     let ball = world.add_sphere(ball).unwrap();
     run(&mut world, 1.0 / 64.0, 2);

@@ -167,8 +167,8 @@ fn frames_do_not_matter_to_balls_in_a_box() {
 /// Balls that fall on each other in a box, all at once; a bound that no frame reaches.
 fn pile(count: u32, max_impacts: u32) -> World {
     let mut world = patient_world(vec(0.0, -G, 0.0));
-    let rule = Rule::Exact(Exact { max_impacts, ..Exact::default() });
-    world.set_settings(Settings { rule, ..Settings::default() }).unwrap();
+    let rule = Rule::Exact(Exact::default().with_max_impacts(max_impacts));
+    world.set_settings(Settings::default().with_rule(rule)).unwrap();
     add_box(&mut world, 8.0, 0.5);
     for n in 0..count {
         let (x, z, layer) = (n % 7, n / 7 % 7, n / 49);

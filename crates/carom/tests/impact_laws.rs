@@ -8,8 +8,8 @@
 
 mod common;
 
-use carom::DVec3;
-use carom::respond::{GroupResponse, ImpactLaw, line_of_centres, reflection, resolve};
+use carom::respond::{GroupResponse, line_of_centres, reflection, resolve};
+use carom::{DVec3, ImpactLaw};
 use common::group::{Group, pair, surface};
 use common::{Numbers, assert_close, assert_close_vec, vec};
 

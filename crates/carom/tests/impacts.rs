@@ -118,7 +118,7 @@ fn restitution_of_a_pair_follows_the_selected_rule() {
         (CombineRule::Average, 0.65),
     ];
     for (combine_rule, expected) in rules {
-        let settings = Settings { combine_rule, ..Settings::default() };
+        let settings = Settings::default().with_combine_rule(combine_rule);
         let mut world = World::new(settings).unwrap();
         let left = Sphere::new(vec(0.0, 0.0, 0.0), 0.5).with_velocity(vec(1.0, 0.0, 0.0));
         let right = Sphere::new(vec(1.5, 0.0, 0.0), 0.5).with_velocity(vec(-1.0, 0.0, 0.0));

@@ -7,8 +7,8 @@
 mod common;
 
 use carom::{
-    Bisect, Collider, CombineRule, ConstantForce, DQuat, DVec3, Emitter, Error, Exact, Gravity,
-    Integrator, Pose, Rule, Settings, Shape, Sphere, ViscousDrag, WindBack, World,
+    Bisect, Collider, CombineRule, ConstantForce, DQuat, DVec3, Discrete, Emitter, Error, Exact,
+    Gravity, Integrator, Pose, Rule, Settings, Shape, Sphere, ViscousDrag, WindBack, World,
 };
 use proptest::prelude::*;
 
@@ -58,12 +58,13 @@ fn settings() -> impl Strategy<Value = Settings> {
     let bisect = (0.0..1e-3, 1..12u32, 1..20u32, any::<bool>()).prop_map(
         |(tolerance, max_halvings, max_impacts, all)| {
             let wind_back = if all { WindBack::All } else { WindBack::Touched };
-            Rule::Bisect(Bisect { tolerance, max_halvings, max_impacts, wind_back })
+            let bisect = Bisect::default().with_tolerance(tolerance).with_wind_back(wind_back);
+            Rule::Bisect(bisect.with_max_halvings(max_halvings).with_max_impacts(max_impacts))
         },
     );
     // Spheres that overlap from the start may be wedged in, and meet without end.
-    let exact = Rule::Exact(Exact { max_impacts: 10_000, ..Exact::default() });
-    let rule = prop_oneof![Just(Rule::Discrete), bisect, Just(exact)];
+    let exact = Rule::Exact(Exact::default().with_max_impacts(10_000));
+    let rule = prop_oneof![Just(Rule::Discrete(Discrete::default())), bisect, Just(exact)];
     let integrator = prop::sample::select(vec![
         Integrator::SemiImplicitEuler,
         Integrator::ExplicitEuler,
@@ -77,12 +78,14 @@ fn settings() -> impl Strategy<Value = Settings> {
         CombineRule::Average,
     ]);
     (rule, integrator, combine_rule, any::<bool>()).prop_map(
-        |(rule, integrator, combine_rule, spheres_collide)| Settings {
-            rule,
-            integrator,
-            combine_rule,
-            spheres_collide,
-            ..Settings::default()
+        |(rule, integrator, combine_rule, spheres_collide)| {
+            let rule = match rule {
+                Rule::Discrete(discrete) => discrete.with_integrator(integrator).into(),
+                Rule::Bisect(bisect) => bisect.with_integrator(integrator).into(),
+                other => other,
+            };
+            let settings = Settings::default().with_rule(rule).with_combine_rule(combine_rule);
+            settings.with_spheres_collide(spheres_collide)
         },
     )
 }

@@ -1,10 +1,13 @@
 //! The work of a step, counted by stage: proves that the counts follow from the world alone, and what
 //! the simplest worlds cost; nothing about time.
 
-use carom::{Collider, DVec3, Gravity, Pose, Rule, Settings, Shape, Sphere, StageCounts, World};
+use carom::{
+    Bisect, Collider, DVec3, Discrete, Gravity, Pose, Rule, Settings, Shape, Sphere, StageCounts,
+    World,
+};
 
 fn row_of_spheres(rule: Rule, count: u32) -> World {
-    let mut world = World::new(Settings { rule, ..Settings::default() }).unwrap();
+    let mut world = World::new(Settings::default().with_rule(rule)).unwrap();
     for place in 0..count {
         let position = DVec3::new(3.0 * f64::from(place), 0.0, 0.0);
         world.add_sphere(Sphere::new(position, 1.0)).unwrap();
@@ -34,8 +37,8 @@ fn each_rule_tests_the_pairs_that_its_broad_phase_leaves() {
     // they are apart; `discrete` tests all pairs of so few.
     for (rule, tests) in [
         (Rule::default(), 2 * pairs),
-        (Rule::Bisect(carom::Bisect::default()), 0),
-        (Rule::Discrete, pairs),
+        (Bisect::default().into(), 0),
+        (Discrete::default().into(), pairs),
     ] {
         let mut world = row_of_spheres(rule, spheres);
         assert_eq!(world.step(0.1).unwrap().work.pair_tests, u64::from(tests), "{rule:?}");

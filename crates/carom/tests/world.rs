@@ -6,7 +6,7 @@ use carom::{
     Bisect, Collider, DQuat, DVec3, Emitter, Error, Force, Gravity, Pose, Rule, Settings, Shape,
     Sphere, SphereState, ViscousDrag, World,
 };
-use common::{Numbers, bisect, bisect_all, vec, world};
+use common::{Numbers, bisect, bisect_all, discrete, vec, world};
 
 /// A busy little world: a box of spheres under gravity and drag, with an emitter above.
 fn busy_world(rule: Rule) -> World {
@@ -44,7 +44,7 @@ fn run(world: &mut World, frames: usize) -> u64 {
     impacts
 }
 
-const RULES: [fn() -> Rule; 4] = [|| Rule::Discrete, bisect, bisect_all, Rule::default];
+const RULES: [fn() -> Rule; 4] = [discrete, bisect, bisect_all, Rule::default];
 
 #[test]
 fn a_restored_snapshot_repeats_a_hundred_frames_bit_for_bit() {
@@ -95,7 +95,7 @@ fn hashes_are_the_same_in_every_build_and_on_every_platform() {
 
 #[test]
 fn one_changed_bit_changes_the_hash() {
-    let mut world = busy_world(Rule::Discrete);
+    let mut world = busy_world(discrete());
     let before = world.state_hash();
     let id = world.spheres().ids()[7];
     let sphere = world.sphere(id).unwrap();
@@ -108,7 +108,7 @@ fn one_changed_bit_changes_the_hash() {
 
 #[test]
 fn ids_stay_valid_while_others_go_and_are_never_given_again() {
-    let mut world = world(Rule::Discrete);
+    let mut world = world(discrete());
     let add = |world: &mut World, x| world.add_sphere(Sphere::new(vec(x, 0.0, 0.0), 0.1)).unwrap();
     let [a, b, c] = [0.0, 1.0, 2.0].map(|x| add(&mut world, x));
     assert_eq!(world.remove_sphere(b).unwrap().position.x, 1.0);
@@ -162,7 +162,7 @@ fn a_step_that_would_overflow_is_refused_and_the_state_before_it_kept() {
 
 #[test]
 fn a_speed_beyond_all_numbers_is_refused() {
-    let mut world = world(Rule::Discrete);
+    let mut world = world(discrete());
     let id = world.add_sphere(Sphere::new(DVec3::ZERO, 1.0).with_velocity(vec(1e308, 0.0, 0.0)));
     let error = world.step(10.0).unwrap_err().to_string();
     assert!(error.contains(&format!("sphere {}", id.unwrap())) && error.contains("position"));
@@ -187,7 +187,7 @@ fn every_field_of_a_sphere_is_checked_and_named() {
         cases.push(("mass", good.with_mass(value)));
         cases.push(("density", good.with_density(value)));
     }
-    let mut world = busy_world(Rule::Discrete);
+    let mut world = busy_world(discrete());
     let before = world.state_hash();
     let existing = world.spheres().ids()[3];
     for (field, sphere) in cases {
@@ -251,12 +251,12 @@ fn every_field_of_colliders_forces_emitters_and_settings_is_checked_and_named() 
 
     let good = Bisect::default();
     let settings = [
-        ("tolerance", Bisect { tolerance: f64::NAN, ..good }),
-        ("max_halvings", Bisect { max_halvings: 0, ..good }),
-        ("max_impacts", Bisect { max_impacts: 0, ..good }),
+        ("tolerance", good.with_tolerance(f64::NAN)),
+        ("max_halvings", good.with_max_halvings(0)),
+        ("max_impacts", good.with_max_impacts(0)),
     ];
     for (field, bisect) in settings {
-        let settings = Settings { rule: Rule::Bisect(bisect), ..Settings::default() };
+        let settings = Settings::default().with_rule(Rule::Bisect(bisect));
         let text = world.set_settings(settings).unwrap_err().to_string();
         assert!(text.starts_with("settings") && text.contains(&format!("`{field}`")), "{text}");
         assert!(World::new(settings).is_err());
@@ -271,12 +271,12 @@ fn every_field_of_colliders_forces_emitters_and_settings_is_checked_and_named() 
 
 #[test]
 fn unknown_ids_are_errors_that_name_them() {
-    let mut twin = busy_world(Rule::Discrete);
+    let mut twin = busy_world(discrete());
     let force = twin.add_force(Gravity::new(DVec3::ZERO)).unwrap();
     let collider = twin.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)));
     let collider = collider.unwrap();
     let plane = twin.collider(collider).unwrap();
-    let mut world = busy_world(Rule::Discrete);
+    let mut world = busy_world(discrete());
     let texts = [
         world.set_force(force, Gravity::new(DVec3::ZERO)).unwrap_err().to_string(),
         world.set_collider(collider, plane).unwrap_err().to_string(),
@@ -289,7 +289,7 @@ fn unknown_ids_are_errors_that_name_them() {
 
 #[test]
 fn forces_colliders_and_emitters_can_be_looked_at_changed_and_removed() {
-    let mut world = busy_world(Rule::Discrete);
+    let mut world = busy_world(discrete());
     let (drag, force) = world.forces().nth(1).unwrap();
     assert!(format!("{force:?}").starts_with("ViscousDrag"));
     world.remove_force(drag).unwrap();
@@ -319,7 +319,7 @@ fn forces_colliders_and_emitters_can_be_looked_at_changed_and_removed() {
 
 #[test]
 fn a_clock_that_would_overflow_is_refused() {
-    let mut world = world(Rule::Discrete);
+    let mut world = world(discrete());
     world.add_sphere(Sphere::new(DVec3::ZERO, 1.0)).unwrap();
     world.step(1e308).unwrap();
     let text = world.step(1e308).unwrap_err().to_string();
@@ -329,7 +329,7 @@ fn a_clock_that_would_overflow_is_refused() {
 
 #[test]
 fn a_collider_put_elsewhere_collides_there() {
-    let mut world = world(Rule::Discrete);
+    let mut world = world(discrete());
     let plane = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
     let plane = world.add_collider(plane).unwrap();
     let ball = Sphere::new(vec(0.0, 5.0, 0.0), 0.5).with_velocity(vec(0.0, -1.0, 0.0));
@@ -342,7 +342,7 @@ fn a_collider_put_elsewhere_collides_there() {
 
 #[test]
 fn overlaps_are_listed_with_their_depth() {
-    let mut world = world(Rule::Discrete);
+    let mut world = world(discrete());
     world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))).unwrap();
     for (x, y) in [(0.0, 1.0), (0.75, 1.0), (5.0, 0.25), (8.0, 0.5)] {
         world.add_sphere(Sphere::new(vec(x, y, 0.0), 0.5)).unwrap();
@@ -354,7 +354,7 @@ fn overlaps_are_listed_with_their_depth() {
 
 #[test]
 fn a_sphere_inside_a_solid_box_overlaps_it_once() {
-    let mut world = world(Rule::Discrete);
+    let mut world = world(discrete());
     let solid = Shape::Box { size: vec(4.0, 4.0, 4.0) };
     world.add_collider(Collider::new(solid, Pose::at(DVec3::ZERO))).unwrap();
     world.add_sphere(Sphere::new(vec(0.0, 1.75, 0.0), 0.125)).unwrap();

@@ -129,12 +129,17 @@ export type Force =
   /** Against the velocity and proportional to it; the coefficient [kg/s], >= 0. */
   | { viscousDrag: { coefficient: number } };
 
+/** How spheres move under forces, by `bisect` and `discrete`; `exact` needs none. */
+export type Integrator =
+  | "semi-implicit-euler"
+  | "explicit-euler"
+  | "velocity-verlet"
+  | "runge-kutta-4";
+
 /** How a world is stepped. */
 export interface Simulation {
   /** `exact` (the default) finds every impact at its own time. */
   rule: "exact" | "bisect" | "discrete";
-  /** Of `bisect` and `discrete`; `exact` needs none. */
-  integrator: "semi-implicit-euler" | "explicit-euler" | "velocity-verlet" | "runge-kutta-4";
   /** Length of a frame [s], > 0; 1/60 unless given. */
   frameTime: number;
   /** Time worth watching [s], > 0. */
@@ -145,25 +150,32 @@ export interface Simulation {
   combineRule: "product" | "minimum" | "maximum" | "average";
   /** Whether spheres may overlap at the start. */
   allowOverlap: boolean;
-  /** How impacts at one instant among spheres that touch are answered, by `exact`. */
-  impactLaw: "reflection" | "simultaneous" | "sequential";
   /** A box about the origin that repeats itself [m], `Infinity` along an open axis; by `exact`. */
   boundary: "open" | { periodic: { size: [number, number, number] } };
-  /** Parameters of `exact`: how long a contact lasts [s]; impacts per sphere and frame at most. */
-  exact: { contactDuration: number; maxImpacts: number };
+  /** Parameters of `exact`: how impacts at one instant among spheres that touch are answered; how
+   *  long a contact lasts [s]; impacts per sphere and frame at most. */
+  exact: {
+    impactLaw: "reflection" | "simultaneous" | "sequential";
+    contactDuration: number;
+    maxImpacts: number;
+  };
   /** Parameters of `bisect`. */
   bisect: {
+    integrator: Integrator;
     tolerance: number;
     maxHalvings: number;
     maxImpacts: number;
     windBack: "touched" | "all";
   };
+  /** Parameters of `discrete`. */
+  discrete: { integrator: Integrator };
 }
 
 /** New values for how a world is stepped; what is not named stays. */
-export type SimulationChanges = Partial<Omit<Simulation, "exact" | "bisect">> & {
+export type SimulationChanges = Partial<Omit<Simulation, "exact" | "bisect" | "discrete">> & {
   exact?: Partial<Simulation["exact"]>;
   bisect?: Partial<Simulation["bisect"]>;
+  discrete?: Partial<Simulation["discrete"]>;
 };
 
 /** What a scene says besides what there is in its world. */

@@ -242,7 +242,8 @@ export class World {
     const now = this.simulation;
     const exact = { ...now.exact, ...changes.exact };
     const bisect = { ...now.bisect, ...changes.bisect };
-    const text = tables({ simulation: { ...now, ...changes, exact, bisect } });
+    const discrete = { ...now.discrete, ...changes.discrete };
+    const text = tables({ simulation: { ...now, ...changes, exact, bisect, discrete } });
     attemptPart(() => this.#world.setSimulation(text));
   }
 

@@ -87,7 +87,11 @@ test("what is described in code is told back", () => {
   world.setSimulation({ boundary: { periodic: { size: [10, 20, Infinity] } } });
   assert.deepEqual(world.simulation.boundary, { periodic: { size: [10, 20, Infinity] } });
   world.setSimulation({ exact: { maxImpacts: 7 } });
-  assert.deepEqual(world.simulation.exact, { contactDuration: 1e-9, maxImpacts: 7 });
+  const exact = { impactLaw: "reflection", contactDuration: 1e-9, maxImpacts: 7 };
+  assert.deepEqual(world.simulation.exact, exact);
+  world.setSimulation({ discrete: { integrator: "velocity-verlet" } });
+  assert.deepEqual(world.simulation.discrete, { integrator: "velocity-verlet" });
+  assert.deepEqual(world.simulation.exact, exact, "what was not named stays");
   assert.equal(world.frameTime, 0.01, "what was not named stays");
 });
 

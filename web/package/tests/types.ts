@@ -31,7 +31,7 @@ own.addCollider({ position: [0, 0, 0] });
 own.addForce({ viscousDrag: { coefficient: 0.1 } });
 own.setSphere(ball, { velocity: [0, 1, 0] });
 own.setCollider(0, { restitution: 0.5 });
-const changes: SimulationChanges = { impactLaw: "simultaneous", exact: { maxImpacts: 100 } };
+const changes: SimulationChanges = { exact: { impactLaw: "simultaneous", maxImpacts: 100 } };
 own.setSimulation(changes);
 
 const text = (impact: Impact): string =>

@@ -1,6 +1,6 @@
 //! The built-in scenes.
 
-use carom::{DQuat, DVec3, Rule, SphereId, StateHash, World};
+use carom::{DQuat, DVec3, Discrete, Rule, SphereId, StateHash, World};
 use carom_scene::{BUILT_IN_FILES, Library, Override, Scene};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
@@ -29,7 +29,7 @@ pub fn claims() -> Vec<Claim> {
         Tolerance::absolute(0.1, "the course says about 20 s"),
         |_| leaving_the_picture(),
     );
-    claims.push(leaving.about(Rule::Discrete));
+    claims.push(leaving.about(Rule::Discrete(Discrete::default())));
     claims
 }
 
@@ -41,7 +41,7 @@ fn scene(name: &str, overrides: &[String]) -> Result<Scene, carom_scene::SceneEr
 /// Largest distance between places of one sphere in frames of different lengths.
 fn frame_length(name: &str, rule: Rule) -> Outcome {
     let rule = match rule {
-        Rule::Discrete => "discrete",
+        Rule::Discrete(_) => "discrete",
         Rule::Bisect(_) => "bisect",
         _ => "exact",
     };

@@ -1,6 +1,6 @@
 //! Inelastic spheres: cooling of a gas, and collapse.
 
-use carom::{CombineRule, DVec3, Error, Exact, Rule, Settings, Sphere, World};
+use carom::{CombineRule, DVec3, Error, Rule, Sphere, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
 use super::setup::{FRAME, run_until, world};
@@ -50,7 +50,7 @@ fn about_to_cool(rule: Rule) -> Result<World, Error> {
     let mut world = gas(FILLING, Speeds::Equilibrium, rule, 1)?;
     run_collisions(&mut world, FILLING.frame_time(), COLLISIONS_TO_EQUILIBRIUM)?;
     let combine_rule = CombineRule::Minimum;
-    let mut cooling = World::new(Settings { combine_rule, ..*world.settings() })?;
+    let mut cooling = World::new(world.settings().with_combine_rule(combine_rule))?;
     for i in 0..world.spheres().len() {
         cooling.add_sphere(world.spheres().get(i).with_restitution(E))?;
     }
@@ -86,11 +86,11 @@ fn temperature_by_time(rule: Rule) -> Outcome {
 fn collapse(rule: Rule, count: usize, e: f64) -> Outcome {
     let rule = match rule {
         // A ball takes part in a few impacts, and then in some dozens that become ever shorter.
-        Rule::Exact(parameters) => Rule::Exact(Exact { max_impacts: 10_000, ..parameters }),
+        Rule::Exact(parameters) => Rule::Exact(parameters.with_max_impacts(10_000)),
         other => other,
     };
     let mut world = world(rule)?;
-    world.set_settings(Settings { combine_rule: CombineRule::Minimum, ..*world.settings() })?;
+    world.set_settings(world.settings().with_combine_rule(CombineRule::Minimum))?;
     for i in 0..count {
         // Towards the middle, the faster the farther.
         let place = i as f64 - 0.5 * (count - 1) as f64;

@@ -21,7 +21,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use carom::{Bisect, Exact, Rule};
+use carom::{Bisect, Discrete, Exact, Rule};
 
 use crate::args::Verify;
 use crate::failure::Failure;
@@ -69,7 +69,7 @@ fn claims() -> Vec<Claim> {
 /// A rule with the parameters it has unless told.
 fn rule_named(name: &str) -> Rule {
     match name {
-        "discrete" => Rule::Discrete,
+        "discrete" => Rule::Discrete(Discrete::default()),
         "bisect" => Rule::Bisect(Bisect::default()),
         _ => Rule::Exact(Exact::default()),
     }

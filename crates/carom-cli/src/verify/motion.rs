@@ -1,7 +1,7 @@
 //! Motion between impacts: closed forms of nature, and of the schemes.
 
 use carom::{
-    Bisect, ConstantForce, DVec3, Error, Gravity, Integrator, Rule, Sphere, ViscousDrag, WindBack,
+    Bisect, ConstantForce, DVec3, Discrete, Error, Gravity, Integrator, Rule, Sphere, ViscousDrag,
     World,
 };
 
@@ -130,18 +130,14 @@ fn scheme(
         }
         Ok(Measured::in_world(&world, measure(&world)))
     });
-    claim.about(Rule::Discrete)
+    claim.about(Rule::Discrete(Discrete::default()))
 }
 
 /// Times of contact by halving a frame, in parts of what the halvings leave.
 fn bisection_error(halvings: u32) -> Claim {
-    let rule = Rule::Bisect(Bisect {
-        // So small that no contact is found before the halvings have ended.
-        tolerance: 1e-14,
-        max_halvings: halvings,
-        max_impacts: 32,
-        wind_back: WindBack::Touched,
-    });
+    // So small that no contact is found before the halvings have ended.
+    let parameters = Bisect::default().with_tolerance(1e-14);
+    let rule = Rule::Bisect(parameters.with_max_halvings(halvings));
     let claim = Claim::new(
         format!("bisect: {halvings} halvings find a contact to h/2^{halvings} [h/2^{halvings}]"),
         Expected::no_error("length of the bracket"),

@@ -1,7 +1,8 @@
 //! Worlds that several claims begin with.
 
 use carom::{
-    Collider, DQuat, DVec3, Error, Gravity, Integrator, Pose, Rule, Settings, Shape, World,
+    Collider, DQuat, DVec3, Discrete, Error, Gravity, Integrator, Pose, Rule, Settings, Shape,
+    World,
 };
 
 /// Length of a frame where the length does not matter \[s\].
@@ -11,12 +12,12 @@ pub const G: f64 = 9.81;
 
 /// An empty world under a rule.
 pub fn world(rule: Rule) -> Result<World, Error> {
-    World::new(Settings { rule, ..Settings::default() })
+    World::new(Settings::default().with_rule(rule))
 }
 
 /// An empty world under the rule `discrete` with this integrator.
 pub fn world_with(integrator: Integrator) -> Result<World, Error> {
-    World::new(Settings { rule: Rule::Discrete, integrator, ..Settings::default() })
+    world(Discrete::default().with_integrator(integrator).into())
 }
 
 /// A world with gravity downward and a floor at height 0 of this restitution.

@@ -1,6 +1,6 @@
 //! What all episodes in a maze share: the world to roll in, and what is known of it.
 
-use carom::{ColliderId, DVec3, Exact, Rule, Settings, World};
+use carom::{ColliderId, DVec3, Rule, World};
 use carom_scene::scene::Force;
 
 use super::ground::Ground;
@@ -55,11 +55,8 @@ impl Arena {
         let mut scene = maze.scene().clone();
         scene.forces.retain(is_drag);
         let mut world = scene.world().map_err(MazeError::from)?;
-        world.set_settings(Settings {
-            rule: limited(options.rule),
-            spheres_collide: false,
-            ..*world.settings()
-        })?;
+        let settings = world.settings().with_rule(limited(options.rule));
+        world.set_settings(settings.with_spheres_collide(false))?;
         let floor = Floor::new(&maze)?;
         let starts = starts(&maze, &floor);
         let ways = (options.rewards.shaping > 0.0).then(|| Ways::new(&maze, floor));
@@ -148,7 +145,7 @@ fn is_drag(force: &Force) -> bool {
 fn limited(rule: Rule) -> Rule {
     match rule {
         Rule::Exact(exact) => {
-            Rule::Exact(Exact { max_impacts: exact.max_impacts.min(MOST_IMPACTS), ..exact })
+            Rule::Exact(exact.with_max_impacts(exact.max_impacts.min(MOST_IMPACTS)))
         }
         other => other,
     }

@@ -1,6 +1,6 @@
 //! Balls that meet walls too often in a frame, and take it by another rule.
 
-use carom::{DVec3, Rule, Settings, SphereId, World};
+use carom::{DVec3, Discrete, SphereId, World};
 
 use super::Arena;
 use super::ball::{self, Ball};
@@ -27,7 +27,7 @@ struct Parked {
 impl Rescue {
     pub fn new(arena: &Arena) -> Result<Self, EpisodeError> {
         let mut world = arena.world().clone();
-        world.set_settings(Settings { rule: Rule::Discrete, ..*world.settings() })?;
+        world.set_settings(world.settings().with_rule(Discrete::default()))?;
         Ok(Self { world, parked: Vec::new(), frames: 0 })
     }
 

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use carom::Rule;
+use carom::{Discrete, Rule};
 use carom_maze::{Arena, BUILT_IN_DRAWINGS, EpisodeOptions, Maze, Rewards, Start};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -60,7 +60,7 @@ impl<'py> Given<'py> {
     fn options(&self) -> PyResult<EpisodeOptions> {
         let rule = match self.text("rule")?.as_str() {
             "exact" => Rule::default(),
-            "discrete" => Rule::Discrete,
+            "discrete" => Discrete::default().into(),
             other => {
                 let problem = format_args!("must be \"exact\" or \"discrete\", not \"{other}\"");
                 return Err(Failure::value("rule", problem).into());

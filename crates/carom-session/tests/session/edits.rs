@@ -1,6 +1,6 @@
 //! Edits: each changes the world and what is said of it, or nothing.
 
-use carom::{ConstantForce, DVec3, Rule, Sphere};
+use carom::{Bisect, ConstantForce, DVec3, Exact, Sphere};
 use carom_scene::scene::{self, Color, Force, ImpactLaw, Integrator};
 use carom_session::{Edit, Session, SphereChange, View};
 
@@ -23,16 +23,20 @@ fn an_edit_of_the_simulation_reaches_the_world() {
     let mut simulation = session.setup().simulation.clone();
     simulation.rule = scene::Rule::Bisect;
     simulation.bisect.max_halvings = 20;
-    simulation.integrator = Integrator::RungeKutta4;
-    simulation.impact_law = ImpactLaw::Sequential;
+    simulation.bisect.integrator = Integrator::RungeKutta4;
+    simulation.exact.impact_law = ImpactLaw::Sequential;
     simulation.spheres_collide = false;
     session.edit(Edit::Simulation(Box::new(simulation.clone()))).unwrap();
     let settings = session.world().settings();
-    assert!(matches!(settings.rule, Rule::Bisect(it) if it.max_halvings == 20));
-    assert_eq!(settings.integrator, carom::Integrator::RungeKutta4);
-    assert_eq!(settings.impact_law, carom::ImpactLaw::Sequential);
+    let bisect = Bisect::default().with_integrator(carom::Integrator::RungeKutta4);
+    assert_eq!(settings.rule, bisect.with_max_halvings(20).into());
     assert!(!settings.spheres_collide);
     assert_eq!(session.scene_now().simulation, simulation);
+
+    simulation.rule = scene::Rule::Exact;
+    session.edit(Edit::Simulation(Box::new(simulation))).unwrap();
+    let exact = Exact::default().with_impact_law(carom::ImpactLaw::Sequential);
+    assert_eq!(session.world().settings().rule, exact.into());
 }
 
 #[test]

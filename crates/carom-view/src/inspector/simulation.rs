@@ -30,10 +30,14 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     if view.other.is_none() {
         choice(ui, "rule", &RULES, &mut simulation.rule);
     }
-    if simulation.rule == Rule::Exact {
-        choice(ui, "impact law", &LAWS, &mut simulation.impact_law);
-    } else {
-        choice(ui, "integrator", &INTEGRATORS, &mut simulation.integrator);
+    match simulation.rule {
+        Rule::Exact => choice(ui, "impact law", &LAWS, &mut simulation.exact.impact_law),
+        Rule::Bisect => {
+            choice(ui, "integrator", &INTEGRATORS, &mut simulation.bisect.integrator);
+        }
+        Rule::Discrete => {
+            choice(ui, "integrator", &INTEGRATORS, &mut simulation.discrete.integrator);
+        }
     }
     number(ui, Field::positive("frame time", "s"), &mut simulation.frame_time);
     choice(ui, "restitution", &RESTITUTIONS, &mut simulation.combine_rule);

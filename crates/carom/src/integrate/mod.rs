@@ -13,22 +13,8 @@ use glam::DVec3;
 use crate::bodies::Motion;
 use crate::forces::{self, SphereState};
 use crate::interval::Interval;
+use crate::settings::Integrator;
 use crate::system::System;
-
-/// How positions and velocities advance by a time step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum Integrator {
-    /// Velocity first, then position with the new velocity. First order, symplectic.
-    #[default]
-    SemiImplicitEuler,
-    /// Position with the old velocity, then velocity. First order; gains energy.
-    ExplicitEuler,
-    /// Position by its Taylor series, velocity by the mean acceleration. Second order.
-    VelocityVerlet,
-    /// The classical four-stage Runge-Kutta scheme. Fourth order.
-    RungeKutta4,
-}
 
 /// Where one sphere is and how it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,9 +39,10 @@ fn acceleration_at(system: &System, index: usize, at: Kinematics, time: f64) -> 
     system.spheres.applied_acceleration(index).map_or(common, |own| common + own)
 }
 
-/// Position \[m\] and velocity \[m/s\] of the sphere at `index` at the end of `interval`, from
-/// its state in `start` at the interval's beginning.
+/// Position \[m\] and velocity \[m/s\] of the sphere at `index` at the end of `interval`, by an
+/// `integrator` from its state in `start` at the interval's beginning.
 pub(crate) fn advance(
+    integrator: Integrator,
     system: &System,
     start: &Motion,
     index: usize,
@@ -64,7 +51,7 @@ pub(crate) fn advance(
     let Interval { time, h } = interval;
     let a = |t: f64, at: Kinematics| acceleration_at(system, index, at, time + t);
     let from = Kinematics { position: start.position[index], velocity: start.velocity[index] };
-    let end = match system.settings.integrator {
+    let end = match integrator {
         Integrator::SemiImplicitEuler => semi_implicit_euler::advance(from, h, a),
         Integrator::ExplicitEuler => explicit_euler::advance(from, h, a),
         Integrator::VelocityVerlet => velocity_verlet::advance(from, h, a),

@@ -1,6 +1,7 @@
 //! What an impact does to velocities, and what lasting contacts do to accelerations. One file
 //! per law.
 
+mod combine;
 mod complementarity;
 mod contact_force;
 mod face;
@@ -25,7 +26,7 @@ pub use line_of_centres::line_of_centres;
 pub use reflection::reflection;
 pub use resolve::resolve;
 pub(crate) use resolve::resolve_within;
-pub use touching::{GroupResponse, ImpactLaw, TouchingContact};
+pub use touching::{GroupResponse, TouchingContact};
 
 use crate::bodies::Motion;
 use crate::detect::Separation;

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use super::group::{Answer, Group, speed_scale, tolerance};
 use super::project::Projector;
-use super::touching::{GroupResponse, ImpactLaw, TouchingContact};
+use super::touching::{GroupResponse, TouchingContact};
 use super::{generalized_reflection, order_free, sequential, simultaneous};
+use crate::settings::ImpactLaw;
 use crate::work::Work;
 
 /// Answers the impacts of one instant in a group of touching bodies: gives the spheres the

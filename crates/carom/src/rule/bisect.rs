@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec3;
+
+use super::Scratch;
 use super::islands::{Island, Islands};
-use super::{Bisect, Scratch, WindBack};
 use crate::bodies::Motion;
 use crate::contact_time::{self, Probe};
 use crate::detect::ContactState;
@@ -14,6 +16,7 @@ use crate::integrate;
 use crate::interval::Interval;
 use crate::report::{StepReport, TriggerContact};
 use crate::respond;
+use crate::settings::{Bisect, WindBack};
 use crate::system::System;
 
 /// What every part of the rule reads: the world, and the frame that it takes.
@@ -28,7 +31,7 @@ struct Frame<'a> {
 
 /// Working memory of the rule. Each [`Motion`] has a place for every sphere.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Buffers {
+pub(crate) struct Buffers {
     /// States at the end of the frame.
     end: Motion,
     /// States after the last answered contact, for the spheres of the island at work.
@@ -53,7 +56,7 @@ pub(super) struct Buffers {
 /// Spheres that intersect at the end of the frame form islands, and each island goes through the
 /// frame again by [`settle`]. Where an island then meets a sphere outside, the two join and go
 /// through the frame together, until nothing intersects any more.
-pub(super) fn step(
+pub(crate) fn step(
     system: &System,
     parameters: Bisect,
     motion: &mut Motion,
@@ -66,7 +69,7 @@ pub(super) fn step(
     let everyone = 0..system.spheres.id.len() as u32;
     islands.reset(everyone.len());
     buffers.reset(motion);
-    advance(system, motion, &mut buffers.end, everyone, interval);
+    advance(&frame, motion, &mut buffers.end, everyone, interval);
     let end = frame.end(&buffers.end);
     contacts::of_everyone(&end, parameters.tolerance, &mut buffers.search, contacts);
 
@@ -106,7 +109,7 @@ fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers) {
     loop {
         let rest = interval.after(elapsed);
         let Buffers { end, current, late_contacts, search, .. } = buffers;
-        advance(system, current, end, island.members.iter().copied(), rest);
+        advance(frame, current, end, island.members.iter().copied(), rest);
         let tolerance = parameters.tolerance;
         contacts::of_some(&frame.end(end), &island.members, tolerance, search, late_contacts);
         if !late_contacts.iter().any(is_intersecting) {
@@ -116,7 +119,7 @@ fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers) {
         let until_contact = find_first_contact(frame, rest, buffers);
         let Buffers { current, trial_contacts, .. } = buffers;
         let piece = Interval { time: rest.time, h: until_contact };
-        advance_in_place(system, current, &island.members, piece);
+        advance_in_place(frame, current, &island.members, piece);
         elapsed += until_contact;
         let answered = respond::sequentially(trial_contacts.iter(), system, current, elapsed);
         island.impacts.extend(answered);
@@ -143,7 +146,7 @@ fn find_first_contact(frame: &Frame, rest: Interval, buffers: &mut Buffers) -> f
     trial_contacts.clone_from(late_contacts);
     let found = contact_time::bisect(rest.h, max_halvings, |t| {
         let piece = Interval { time: rest.time, h: t };
-        advance(&system, current, trial, involved.iter().copied(), piece);
+        advance(frame, current, trial, involved.iter().copied(), piece);
         let instant = Instant { system, motion: trial, time: rest.time + t };
         contacts::of_some(&instant, involved, tolerance, search, trial_contacts);
         if trial_contacts.iter().any(is_intersecting) {
@@ -175,7 +178,7 @@ fn give_up(frame: &Frame, island: &mut Island, rest: Interval, buffers: &mut Buf
     let Bisect { tolerance, max_impacts, .. } = parameters;
     let Buffers { current, end, late_contacts, search, meetings, .. } = buffers;
     let rests = |bodies: Bodies| meetings.get(&bodies).is_some_and(|&met| met >= max_impacts);
-    advance(&system, current, end, island.members.iter().copied(), rest);
+    advance(frame, current, end, island.members.iter().copied(), rest);
     contacts::of_some(&frame.end(end), &island.members, tolerance, search, late_contacts);
     for late in late_contacts.iter().filter(|c| is_intersecting(c)) {
         // The answers before this one may have moved the sphere.
@@ -248,6 +251,11 @@ impl<'a> Frame<'a> {
         let Interval { time, h } = self.interval;
         Instant { system: self.system, motion: end, time: time + h }
     }
+
+    /// Centre \[m\] and velocity \[m/s\] of a sphere after a piece of the frame without contacts.
+    fn advanced(&self, start: &Motion, index: usize, piece: Interval) -> (DVec3, DVec3) {
+        integrate::advance(self.parameters.integrator, &self.system, start, index, piece)
+    }
 }
 
 fn is_intersecting(contact: &Contact) -> bool {
@@ -256,7 +264,7 @@ fn is_intersecting(contact: &Contact) -> bool {
 
 /// Moves spheres without contacts over `interval`, from `start` to `end`.
 fn advance(
-    system: &System,
+    frame: &Frame,
     start: &Motion,
     end: &mut Motion,
     spheres: impl Iterator<Item = u32>,
@@ -264,14 +272,14 @@ fn advance(
 ) {
     for sphere in spheres {
         let i = sphere as usize;
-        (end.position[i], end.velocity[i]) = integrate::advance(system, start, i, interval);
+        (end.position[i], end.velocity[i]) = frame.advanced(start, i, interval);
     }
 }
 
 /// Moves spheres without contacts over `interval`.
-fn advance_in_place(system: &System, motion: &mut Motion, spheres: &[u32], interval: Interval) {
+fn advance_in_place(frame: &Frame, motion: &mut Motion, spheres: &[u32], interval: Interval) {
     for &sphere in spheres {
         let i = sphere as usize;
-        (motion.position[i], motion.velocity[i]) = integrate::advance(system, motion, i, interval);
+        (motion.position[i], motion.velocity[i]) = frame.advanced(motion, i, interval);
     }
 }

@@ -10,6 +10,7 @@ use crate::integrate;
 use crate::interval::Interval;
 use crate::report::{StepReport, TriggerContact};
 use crate::respond;
+use crate::settings::Discrete;
 use crate::surface::{Form, Role};
 use crate::system::System;
 
@@ -18,8 +19,9 @@ use crate::system::System;
 const ROOM: f64 = 1.0 / 16.0;
 
 /// Advances all spheres by one frame (`docs/physics.md`, rule `discrete`).
-pub(super) fn step(
+pub(crate) fn step(
     system: &System,
+    parameters: Discrete,
     motion: &mut Motion,
     frame: Interval,
     scratch: &mut Scratch,
@@ -27,7 +29,7 @@ pub(super) fn step(
 ) {
     for index in 0..system.spheres.id.len() {
         (motion.position[index], motion.velocity[index]) =
-            integrate::advance(system, motion, index, frame);
+            integrate::advance(parameters.integrator, system, motion, index, frame);
         meet_surfaces(system, motion, index as u32, frame.h, &mut scratch.near, report);
     }
     meet_each_other(system, motion, frame, scratch, report);

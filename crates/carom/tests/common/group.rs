@@ -1,7 +1,8 @@
 //! Groups of touching spheres, made without detection.
 
 use carom::DVec3;
-use carom::respond::{GroupResponse, ImpactLaw, TouchingContact, resolve};
+use carom::ImpactLaw;
+use carom::respond::{GroupResponse, TouchingContact, resolve};
 
 use super::{Numbers, vec};
 

@@ -3,7 +3,7 @@
 
 pub mod group;
 
-use carom::{Bisect, DVec3, Integrator, Rule, Settings, WindBack, World};
+use carom::{Bisect, DVec3, Discrete, Integrator, Rule, Settings, WindBack, World};
 
 pub const G: f64 = 9.81;
 
@@ -11,13 +11,16 @@ pub fn vec(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-pub fn world(rule: Rule) -> World {
-    World::new(Settings { rule, ..Settings::default() }).unwrap()
+pub fn world(rule: impl Into<Rule>) -> World {
+    World::new(Settings::default().with_rule(rule)).unwrap()
 }
 
 pub fn world_with(integrator: Integrator) -> World {
-    let settings = Settings { rule: Rule::Discrete, integrator, ..Settings::default() };
-    World::new(settings).unwrap()
+    world(Discrete::default().with_integrator(integrator))
+}
+
+pub fn discrete() -> Rule {
+    Rule::Discrete(Discrete::default())
 }
 
 pub fn bisect() -> Rule {
@@ -25,7 +28,7 @@ pub fn bisect() -> Rule {
 }
 
 pub fn bisect_all() -> Rule {
-    Rule::Bisect(Bisect { wind_back: WindBack::All, ..Bisect::default() })
+    Rule::Bisect(Bisect::default().with_wind_back(WindBack::All))
 }
 
 /// Numbers in [0, 1), the same in every run.

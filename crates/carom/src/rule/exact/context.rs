@@ -10,8 +10,7 @@ use crate::detect::sphere_surface;
 use crate::id::SphereId;
 use crate::norm::Norm;
 use crate::report::{Impact, ImpactGroup, StageCounts, StepReport};
-use crate::rule::Exact;
-use crate::settings::CombineRule;
+use crate::settings::{CombineRule, Exact};
 use crate::surface::{Form, SurfaceMotion};
 use crate::system::System;
 use crate::work::Work;
@@ -101,7 +100,7 @@ impl<'a> StepContext<'a> {
         let first = self.report.impacts.len();
         self.report.impacts.extend(impacts);
         let count = self.report.impacts.len() - first;
-        let law = self.system.settings.impact_law;
+        let law = self.parameters.impact_law;
         self.report.groups.push(ImpactGroup { first, count, law, ..account });
     }
 

@@ -16,7 +16,7 @@ use crate::bodies::Motion;
 use crate::id::SphereId;
 use crate::parallel;
 use crate::report::StepReport;
-use crate::rule::Exact;
+use crate::settings::Exact;
 use crate::surface::Role;
 use crate::system::System;
 use crate::work::Work;

@@ -7,7 +7,7 @@ use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, Upcom
 use super::flights::{Flights, Species, Support};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
-use crate::rule::Exact;
+use crate::settings::Exact;
 use crate::system::System;
 
 /// More spheres than this do not stay in the fast caches.

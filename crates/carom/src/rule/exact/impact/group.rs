@@ -151,7 +151,7 @@ fn respond_to_impacts(
     let before: Vec<DVec3> = group.members.iter().map(|member| member.velocity).collect();
     let mut after = before.clone();
     let contacts = contacts_of(timeline, context, group);
-    let law = context.system.settings.impact_law;
+    let law = context.parameters.impact_law;
     let mut resolve = |places: &[usize], contacts: &[TouchingContact]| {
         let response = respond::resolve_within(context.work, law, contacts, &masses, &mut after);
         energy_demanded += response.restitution_energy;

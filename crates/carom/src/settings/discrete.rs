@@ -1,0 +1,15 @@
+use super::Integrator;
+
+/// Parameters of the rule `discrete`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Discrete {
+    /// The scheme that moves spheres over a frame.
+    pub integrator: Integrator,
+}
+
+impl Discrete {
+    /// The same parameters with this integrator.
+    pub fn with_integrator(self, integrator: Integrator) -> Self {
+        Self { integrator }
+    }
+}

@@ -1,0 +1,56 @@
+use super::ImpactLaw;
+use crate::error::InvalidValue;
+use crate::validate;
+
+/// Parameters of the rule `exact`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exact {
+    /// How impacts at one instant in one group of touching bodies are answered.
+    pub impact_law: ImpactLaw,
+    /// How long a contact lasts at least \[s\], > 0. Two bodies that would be back in contact sooner,
+    /// under the forces that press them together, stay in contact; and an impact of two spheres that
+    /// both were hit within that time gives nothing back, unless it is elastic. So no sequence of ever
+    /// shorter bounces stops the clock. A contact lasts longer where bounces of that length cannot be
+    /// resolved: `docs/physics.md`, "Contact duration".
+    pub contact_duration: f64,
+    /// Work of one sphere in a frame: its impacts, other events of its flight, and the work of the
+    /// groups it is in, in units of an impact. More is refused as an error, so that a step ends within
+    /// seconds.
+    pub max_impacts: u32,
+}
+
+impl Default for Exact {
+    fn default() -> Self {
+        Self {
+            impact_law: ImpactLaw::default(),
+            // A bounce of this length under gravity is 1e-20 m high, far below the rounding of a
+            // position, and yet it is far above the rounding of a clock that shows hours.
+            contact_duration: 1e-10,
+            // More than a sphere at a third of the speed of light needs between walls 1 m apart in a
+            // sixtieth of a second; some seconds of work.
+            max_impacts: 5_000_000,
+        }
+    }
+}
+
+impl Exact {
+    /// The same parameters with this impact law.
+    pub fn with_impact_law(self, impact_law: ImpactLaw) -> Self {
+        Self { impact_law, ..self }
+    }
+
+    /// The same parameters with this least duration of a contact \[s\].
+    pub fn with_contact_duration(self, contact_duration: f64) -> Self {
+        Self { contact_duration, ..self }
+    }
+
+    /// The same parameters with this bound for the work of a sphere in a frame.
+    pub fn with_max_impacts(self, max_impacts: u32) -> Self {
+        Self { max_impacts, ..self }
+    }
+
+    pub(super) fn validate(&self) -> Result<(), InvalidValue> {
+        validate::positive("contact_duration", self.contact_duration)?;
+        validate::at_least_one("max_impacts", self.max_impacts)
+    }
+}

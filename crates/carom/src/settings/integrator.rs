@@ -1,0 +1,14 @@
+/// How positions and velocities advance by a time step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Integrator {
+    /// Velocity first, then position with the new velocity. First order, symplectic.
+    #[default]
+    SemiImplicitEuler,
+    /// Position with the old velocity, then velocity. First order; gains energy.
+    ExplicitEuler,
+    /// Position by its Taylor series, velocity by the mean acceleration. Second order.
+    VelocityVerlet,
+    /// The classical four-stage Runge-Kutta scheme. Fourth order.
+    RungeKutta4,
+}

@@ -1,0 +1,89 @@
+//! How a world is stepped: plain values, chosen for each scene. What they do is in `rule`,
+//! `integrate` and `respond`.
+
+mod bisect;
+mod boundary;
+mod combine_rule;
+mod discrete;
+mod exact;
+mod impact_law;
+mod integrator;
+mod rule;
+
+pub use bisect::{Bisect, WindBack};
+pub use boundary::Boundary;
+pub use combine_rule::CombineRule;
+pub use discrete::Discrete;
+pub use exact::Exact;
+pub use impact_law::ImpactLaw;
+pub use integrator::Integrator;
+pub use rule::Rule;
+
+use crate::error::InvalidValue;
+use crate::validate;
+
+/// How a world is stepped.
+///
+/// What only one rule reads is a parameter of that [`Rule`]; what is here describes the world itself, or
+/// counts under every rule.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// The step rule, with its parameters.
+    pub rule: Rule,
+    /// Restitution of a contact, from that of its two bodies.
+    pub combine_rule: CombineRule,
+    /// Whether spheres collide with one another; colliders they always collide with.
+    pub spheres_collide: bool,
+    /// What is around the spheres: part of the world, as its colliders are, and not of the rule, even
+    /// though only `exact` knows a periodic box so far.
+    pub boundary: Boundary,
+}
+
+impl Default for Settings {
+    /// Rule `exact`, product of restitutions, spheres collide, open space.
+    fn default() -> Self {
+        Self {
+            rule: Rule::default(),
+            combine_rule: CombineRule::default(),
+            spheres_collide: true,
+            boundary: Boundary::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// The same settings with this rule, or the rule of these parameters.
+    pub fn with_rule(self, rule: impl Into<Rule>) -> Self {
+        Self { rule: rule.into(), ..self }
+    }
+
+    /// The same settings with this rule for the restitution of a contact.
+    pub fn with_combine_rule(self, combine_rule: CombineRule) -> Self {
+        Self { combine_rule, ..self }
+    }
+
+    /// The same settings, with or without collisions between spheres.
+    pub fn with_spheres_collide(self, spheres_collide: bool) -> Self {
+        Self { spheres_collide, ..self }
+    }
+
+    /// The same settings with this around the spheres.
+    pub fn with_boundary(self, boundary: Boundary) -> Self {
+        Self { boundary, ..self }
+    }
+
+    /// Refuses parameters of the rule that make no sense, and a boundary that it does not know.
+    pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
+        self.boundary.validate()?;
+        if self.boundary != Boundary::Open {
+            let is_exact = matches!(self.rule, Rule::Exact(_));
+            let requirement = "used with the rule `exact`: others know no periodic box";
+            validate::require(is_exact, "boundary", requirement, "periodic")?;
+        }
+        match self.rule {
+            Rule::Discrete(_) => Ok(()),
+            Rule::Bisect(parameters) => parameters.validate(),
+            Rule::Exact(parameters) => parameters.validate(),
+        }
+    }
+}

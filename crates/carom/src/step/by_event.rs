@@ -1,0 +1,131 @@
+//! Steps by the rule `exact`: flights go on from step to step, and what is due within a step is
+//! emitted at its own time.
+
+use super::Step;
+use crate::detect::contacts;
+use crate::emitter;
+use crate::error::{Error, Subject};
+use crate::report::TriggerContact;
+use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished};
+use crate::settings::Exact;
+use crate::state::State;
+use crate::validate;
+
+/// Takes a step from event to event. If that fails, no sphere was moved.
+pub(super) fn step(mut step: Step, parameters: Exact) -> Result<(), Error> {
+    let end = step.end.seconds();
+    step.state.check_emitters(end)?;
+    step.take(|step| {
+        let mut timeline = begin(step, parameters, end)?;
+        advance(step, &mut timeline, end)?;
+        place_spheres(step, &timeline, end)?;
+        step.state.timeline = Some(timeline);
+        Ok(())
+    })?;
+    report_triggers(&mut step);
+    Ok(())
+}
+
+/// The flights of all spheres at the start of the step, which ends at `end` \[s\]: those of the step
+/// before go on.
+///
+/// # Errors
+/// [`Error::NonFiniteState`] if a force is not finite, [`Error::Invalid`] if a periodic box is too small
+/// for the spheres or if there are too many of them.
+fn begin(step: &mut Step, parameters: Exact, end: f64) -> Result<Timeline, Error> {
+    let (state, time) = (&mut *step.state, step.start);
+    check_count(state)?;
+    check_box(state)?;
+    let before = state.timeline.take();
+    let next_emission = emitter::next_due(&state.emitters);
+    let (system, motion) = state.split();
+    let mut timeline = before.unwrap_or_else(|| exact::start(&system, parameters, motion, time));
+    exact::begin(&mut timeline, &system, [time, end], next_emission)
+        .map_err(|sphere| Error::NonFiniteState { sphere, quantity: "velocity", time })?;
+    Ok(timeline)
+}
+
+/// Takes flights and emissions to `end` \[s\].
+fn advance(step: &mut Step, timeline: &mut Timeline, end: f64) -> Result<(), Error> {
+    let (start, length) = (step.start, step.length);
+    emit(step, timeline, start);
+    loop {
+        let due = emitter::next_due(&step.state.emitters);
+        let span = Span { start, length, end: due.min(end) };
+        let (system, _) = step.state.split();
+        exact::advance(&system, timeline, span, &step.work, step.report)
+            .map_err(|unfinished| refusal(unfinished, start))?;
+        if due >= end {
+            return Ok(());
+        }
+        emit(step, timeline, due);
+    }
+}
+
+/// Emits the spheres that are due at `time` \[s\]; those that are there fly on.
+fn emit(step: &mut Step, timeline: &mut Timeline, time: f64) {
+    if !emitter::any_due(&step.state.emitters, time) {
+        return;
+    }
+    let known = step.state.spheres.ids().to_vec();
+    let emission = step.emit(time);
+    let next = emitter::next_due(&step.state.emitters);
+    let time_of = |id| match emission.emitted.binary_search(&id) {
+        Ok(place) => emission.due[place],
+        Err(_) => time,
+    };
+    let arrivals = Arrivals { known: &known, time_of, next };
+    let (system, motion) = step.state.split();
+    *timeline = exact::adopt(timeline, &system, motion, arrivals, time);
+}
+
+/// Puts all spheres where their flights are at `end` \[s\].
+///
+/// # Errors
+/// [`Error::NonFiniteState`] if one is nowhere; then none is moved.
+fn place_spheres(step: &mut Step, timeline: &Timeline, end: f64) -> Result<(), Error> {
+    let (start, length) = (step.start, step.length);
+    let (system, motion) = step.state.split();
+    exact::end(timeline, &system, motion, Span { start, length, end }).map_err(
+        |(index, quantity)| {
+            let sphere = step.state.spheres.ids()[index];
+            Error::NonFiniteState { sphere, quantity, time: start }
+        },
+    )
+}
+
+/// Reports the spheres that are inside triggers at the end of the step.
+fn report_triggers(step: &mut Step) {
+    let Step { state, scratch, report, .. } = step;
+    let now = state.now();
+    contacts::of_triggers(&now, 0.0, &mut scratch.search, |contact| {
+        report.triggers.extend(TriggerContact::of(&contact, &now.system));
+    });
+}
+
+/// Why a step that starts at `time` \[s\] was not taken to its end.
+fn refusal(unfinished: Unfinished, time: f64) -> Error {
+    match unfinished {
+        Unfinished::Stopped => Error::Stopped { time },
+        Unfinished::TooManyImpacts { sphere, limit, companions, time: at } => {
+            Error::TooManyImpacts { sphere, limit, companions, at, time }
+        }
+    }
+}
+
+/// Refuses more spheres than the rule `exact` can tell apart.
+fn check_count(state: &State) -> Result<(), Error> {
+    let (count, most) = (state.spheres.ids().len(), exact::MAX_SPHERES);
+    let requirement = "few enough for the rule exact: at most 2^27 spheres";
+    validate::require(count <= most, "spheres", requirement, count as f64)
+        .map_err(|invalid| invalid.about(Subject::Step))
+}
+
+/// Refuses a periodic box in which a sphere could touch two images of another one.
+fn check_box(state: &State) -> Result<(), Error> {
+    let smallest = state.settings.boundary.period().min_element();
+    let largest = state.spheres.radii().iter().copied().fold(0.0, f64::max);
+    let requirement = "at least four times the radius of every sphere along every axis";
+    validate::require(smallest >= 4.0 * largest, "size", requirement, smallest)
+        .map_err(|invalid| invalid.about(Subject::Settings))
+}
