@@ -194,9 +194,7 @@ impl Game {
             .iter()
             .map(|part| {
                 let moving = self.world.collider(part.id);
-                moving.map(|it| {
-                    (part.id, Collider { pose: posed(&part.level, tilt.rotation()), ..it })
-                })
+                moving.map(|it| (part.id, it.with_pose(posed(&part.level, tilt.rotation()))))
             })
             .collect::<Result<_, Error>>()?;
         self.world.set_colliders(&turned)?;
@@ -218,7 +216,7 @@ impl Game {
             let pose = posed(&part.level, before);
             let way = posed(&part.level, after).position - pose.position;
             let velocity = way / self.options.frame_time;
-            (part.id, Collider { pose, ..part.level.moving(velocity, turn) })
+            (part.id, part.level.moving(velocity, turn).with_pose(pose))
         };
         let changes: Vec<_> = self.parts.iter().map(moved).collect();
         Ok(self.world.set_colliders(&changes)?)
@@ -227,9 +225,7 @@ impl Game {
     /// Whether the colliders are at rest where a rotation of the maze puts them.
     fn is_posed(&self, rotation: DQuat) -> bool {
         let mut both = self.world.colliders().zip(&self.parts);
-        both.all(|((_, now), part)| {
-            *now == Collider { pose: posed(&part.level, rotation), ..part.level }
-        })
+        both.all(|((_, now), part)| *now == part.level.with_pose(posed(&part.level, rotation)))
     }
 
     /// Takes the collectibles that the ball touches.
@@ -275,7 +271,7 @@ impl Game {
             return Ok(());
         }
         let ball = self.world.sphere(self.ball)?;
-        let ball = carom::Sphere { position: self.maze.start(), velocity: DVec3::ZERO, ..ball };
+        let ball = ball.with_position(self.maze.start()).with_velocity(DVec3::ZERO);
         self.world.set_sphere(self.ball, ball)?;
         self.tilt = Tilt::LEVEL;
         self.move_maze(Tilt::LEVEL, Tilt::LEVEL)?;

@@ -212,9 +212,7 @@ fn balls_start_anywhere_but_in_walls_and_where_something_is_to_be_had() {
         let mut world = maze.scene().world().unwrap();
         let ball = world.spheres().get(0);
         for &place in arena.starts() {
-            world
-                .set_sphere(world.spheres().ids()[0], carom::Sphere { position: place, ..ball })
-                .unwrap();
+            world.set_sphere(world.spheres().ids()[0], ball.with_position(place)).unwrap();
             // Rounding of sums of metres.
             assert_eq!(world.overlaps(1e-9), []);
         }

@@ -346,9 +346,9 @@ pub fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<
 /// A sphere with another property.
 fn changed(sphere: Sphere, quantity: Quantity, value: f64) -> Sphere {
     match quantity {
-        Quantity::Radii => Sphere { radius: value, ..sphere },
+        Quantity::Radii => sphere.with_radius(value),
         Quantity::Masses => sphere.with_mass(value),
-        Quantity::Restitutions => Sphere { restitution: value, ..sphere },
+        Quantity::Restitutions => sphere.with_restitution(value),
         Quantity::Positions | Quantity::Velocities | Quantity::AppliedForces => sphere,
     }
 }

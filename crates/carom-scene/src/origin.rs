@@ -154,13 +154,7 @@ impl Emissions {
     fn next(&mut self, period: f64) -> carom::Emitter {
         let sphere = carom::Sphere::new(DVec3::new(self.known as f64, 0.0, 0.0), 1.0);
         self.known += 1;
-        carom::Emitter {
-            sphere,
-            position: DVec3::ZERO,
-            rotation: carom::DQuat::IDENTITY,
-            period,
-            max_spheres: None,
-        }
+        carom::Emitter::new(sphere, period)
     }
 
     /// No more than this many spheres are emitted until `time` \[s\].

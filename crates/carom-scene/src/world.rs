@@ -116,13 +116,10 @@ pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Probl
             return Err(Problem::new(format!("{path}.density"), "`mass` says it already"));
         }
     };
-    Ok(carom::Sphere {
-        position: vector(sphere.position),
-        velocity: vector(sphere.velocity),
-        radius,
-        mass,
-        restitution: sphere.restitution,
-    })
+    Ok(carom::Sphere::new(vector(sphere.position), radius)
+        .with_velocity(vector(sphere.velocity))
+        .with_mass(mass)
+        .with_restitution(sphere.restitution))
 }
 
 fn collider(collider: &Collider) -> carom::Collider {
@@ -132,14 +129,11 @@ fn collider(collider: &Collider) -> carom::Collider {
         Shape::HalfSpace => carom::Shape::HalfSpace,
         Shape::Box { size } => carom::Shape::Box { size: vector(size) },
     };
-    carom::Collider {
-        shape,
-        pose: Pose { position: vector(collider.position), rotation: quaternion(collider.rotation) },
-        velocity: vector(collider.velocity),
-        angular_velocity: vector(collider.angular_velocity),
-        restitution: collider.restitution,
-        trigger: collider.trigger,
-    }
+    let pose = Pose::at(vector(collider.position)).rotated(quaternion(collider.rotation));
+    let solid = carom::Collider::new(shape, pose)
+        .moving(vector(collider.velocity), vector(collider.angular_velocity))
+        .with_restitution(collider.restitution);
+    if collider.trigger { solid.as_trigger() } else { solid }
 }
 
 fn emitter(emitter: &Emitter, path: &str) -> Result<carom::Emitter, Problem> {
@@ -147,13 +141,10 @@ fn emitter(emitter: &Emitter, path: &str) -> Result<carom::Emitter, Problem> {
     let sphere = sphere(&emitter.sphere, &sphere_path)?;
     // Adding the sphere to an empty world checks it, with its own path in the error.
     World::default().add_sphere(sphere).map_err(|error| problem(&sphere_path, error))?;
-    Ok(carom::Emitter {
-        sphere,
-        position: vector(emitter.position),
-        rotation: quaternion(emitter.rotation),
-        period: emitter.period,
-        max_spheres: emitter.max_spheres,
-    })
+    Ok(carom::Emitter::new(sphere, emitter.period)
+        .with_position(vector(emitter.position))
+        .with_rotation(quaternion(emitter.rotation))
+        .with_max_spheres(emitter.max_spheres))
 }
 
 fn settings(simulation: &Simulation) -> Settings {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use carom::{
-    Collider, ColliderId, DVec3, Emitter, EmitterId, Error, ForceId, Mass, SphereId, Subject, World,
+    ColliderId, DVec3, Emitter, EmitterId, Error, ForceId, Mass, SphereId, Subject, World,
 };
 use carom_scene::SceneError;
 use carom_scene::scene::{self, Color, Force, Scene, Simulation};
@@ -65,13 +65,12 @@ pub struct SphereChange {
 impl SphereChange {
     /// The sphere, changed.
     fn of(&self, sphere: carom::Sphere) -> carom::Sphere {
-        carom::Sphere {
-            position: self.position.unwrap_or(sphere.position),
-            velocity: self.velocity.unwrap_or(sphere.velocity),
-            radius: self.radius.unwrap_or(sphere.radius),
-            mass: self.mass.map_or(sphere.mass, Mass::Kilograms),
-            restitution: self.restitution.unwrap_or(sphere.restitution),
-        }
+        sphere
+            .with_position(self.position.unwrap_or(sphere.position))
+            .with_velocity(self.velocity.unwrap_or(sphere.velocity))
+            .with_radius(self.radius.unwrap_or(sphere.radius))
+            .with_mass(self.mass.map_or(sphere.mass, Mass::Kilograms))
+            .with_restitution(self.restitution.unwrap_or(sphere.restitution))
     }
 
     /// This change, then a later one.
@@ -246,7 +245,7 @@ fn set_restitution(
     world: &mut World,
     setup: &mut Arc<Setup>,
 ) -> Result<(), SessionError> {
-    let collider = Collider { restitution, ..world.collider(id)? };
+    let collider = world.collider(id)?.with_restitution(restitution);
     world.set_collider(id, collider)?;
     let colliders = &mut Arc::make_mut(setup).colliders;
     colliders.iter_mut().filter(|it| it.0 == id).for_each(|it| it.1.restitution = restitution);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom::{DVec3, Mass, Sphere};
+use carom::{DVec3, Sphere};
 use carom_render::{Camera, Drawing, GpuError};
 use carom_scene::scene::{Rule, Scene};
 use carom_scene::{SceneError, Source};
@@ -412,14 +412,12 @@ impl Watching {
         let origin = orbit.camera.position;
         if modifiers.command {
             let Throw { radius, mass, speed, restitution } = self.throw;
-            let sphere = Sphere {
-                // Before the eye, so that it is seen as it flies away.
-                position: origin + direction * (orbit.camera.near + 3.0 * radius),
-                velocity: direction * speed,
-                radius,
-                mass: Mass::Kilograms(mass),
-                restitution,
-            };
+            // Before the eye, so that it is seen as it flies away.
+            let position = origin + direction * (orbit.camera.near + 3.0 * radius);
+            let sphere = Sphere::new(position, radius)
+                .with_velocity(direction * speed)
+                .with_mass(mass)
+                .with_restitution(restitution);
             self.commands.push(Command::Edit(Edit::Throw { sphere, color: None }));
             return;
         }

@@ -5,13 +5,9 @@ use carom::{DQuat, DVec3, Discrete, Emitter, Error, Gravity, Settings, Sphere, W
 fn main() -> Result<(), Error> {
     let mut world = World::new(Settings::default().with_rule(Discrete::default()))?;
     world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
-    world.add_emitter(Emitter {
-        sphere: Sphere::new(DVec3::ZERO, 0.05).with_velocity(DVec3::new(0.0, 6.0, 0.0)),
-        position: DVec3::ZERO,
-        rotation: DQuat::from_rotation_z(-0.2),
-        period: 0.1,
-        max_spheres: Some(8),
-    })?;
+    let drop = Sphere::new(DVec3::ZERO, 0.05).with_velocity(DVec3::new(0.0, 6.0, 0.0));
+    let tilted = Emitter::new(drop, 0.1).with_rotation(DQuat::from_rotation_z(-0.2));
+    world.add_emitter(tilted.with_max_spheres(8))?;
     for _ in 0..60 {
         let report = world.step(0.02)?;
         let names = |ids: &[carom::SphereId]| {

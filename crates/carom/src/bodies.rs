@@ -17,8 +17,16 @@ pub enum Mass {
     Density(f64),
 }
 
+impl From<f64> for Mass {
+    /// This many kilograms.
+    fn from(kilograms: f64) -> Self {
+        Self::Kilograms(kilograms)
+    }
+}
+
 /// One sphere, as it is added to a world and read from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Sphere {
     /// Centre \[m\].
     pub position: DVec3,
@@ -44,14 +52,24 @@ impl Sphere {
         }
     }
 
+    /// The same sphere with its centre at this place \[m\].
+    pub fn with_position(self, position: DVec3) -> Self {
+        Self { position, ..self }
+    }
+
+    /// The same sphere with this radius \[m\].
+    pub fn with_radius(self, radius: f64) -> Self {
+        Self { radius, ..self }
+    }
+
     /// The same sphere with this velocity \[m/s\].
     pub fn with_velocity(self, velocity: DVec3) -> Self {
         Self { velocity, ..self }
     }
 
-    /// The same sphere with this mass \[kg\].
-    pub fn with_mass(self, kilograms: f64) -> Self {
-        Self { mass: Mass::Kilograms(kilograms), ..self }
+    /// The same sphere with this mass: a number \[kg\], or a [`Mass`].
+    pub fn with_mass(self, mass: impl Into<Mass>) -> Self {
+        Self { mass: mass.into(), ..self }
     }
 
     /// The same sphere with the mass of this density \[kg/m³\].

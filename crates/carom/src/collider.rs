@@ -74,6 +74,7 @@ impl Pose {
 
 /// A shape somewhere in the world that never gives way, at rest or moved from outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Collider {
     /// Form in the local frame.
     pub shape: Shape,
@@ -100,6 +101,16 @@ impl Collider {
             restitution: 1.0,
             trigger: false,
         }
+    }
+
+    /// The same collider with another form.
+    pub fn with_shape(self, shape: Shape) -> Self {
+        Self { shape, ..self }
+    }
+
+    /// The same collider elsewhere.
+    pub fn with_pose(self, pose: Pose) -> Self {
+        Self { pose, ..self }
     }
 
     /// The same collider, moving: velocity \[m/s\] of its origin, angular velocity \[rad/s\]

@@ -22,6 +22,7 @@ const MAX_PER_FRAME: f64 = 1e6;
 /// When it emits depends on no sphere: one that is in the way is overlapped. A stream of spheres needs
 /// a period in which each leaves its place, and room below it for all of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Emitter {
     /// What is emitted, in the emitter's frame: `position` \[m\] is an offset from the emitter's
     /// origin, `velocity` \[m/s\] is turned into the world with it.
@@ -37,6 +38,37 @@ pub struct Emitter {
 }
 
 impl Emitter {
+    /// Emits this sphere at the origin of the world every `period` \[s\], without a limit.
+    pub fn new(sphere: Sphere, period: f64) -> Self {
+        let (position, rotation) = (DVec3::ZERO, DQuat::IDENTITY);
+        Self { sphere, position, rotation, period, max_spheres: None }
+    }
+
+    /// The same emitter with its origin at this place in the world \[m\].
+    pub fn with_position(self, position: DVec3) -> Self {
+        Self { position, ..self }
+    }
+
+    /// The same emitter with this rotation from its frame to the world.
+    pub fn with_rotation(self, rotation: DQuat) -> Self {
+        Self { rotation, ..self }
+    }
+
+    /// The same emitter with at most this many of its spheres alive; `None`: no limit.
+    pub fn with_max_spheres(self, max_spheres: impl Into<Option<u32>>) -> Self {
+        Self { max_spheres: max_spheres.into(), ..self }
+    }
+
+    /// The same emitter of other spheres.
+    pub fn with_sphere(self, sphere: Sphere) -> Self {
+        Self { sphere, ..self }
+    }
+
+    /// The same emitter with this time between two spheres \[s\].
+    pub fn with_period(self, period: f64) -> Self {
+        Self { period, ..self }
+    }
+
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         self.sphere.validate()?;
         validate::finite("position", self.position)?;

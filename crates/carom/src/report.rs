@@ -11,6 +11,7 @@ use crate::system::System;
 
 /// What happened in one step.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct StepReport {
     /// Impacts in order of time; at one time in the order in which they were answered.
     pub impacts: Vec<Impact>,
@@ -164,6 +165,7 @@ impl BodyPair {
 
 /// One impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Impact {
     /// Time since the start of the step \[s\].
     pub time: f64,

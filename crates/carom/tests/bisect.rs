@@ -109,9 +109,7 @@ fn collisions_of_different_pairs_in_one_frame_happen_at_their_own_times() {
         let mut world = world(rule);
         for (y, gap) in [(0.0, 0.25), (10.0, 0.75)] {
             let left = on_axis(0.0, 1.0);
-            world
-                .add_sphere(Sphere { position: left.position + vec(0.0, y, 0.0), ..left })
-                .unwrap();
+            world.add_sphere(left.with_position(left.position + vec(0.0, y, 0.0))).unwrap();
             world.add_sphere(Sphere::new(vec(1.0 + gap, y, 0.0), 0.5)).unwrap();
         }
         world.step(1.0).unwrap();

@@ -6,13 +6,8 @@ use carom::{DQuat, DVec3, Emitter, Sphere, World};
 use common::{assert_close_vec, discrete, vec, world};
 
 fn emitter(period: f64, max_spheres: Option<u32>) -> Emitter {
-    Emitter {
-        sphere: Sphere::new(DVec3::ZERO, 0.5),
-        position: vec(1.0, 2.0, 3.0),
-        rotation: DQuat::IDENTITY,
-        period,
-        max_spheres,
-    }
+    let emitter = Emitter::new(Sphere::new(DVec3::ZERO, 0.5), period);
+    emitter.with_position(vec(1.0, 2.0, 3.0)).with_max_spheres(max_spheres)
 }
 
 /// Steps the world and tells in which frames something was emitted.
@@ -58,7 +53,7 @@ fn offset_and_velocity_turn_with_the_emitter() {
     let sphere = Sphere::new(vec(0.0, 1.0, 0.0), 0.5).with_velocity(vec(2.0, 0.0, 0.0));
     // A quarter turn about z, given with length 2.
     let rotation = DQuat::from_xyzw(0.0, 0.0, 2f64.sqrt(), 2f64.sqrt());
-    world.add_emitter(Emitter { sphere, rotation, ..emitter(1.0, None) }).unwrap();
+    world.add_emitter(emitter(1.0, None).with_sphere(sphere).with_rotation(rotation)).unwrap();
     let id = world.step(0.5).unwrap().emitted[0];
     let emitted = world.sphere(id).unwrap();
     assert_close_vec(emitted.velocity, vec(0.0, 2.0, 0.0), 1e-15);

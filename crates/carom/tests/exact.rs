@@ -442,15 +442,9 @@ fn the_ledger_accounts_for_every_impact() {
 
 #[test]
 fn emitters_emit_within_a_frame_at_their_own_time() {
-    let emitter = Emitter {
-        sphere: Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(2.0, 0.0, 0.0)),
-        position: DVec3::ZERO,
-        rotation: DQuat::IDENTITY,
-        period: 0.3,
-        max_spheres: Some(3),
-    };
+    let sphere = Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(2.0, 0.0, 0.0));
     let mut world = under_gravity();
-    world.add_emitter(emitter).unwrap();
+    world.add_emitter(Emitter::new(sphere, 0.3).with_max_spheres(3)).unwrap();
     let report = world.step(1.0).unwrap();
     assert_eq!((report.emitted.len(), report.retired.len()), (4, 1));
     for (place, due) in world.spheres().positions().iter().zip([0.3, 0.6, 0.9]) {
@@ -505,14 +499,8 @@ fn a_force_of_its_own_acts_on_while_others_come() {
     world.add_force(Spring).unwrap();
     let ball = world.add_sphere(Sphere::new(DVec3::X, 0.1)).unwrap();
     let far = vec(0.0, 50.0, 0.0);
-    let emitter = Emitter {
-        sphere: Sphere::new(DVec3::ZERO, 0.1),
-        position: far,
-        rotation: DQuat::IDENTITY,
-        period: 0.003,
-        max_spheres: Some(1),
-    };
-    world.add_emitter(emitter).unwrap();
+    let emitter = Emitter::new(Sphere::new(DVec3::ZERO, 0.1), 0.003).with_position(far);
+    world.add_emitter(emitter.with_max_spheres(1)).unwrap();
     run(&mut world, 0.01, 100);
     // As without the emitter, to the error of the scheme: third order in each piece of a frame.
     let position = world.sphere(ball).unwrap().position;

@@ -43,13 +43,10 @@ fn collider() -> impl Strategy<Value = Collider> {
             .prop_map(|(x, y, z)| Shape::Box { size: DVec3::new(x, y, z) }),
     ];
     (shape, vector(5.0), rotation(), 0.0..=1.0, any::<bool>()).prop_map(
-        |(shape, position, rotation, restitution, trigger)| Collider {
-            shape,
-            pose: Pose { position, rotation },
-            velocity: DVec3::ZERO,
-            angular_velocity: DVec3::ZERO,
-            restitution,
-            trigger,
+        |(shape, position, rotation, restitution, trigger)| {
+            let pose = Pose::at(position).rotated(rotation);
+            let solid = Collider::new(shape, pose).with_restitution(restitution);
+            if trigger { solid.as_trigger() } else { solid }
         },
     )
 }
@@ -92,12 +89,11 @@ fn settings() -> impl Strategy<Value = Settings> {
 
 fn emitter() -> impl Strategy<Value = Emitter> {
     (sphere(), vector(5.0), rotation(), 0.01..1.0, prop::option::of(1..5u32)).prop_map(
-        |(sphere, position, rotation, period, max_spheres)| Emitter {
-            sphere,
-            position,
-            rotation,
-            period,
-            max_spheres,
+        |(sphere, position, rotation, period, max_spheres)| {
+            Emitter::new(sphere, period)
+                .with_position(position)
+                .with_rotation(rotation)
+                .with_max_spheres(max_spheres)
         },
     )
 }
@@ -175,17 +171,17 @@ proptest! {
     ) {
         let turned = DQuat::from_xyzw(place.x, place.y, place.z, 0.5);
         let spheres = [
-            ("position", Sphere { position: place, ..sphere }),
-            ("velocity", Sphere { velocity: place, ..sphere }),
-            ("radius", Sphere { radius: number, ..sphere }),
+            ("position", sphere.with_position(place)),
+            ("velocity", sphere.with_velocity(place)),
+            ("radius", sphere.with_radius(number)),
             ("mass", sphere.with_mass(number)),
             ("density", sphere.with_density(number)),
             ("restitution", sphere.with_restitution(number)),
         ];
-        let of_shape = |shape| Collider { shape, ..collider };
+        let of_shape = |shape| collider.with_shape(shape);
         let colliders = [
-            ("position", Collider { pose: Pose { position: place, ..collider.pose }, ..collider }),
-            ("rotation", Collider { pose: collider.pose.rotated(turned), ..collider }),
+            ("position", collider.with_pose(Pose { position: place, ..collider.pose })),
+            ("rotation", collider.with_pose(collider.pose.rotated(turned))),
             ("restitution", collider.with_restitution(number)),
             ("radius", of_shape(Shape::Sphere { radius: number })),
             ("size_x", of_shape(Shape::Rectangle { size_x: number, size_z: 1.0 })),
@@ -195,11 +191,11 @@ proptest! {
             ("size.z", of_shape(Shape::Box { size: DVec3::new(1.0, 1.0, number) })),
         ];
         let mut emitters = vec![
-            ("position", Emitter { position: place, ..emitter }),
-            ("rotation", Emitter { rotation: turned, ..emitter }),
-            ("period", Emitter { period: number, ..emitter }),
+            ("position", emitter.with_position(place)),
+            ("rotation", emitter.with_rotation(turned)),
+            ("period", emitter.with_period(number)),
         ];
-        emitters.extend(spheres.map(|(field, sphere)| (field, Emitter { sphere, ..emitter })));
+        emitters.extend(spheres.map(|(field, sphere)| (field, emitter.with_sphere(sphere))));
 
         let mut world = World::default();
         let before = world.state_hash();

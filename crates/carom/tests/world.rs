@@ -25,13 +25,9 @@ fn busy_world(rule: Rule) -> World {
         let sphere = sphere.with_velocity(numbers.vector()).with_density(900.0);
         world.add_sphere(sphere.with_restitution(0.9)).unwrap();
     }
-    let emitter = Emitter {
-        sphere: Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(0.0, -3.0, 0.0)),
-        position: vec(0.3, 8.0, 0.2),
-        rotation: tilt,
-        period: 0.11,
-        max_spheres: Some(5),
-    };
+    let sphere = Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(0.0, -3.0, 0.0));
+    let emitter = Emitter::new(sphere, 0.11).with_position(vec(0.3, 8.0, 0.2));
+    let emitter = emitter.with_rotation(tilt).with_max_spheres(5);
     world.add_emitter(emitter).unwrap();
     world
 }
@@ -100,7 +96,7 @@ fn one_changed_bit_changes_the_hash() {
     let id = world.spheres().ids()[7];
     let sphere = world.sphere(id).unwrap();
     let position = vec(sphere.position.x.next_up(), sphere.position.y, sphere.position.z);
-    world.set_sphere(id, Sphere { position, ..sphere }).unwrap();
+    world.set_sphere(id, sphere.with_position(position)).unwrap();
     assert_ne!(world.state_hash(), before);
     world.set_sphere(id, sphere).unwrap();
     assert_eq!(world.state_hash(), before);
@@ -174,16 +170,16 @@ fn every_field_of_a_sphere_is_checked_and_named() {
     let good = Sphere::new(DVec3::ZERO, 1.0);
     let bad = [f64::NAN, f64::INFINITY, -1.0, 0.0];
     let mut cases: Vec<(&str, Sphere)> = vec![
-        ("position", Sphere { position: vec(0.0, f64::NAN, 0.0), ..good }),
+        ("position", good.with_position(vec(0.0, f64::NAN, 0.0))),
         ("velocity", good.with_velocity(vec(f64::INFINITY, 0.0, 0.0))),
         ("restitution", good.with_restitution(1.1)),
         ("restitution", good.with_restitution(-0.1)),
         ("restitution", good.with_restitution(f64::NAN)),
         // The volume of so small a sphere is zero.
-        ("density times volume", Sphere { radius: 1e-200, ..good }.with_density(1.0)),
+        ("density times volume", good.with_radius(1e-200).with_density(1.0)),
     ];
     for value in bad {
-        cases.push(("radius", Sphere { radius: value, ..good }));
+        cases.push(("radius", good.with_radius(value)));
         cases.push(("mass", good.with_mass(value)));
         cases.push(("density", good.with_density(value)));
     }
@@ -215,8 +211,8 @@ fn every_field_of_colliders_forces_emitters_and_settings_is_checked_and_named() 
         ("size_x", rectangle(-1.0, 1.0)),
         ("size_z", rectangle(1.0, f64::NAN)),
         ("size.y", collider(Shape::Box { size: vec(1.0, 0.0, 1.0) })),
-        ("position", Collider { pose: Pose::at(vec(0.0, 0.0, f64::NAN)), ..plane }),
-        ("rotation", Collider { pose: zero_rotation, ..plane }),
+        ("position", plane.with_pose(Pose::at(vec(0.0, 0.0, f64::NAN)))),
+        ("rotation", plane.with_pose(zero_rotation)),
         ("restitution", plane.with_restitution(2.0)),
     ];
     for (field, collider) in colliders {
@@ -230,19 +226,13 @@ fn every_field_of_colliders_forces_emitters_and_settings_is_checked_and_named() 
     let text = world.add_force(Gravity::new(DVec3::NAN)).unwrap_err().to_string();
     assert!(text.contains("`acceleration`"), "{text}");
 
-    let good = Emitter {
-        sphere: Sphere::new(DVec3::ZERO, 1.0),
-        position: DVec3::ZERO,
-        rotation: DQuat::IDENTITY,
-        period: 1.0,
-        max_spheres: None,
-    };
+    let good = Emitter::new(Sphere::new(DVec3::ZERO, 1.0), 1.0);
     let emitters = [
-        ("radius", Emitter { sphere: Sphere::new(DVec3::ZERO, -1.0), ..good }),
-        ("position", Emitter { position: DVec3::NAN, ..good }),
-        ("rotation", Emitter { rotation: DQuat::from_xyzw(0.0, f64::NAN, 0.0, 0.0), ..good }),
-        ("period", Emitter { period: 0.0, ..good }),
-        ("max_spheres", Emitter { max_spheres: Some(0), ..good }),
+        ("radius", good.with_sphere(Sphere::new(DVec3::ZERO, -1.0))),
+        ("position", good.with_position(DVec3::NAN)),
+        ("rotation", good.with_rotation(DQuat::from_xyzw(0.0, f64::NAN, 0.0, 0.0))),
+        ("period", good.with_period(0.0)),
+        ("max_spheres", good.with_max_spheres(Some(0))),
     ];
     for (field, emitter) in emitters {
         let text = world.add_emitter(emitter).unwrap_err().to_string();
@@ -309,7 +299,7 @@ fn forces_colliders_and_emitters_can_be_looked_at_changed_and_removed() {
 
     let (id, emitter) = world.emitters().next().map(|(id, emitter)| (id, *emitter)).unwrap();
     world.step(0.01).unwrap();
-    world.set_emitter(id, Emitter { period: 1e9, ..emitter }).unwrap();
+    world.set_emitter(id, emitter.with_period(1e9)).unwrap();
     assert_eq!(world.step(0.01).unwrap().emitted.len(), 1);
     assert_eq!(world.step(1.0).unwrap().emitted.len(), 0);
     assert_eq!(world.remove_emitter(id).unwrap().period, 1e9);

@@ -228,9 +228,7 @@ fn side_of(sides: Sides, side: f64) -> Collider {
     let half_space = half_space(place, -side * DVec3::X);
     match sides {
         Sides::HalfSpaces => half_space,
-        Sides::Rectangles => {
-            Collider { shape: Shape::Rectangle { size_x: 1.0, size_z: 1.0 }, ..half_space }
-        }
+        Sides::Rectangles => half_space.with_shape(Shape::Rectangle { size_x: 1.0, size_z: 1.0 }),
         Sides::FixedSpheres => {
             let pose = Pose::at(place + side * DVec3::X);
             Collider::new(Shape::Sphere { radius: 1.0 }, pose)

@@ -216,16 +216,14 @@ impl From<&carom::Sphere> for Sphere {
 
 impl From<Sphere> for carom::Sphere {
     fn from(sphere: Sphere) -> Self {
-        Self {
-            position: DVec3::from_array(sphere.position),
-            velocity: DVec3::from_array(sphere.velocity),
-            radius: sphere.radius,
-            mass: match sphere.mass {
-                WrittenMass::Kilograms(mass) => Mass::Kilograms(mass),
-                WrittenMass::Density(density) => Mass::Density(density),
-            },
-            restitution: sphere.restitution,
-        }
+        let mass = match sphere.mass {
+            WrittenMass::Kilograms(mass) => Mass::Kilograms(mass),
+            WrittenMass::Density(density) => Mass::Density(density),
+        };
+        Self::new(DVec3::from_array(sphere.position), sphere.radius)
+            .with_velocity(DVec3::from_array(sphere.velocity))
+            .with_mass(mass)
+            .with_restitution(sphere.restitution)
     }
 }
 
@@ -243,12 +241,9 @@ impl From<&carom::Emitter> for Emitter {
 
 impl From<Emitter> for carom::Emitter {
     fn from(emitter: Emitter) -> Self {
-        Self {
-            position: DVec3::from_array(emitter.position),
-            rotation: DQuat::from_array(emitter.rotation),
-            period: emitter.period,
-            max_spheres: emitter.max_spheres,
-            sphere: emitter.sphere.into(),
-        }
+        Self::new(emitter.sphere.into(), emitter.period)
+            .with_position(DVec3::from_array(emitter.position))
+            .with_rotation(DQuat::from_array(emitter.rotation))
+            .with_max_spheres(emitter.max_spheres)
     }
 }

@@ -104,7 +104,7 @@ fn emitters_emit_what_they_were_changed_to() {
     hashes(&mut session, 30);
     let (id, emitter) = session.world().emitters().next().map(|it| (it.0, *it.1)).unwrap();
     let sphere = emitter.sphere.with_mass(3.0);
-    let changed = carom::Emitter { sphere, period: 0.5, max_spheres: None, ..emitter };
+    let changed = emitter.with_sphere(sphere).with_period(0.5).with_max_spheres(None);
     session.edit(Edit::Emitter(id, Box::new(changed))).unwrap();
     let said = &session.scene_now().emitters[0];
     assert_eq!((said.period, said.max_spheres, said.sphere.mass), (0.5, None, Some(3.0)));
@@ -113,7 +113,7 @@ fn emitters_emit_what_they_were_changed_to() {
     let view = view(&session);
     let newest = view.spheres.masses.iter().position(|mass| *mass == 3.0).unwrap();
     assert_eq!(view.spheres.colors[newest], GREEN);
-    let bad = carom::Emitter { period: -1.0, ..changed };
+    let bad = changed.with_period(-1.0);
     assert!(session.edit(Edit::Emitter(id, Box::new(bad))).is_err());
 }
 

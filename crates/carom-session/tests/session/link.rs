@@ -131,13 +131,10 @@ fn edits() -> Vec<Edit> {
     let [a, b, c, d, e, f] = AWKWARD;
     let (vector, array) = (DVec3::new(a, b, c), [d, e, f]);
     let sphere = Sphere::new(vector, f).with_velocity(DVec3::from_array(array));
-    let emitter = carom::Emitter {
-        sphere: sphere.with_density(b),
-        position: vector,
-        rotation: DQuat::from_xyzw(a, b, c, d),
-        period: a,
-        max_spheres: Some(u32::MAX),
-    };
+    let emitter = carom::Emitter::new(sphere.with_density(b), a)
+        .with_position(vector)
+        .with_rotation(DQuat::from_xyzw(a, b, c, d))
+        .with_max_spheres(u32::MAX);
     let boundary = Boundary::Periodic { size: [f64::INFINITY, b, d] };
     let simulation = Simulation { frame_time: b, boundary, ..Simulation::default() };
     let all = SphereChange {
@@ -159,7 +156,7 @@ fn edits() -> Vec<Edit> {
         Edit::Emitter(EmitterId::from_number(1), Box::new(emitter)),
         Edit::Emitter(
             EmitterId::from_number(0),
-            Box::new(carom::Emitter { max_spheres: None, sphere, ..emitter }),
+            Box::new(emitter.with_max_spheres(None).with_sphere(sphere)),
         ),
         Edit::Sphere(SphereId::from_number(u64::MAX / 2), all),
         Edit::Sphere(SphereId::from_number(0), SphereChange::default()),

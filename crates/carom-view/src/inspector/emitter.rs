@@ -58,17 +58,12 @@ fn emitter(described: &scene::Emitter) -> Emitter {
         (None, Some(density)) => Mass::Density(density),
         (None, None) => Mass::Kilograms(1.0),
     };
-    Emitter {
-        sphere: Sphere {
-            position: DVec3::from_array(sphere.position),
-            velocity: DVec3::from_array(sphere.velocity),
-            radius,
-            mass,
-            restitution: sphere.restitution,
-        },
-        position: DVec3::from_array(described.position),
-        rotation: DQuat::from_array(described.rotation),
-        period: described.period,
-        max_spheres: described.max_spheres,
-    }
+    let emitted = Sphere::new(DVec3::from_array(sphere.position), radius)
+        .with_velocity(DVec3::from_array(sphere.velocity))
+        .with_mass(mass)
+        .with_restitution(sphere.restitution);
+    Emitter::new(emitted, described.period)
+        .with_position(DVec3::from_array(described.position))
+        .with_rotation(DQuat::from_array(described.rotation))
+        .with_max_spheres(described.max_spheres)
 }

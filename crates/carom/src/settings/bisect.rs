@@ -4,6 +4,7 @@ use crate::validate;
 
 /// Parameters of the rule `bisect`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Bisect {
     /// The scheme that moves spheres over a frame, and over the pieces into which contacts cut it.
     pub integrator: Integrator,

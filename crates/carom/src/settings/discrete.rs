@@ -2,6 +2,7 @@ use super::Integrator;
 
 /// Parameters of the rule `discrete`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Discrete {
     /// The scheme that moves spheres over a frame.
     pub integrator: Integrator,

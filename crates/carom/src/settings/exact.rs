@@ -4,6 +4,7 @@ use crate::validate;
 
 /// Parameters of the rule `exact`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Exact {
     /// How impacts at one instant in one group of touching bodies are answered.
     pub impact_law: ImpactLaw,

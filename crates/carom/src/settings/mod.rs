@@ -27,6 +27,7 @@ use crate::validate;
 /// What only one rule reads is a parameter of that [`Rule`]; what is here describes the world itself, or
 /// counts under every rule.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// The step rule, with its parameters.
     pub rule: Rule,
