@@ -41,6 +41,7 @@ mod lanes;
 mod norm;
 mod numbered;
 mod parallel;
+mod persistent_contact;
 mod real;
 mod report;
 pub mod respond;
@@ -65,6 +66,7 @@ pub use flight::Flight;
 pub use forces::{ConstantForce, Force, Gravity, LinearForce, SphereState, ViscousDrag};
 pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId};
+pub use persistent_contact::PersistentContact;
 pub use report::{
     BodyPair, Impact, ImpactGroup, LedgerEntry, Overlap, StageCounts, StepReport, TriggerContact,
 };

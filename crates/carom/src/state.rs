@@ -13,7 +13,8 @@ use crate::error::{Error, Subject};
 use crate::forces::Force;
 use crate::id::EmitterId;
 use crate::numbered::Numbered;
-use crate::rule::exact::Timeline;
+use crate::persistent_contact::PersistentContact;
+use crate::rule::exact::{self, Timeline};
 use crate::settings::Settings;
 use crate::system::System;
 
@@ -48,6 +49,13 @@ impl State {
         let properties = &self.spheres.properties;
         let system = System::new(&self.settings, &self.forces, &self.colliders, properties);
         Instant { system, motion: &self.spheres.motion, time }
+    }
+
+    /// The contacts that persist, as far as flights are known.
+    pub fn persistent_contacts(&self) -> Vec<PersistentContact> {
+        let Instant { system, time, .. } = self.now();
+        let list = |timeline| exact::persistent_contacts(timeline, &system, time);
+        self.timeline.as_ref().map(list).unwrap_or_default()
     }
 
     /// The state, to be changed from outside: nothing that was predicted holds any more.

@@ -13,10 +13,11 @@ use crate::forces::Force;
 use crate::hash::{self, StateHash};
 use crate::id::{ColliderId, EmitterId, ForceId, SphereId};
 use crate::invariants;
+use crate::persistent_contact::PersistentContact;
 use crate::report::{Overlap, StepReport};
 use crate::settings::Settings;
 use crate::state::State;
-use crate::step::{self, Scratch};
+use crate::step::{self, Scratch, Until};
 use crate::validate;
 use crate::work::StopRequest;
 
@@ -72,8 +73,63 @@ impl World {
     /// ([`Self::set_stop_request`]). The state before the step is kept.
     pub fn step(&mut self, dt: f64) -> Result<&StepReport, Error> {
         let Self { state, report, scratch, stop_request } = self;
-        step::step(state, dt, stop_request.as_ref(), scratch, report)?;
+        step::step(state, dt, stop_request.as_ref(), scratch, report, Until::End)?;
         Ok(report)
+    }
+
+    /// Advances the world to its next impact, and answers it with all others at that instant; by
+    /// `within` \[s\] if none comes before. Only under the rule `exact`.
+    ///
+    /// ```
+    /// use carom::{Collider, DVec3, Gravity, Pose, Settings, Shape, Sphere, World};
+    ///
+    /// let mut world = World::new(Settings::default())?;
+    /// world.add_force(Gravity::new(DVec3::new(0.0, -8.0, 0.0)))?;
+    /// world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)))?;
+    /// world.add_sphere(Sphere::new(DVec3::new(0.0, 2.0, 0.0), 1.0))?;
+    /// assert_eq!(world.next_event_time(10.0)?, Some(0.5));
+    /// assert_eq!(world.step_to_next_event(10.0)?.impacts.len(), 1);
+    /// assert_eq!(world.time(), 0.5);
+    /// # Ok::<(), carom::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] under another rule; else those of [`Self::step`].
+    pub fn step_to_next_event(&mut self, within: f64) -> Result<&StepReport, Error> {
+        let Self { state, report, scratch, stop_request } = self;
+        let stop_request = stop_request.as_ref();
+        step::step(state, within, stop_request, scratch, report, Until::NextImpact)?;
+        Ok(report)
+    }
+
+    /// The time of the next impact \[s\], if one comes within so many seconds. Only under the rule
+    /// `exact`; costs as much as a copy of the world and the step to that impact.
+    ///
+    /// # Errors
+    /// Those of [`Self::step_to_next_event`].
+    pub fn next_event_time(&self, within: f64) -> Result<Option<f64>, Error> {
+        let mut copy = self.clone();
+        let has_impact = !copy.step_to_next_event(within)?.impacts.is_empty();
+        Ok(has_impact.then(|| copy.time()))
+    }
+
+    /// The contacts that persist, with their forces, in the order of the ids of spheres, pairs of
+    /// spheres first: what a ball that lies on the floor is in. Known under the rule `exact` after a
+    /// step; none where something was changed since, or under other rules.
+    ///
+    /// ```
+    /// use carom::{Collider, DVec3, Gravity, Pose, Settings, Shape, Sphere, World};
+    ///
+    /// let mut world = World::new(Settings::default())?;
+    /// world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
+    /// world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)))?;
+    /// world.add_sphere(Sphere::new(DVec3::new(0.0, 1.0, 0.0), 1.0).with_mass(2.0))?;
+    /// world.step(1.0)?;
+    /// assert!((world.contacts()[0].normal_force - 2.0 * 9.81).abs() < 1e-12);
+    /// # Ok::<(), carom::Error>(())
+    /// ```
+    pub fn contacts(&self) -> Vec<PersistentContact> {
+        self.state.persistent_contacts()
     }
 
     /// Has steps end early once a request is made; `None` takes the request back. Under the rule

@@ -2,22 +2,26 @@
 //! emitted at its own time.
 
 use super::Step;
+use crate::clock::Clock;
 use crate::detect::contacts;
 use crate::emitter;
 use crate::error::{Error, Subject};
 use crate::report::TriggerContact;
-use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished};
+use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Until};
 use crate::settings::Exact;
 use crate::state::State;
 use crate::validate;
 
 /// Takes a step from event to event. If that fails, no sphere was moved.
-pub(super) fn step(mut step: Step, parameters: Exact) -> Result<(), Error> {
+pub(super) fn step(mut step: Step, parameters: Exact, until: Until) -> Result<(), Error> {
     let end = step.end.seconds();
     step.state.check_emitters(end)?;
     step.take(|step| {
         let mut timeline = begin(step, parameters, end)?;
-        advance(step, &mut timeline, end)?;
+        let end = advance(step, &mut timeline, end, until)?;
+        if end < step.end.seconds() {
+            (step.length, step.end) = (end - step.start, Clock::at(end));
+        }
         place_spheres(step, &timeline, end)?;
         step.state.timeline = Some(timeline);
         Ok(())
@@ -45,18 +49,20 @@ fn begin(step: &mut Step, parameters: Exact, end: f64) -> Result<Timeline, Error
     Ok(timeline)
 }
 
-/// Takes flights and emissions to `end` \[s\].
-fn advance(step: &mut Step, timeline: &mut Timeline, end: f64) -> Result<(), Error> {
+/// Takes flights and emissions to `end` \[s\], or to the next impact; gives the time that they come to
+/// \[s\].
+fn advance(step: &mut Step, timeline: &mut Timeline, end: f64, until: Until) -> Result<f64, Error> {
     let (start, length) = (step.start, step.length);
     emit(step, timeline, start);
     loop {
         let due = emitter::next_due(&step.state.emitters);
         let span = Span { start, length, end: due.min(end) };
         let (system, _) = step.state.split();
-        exact::advance(&system, timeline, span, &step.work, step.report)
+        let came_to = exact::advance(&system, timeline, span, &step.work, step.report, until)
             .map_err(|unfinished| refusal(unfinished, start))?;
-        if due >= end {
-            return Ok(());
+        let is_over = until == Until::NextImpact && !step.report.impacts.is_empty();
+        if due >= end || is_over {
+            return Ok(came_to);
         }
         emit(step, timeline, due);
     }

@@ -11,6 +11,7 @@ use crate::emitter::{self, Emission, EmitterState};
 use crate::error::{Error, Subject};
 use crate::numbered::Numbered;
 use crate::report::StepReport;
+pub(crate) use crate::rule::exact::Until;
 use crate::rule::{self, bisect, discrete};
 use crate::settings::Rule;
 use crate::state::State;
@@ -42,7 +43,8 @@ struct Step<'a> {
     before_emission: Option<BeforeEmission>,
 }
 
-/// Advances a world by `dt` \[s\] by the rule of its settings, and writes the report.
+/// Advances a world by `dt` \[s\], or until something happens in it, by the rule of its settings, and
+/// writes the report.
 ///
 /// # Errors
 /// Those of [`World::step`](crate::World::step). The state before the step is kept.
@@ -52,6 +54,7 @@ pub(crate) fn step(
     stop_request: Option<&StopRequest>,
     scratch: &mut Scratch,
     report: &mut StepReport,
+    until: Until,
 ) -> Result<(), Error> {
     validate::positive("dt", dt).map_err(|invalid| invalid.about(Subject::Step))?;
     report.clear();
@@ -66,6 +69,10 @@ pub(crate) fn step(
     }
     let work = Work::new(stop_request);
     let (rule, length, before_emission) = (state.settings.rule, dt, None);
+    let knows_events = until == Until::End || matches!(rule, Rule::Exact(_));
+    let requirement = "`exact` to know of events";
+    validate::require(knows_events, "rule", requirement, "one that knows nothing but frames")
+        .map_err(|invalid| invalid.about(Subject::Settings))?;
     let step = Step { state, scratch, report, work, start, length, end, before_emission };
     match rule {
         Rule::Discrete(parameters) => {
@@ -78,7 +85,7 @@ pub(crate) fn step(
                 bisect::step(system, parameters, motion, frame, memory, report);
             })
         }
-        Rule::Exact(parameters) => by_event::step(step, parameters),
+        Rule::Exact(parameters) => by_event::step(step, parameters, until),
     }
 }
 

@@ -8,13 +8,14 @@ use super::events::{Prediction, Schedule};
 use super::flights::{self, Body, Flights};
 use super::neighbours::{Contents, Neighbours};
 use super::pair_times::PairSearch;
-use super::persistent::{held_forces, piece_end};
+use super::persistent::{self, held_forces, piece_end};
 use super::predict;
 use super::span::Span;
 use super::timeline::Timeline;
 use crate::bodies::Motion;
 use crate::id::SphereId;
 use crate::parallel;
+use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
 use crate::settings::Exact;
 use crate::surface::Role;
@@ -130,6 +131,18 @@ pub(crate) fn end(
     let context = StepContext::new(system, timeline.parameters, span, work, report);
     piece_end::write_motion(timeline, &context, motion, span.end);
     Ok(())
+}
+
+/// The contacts that persist now, at `time` \[s\], when surfaces are where the system says.
+pub(crate) fn persistent_contacts(
+    timeline: &Timeline,
+    system: &System,
+    time: f64,
+) -> Vec<PersistentContact> {
+    let (report, work) = (&mut StepReport::default(), &Work::unlimited());
+    let now = Span { start: time, length: 0.0, end: time };
+    let context = StepContext::new(system, timeline.parameters, now, work, report);
+    persistent::list(timeline, &context, time)
 }
 
 /// Puts the spheres in the order of their places, and finds their neighbours as of `time` \[s\]. What

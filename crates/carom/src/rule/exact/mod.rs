@@ -24,7 +24,7 @@ mod prefetch;
 mod span;
 mod timeline;
 
-pub(crate) use frame::{Arrivals, adopt, begin, end, start};
+pub(crate) use frame::{Arrivals, adopt, begin, end, persistent_contacts, start};
 pub(crate) use neighbours::MAX_SPHERES;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
@@ -59,17 +59,28 @@ pub(crate) enum Unfinished {
     Stopped,
 }
 
-/// Advances all spheres to the end of a span (`docs/physics.md`, rule `exact`).
+/// How far spheres are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Until {
+    /// To the end of a span.
+    End,
+    /// To the next impact, with all others at that instant, or to the end.
+    NextImpact,
+}
+
+/// Advances all spheres over a span, and gives the time that they come to \[s\] (`docs/physics.md`, rule `exact`).
 pub(crate) fn advance(
     system: &System,
     timeline: &mut Timeline,
     span: Span,
     work: &Work,
     report: &mut StepReport,
-) -> Result<(), Unfinished> {
+    until: Until,
+) -> Result<f64, Unfinished> {
     let mut context = StepContext::new(system, timeline.parameters, span, work, report);
     let before = WorkSoFar::of(timeline, work);
-    while let Some((slot, next)) = timeline.next(span.end) {
+    let mut end = span.end;
+    while let Some((slot, next)) = timeline.next(end) {
         prefetch::upcoming_events(timeline, system);
         if !work.spend(UNITS_PER_FLIGHT) {
             return Err(Unfinished::Stopped);
@@ -100,11 +111,14 @@ pub(crate) fn advance(
             return Err(Unfinished::Stopped);
         }
         check_work(timeline, &context, slot, event.time)?;
+        if until == Until::NextImpact && !context.report.impacts.is_empty() {
+            end = event.time.min(end);
+        }
     }
     let counts = before.counts_since(timeline, &context);
     context.report.work += take(&mut timeline.work.unreported);
     context.report.work += counts;
-    Ok(())
+    Ok(end)
 }
 
 /// Work before a part of a frame.

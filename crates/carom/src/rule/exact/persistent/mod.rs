@@ -3,6 +3,7 @@
 mod accelerations;
 mod correction;
 pub(super) mod held_forces;
+mod listing;
 mod piece;
 pub(super) mod piece_end;
 pub(super) mod planar;
@@ -10,4 +11,5 @@ mod sliding;
 pub(super) mod solve;
 
 pub(super) use accelerations::free_acceleration;
+pub(super) use listing::list;
 pub(super) use solve::{REST, is_back_within};
