@@ -75,3 +75,8 @@ pub use settings::{
 };
 pub use work::StopRequest;
 pub use world::{Snapshot, World};
+
+/// The programs of the README, compiled and run as documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
