@@ -12,7 +12,7 @@ use crate::setup::Setup;
 const SAME_DENSITY: f64 = 1e-12;
 
 /// Tolerance of the frame rules for what is due at the start of a frame \[s\]
-/// (`docs/physics.md`, stage 1).
+/// (`docs/physics/motion.md`, "Emission").
 const DUE_TOLERANCE: f64 = 1e-9;
 
 /// Which spheres have which colour of their own.

@@ -11,7 +11,8 @@ use crate::numbered::Numbered;
 use crate::validate;
 
 /// A sphere is due when its time is at most this much after the start of a frame \[s\], so that
-/// rounding in sums of frame times cannot delay it by a frame (`docs/physics.md`, stage 1).
+/// rounding in sums of frame times cannot delay it by a frame
+/// (`docs/physics/motion.md`, "Emission").
 pub(crate) const DUE_TOLERANCE: f64 = 1e-9;
 
 /// More spheres than this in one frame are a mistake in `period`, not a wish.

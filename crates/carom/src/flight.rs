@@ -14,7 +14,7 @@ use crate::real::{Real, Vector};
 /// ```
 ///
 /// f1 -> 1 and f2 -> 1/2 as γ -> 0, where this is the parabola, to the last digit. The terminal
-/// velocity is a/γ. Derived in `docs/physics.md`, "Free flight".
+/// velocity is a/γ. Derived in `docs/physics/motion.md`, "Free flight".
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flight {
     /// Centre at time 0, x0 \[m\].

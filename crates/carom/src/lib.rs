@@ -18,7 +18,7 @@
 //!
 //! Right-handed frame, y up, SI units, double precision. The same input gives the same bits on
 //! every platform: only `+ - * /`, `sqrt` and the `libm` crate are used, in a fixed order
-//! ([`World::state_hash`]). The formulas and their sources are in `docs/physics.md`.
+//! ([`World::state_hash`]). The formulas and their sources are in `docs/physics/`.
 
 #![warn(clippy::unwrap_used)]
 

@@ -23,7 +23,7 @@ class MazeArguments(TypedDict, total=False):
             path of a file with one.
         maze_seed: Of a random maze, 0.
         maze_size: Columns and rows of a random maze, (5, 4).
-        rule: ``"exact"`` (default), or ``"discrete"``, which is faster: `docs/physics.md`.
+        rule: ``"exact"`` (default), or ``"discrete"``, which is faster: `docs/physics/`.
         frame_time: Length of a frame, 0.02 [s].
         frames_per_step: Frames in a step, 1: for so long an action holds.
         max_tilt_degrees: Steepest tilt, 20 [°], at most 45.

@@ -23,7 +23,8 @@ pub struct Bisection {
 /// Time of the first contact in `(0, h]`, given that the bodies intersect at `h`.
 ///
 /// Halves the interval at most `max_halvings` (n) times; the error is at most `h / 2^n`.
-/// Source: the tutorial's `GetTimeOfIntersection`; `docs/physics.md`, "Time of contact".
+/// Source: the tutorial's `GetTimeOfIntersection`; `docs/physics/bisect-and-discrete.md`, "Time of
+/// contact".
 ///
 /// - `h` \[s\], > 0; `max_halvings` >= 1
 /// - `probe` tells what is there at a time \[s\] in `(0, h)`

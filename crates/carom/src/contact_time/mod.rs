@@ -12,7 +12,7 @@
 //! return or, should they turn before they are apart, where they turn. "Zero" is within the
 //! rounding of the numbers that d and its derivatives are made of (`roundoff`).
 //!
-//! The formulas, and why nothing is missed, are in `docs/physics.md`, "Contact times".
+//! The formulas, and why nothing is missed, are in `docs/physics/contact-times.md`.
 
 mod bisection;
 #[cfg(test)]

@@ -47,7 +47,7 @@ const MAX_HALVINGS: u32 = 128;
 /// (Mirtich, *Impulse-based Dynamic Simulation* (1996), 2.3, with a bound of second order). It
 /// converges quadratically to contacts with d' < 0, and by halves to grazing ones. Where the
 /// bodies part, the step ends where the bound returns to zero or, of an overlap, where d' may.
-/// Derived in `docs/physics.md`, "Contact times".
+/// Derived in `docs/physics/contact-times.md`, "The search".
 ///
 /// A step is at least as long as the bound takes to fall by the distance from the obstacle: far
 /// away that is at least `√(2 CLOSE L/A)`, L the size of the coordinates. Steps that stay close

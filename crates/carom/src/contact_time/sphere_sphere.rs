@@ -77,7 +77,7 @@ impl<N: Real> Approach<N> {
 ///
 /// With the same drag rate γ and the same acceleration, the relative path is a straight line in
 /// the time `s = t f1(γt)`, so [`sphere_sphere_linear`] has the answer, without drag too. In
-/// other cases it is searched for; `docs/physics.md`, "Contact times", tells how.
+/// other cases it is searched for; `docs/physics/contact-times.md` describes how.
 ///
 /// - `radius_sum` \[m\], > 0; `horizon` \[s\], >= 0, may be infinite
 /// - returns \[s\] in `[0, horizon]`; `None` if there is no contact

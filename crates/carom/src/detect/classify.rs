@@ -11,7 +11,7 @@ pub enum ContactState {
     Intersecting,
 }
 
-/// The contact state of two bodies (`bisect` rule, `docs/physics.md`).
+/// The contact state of two bodies (`bisect` rule, `docs/physics/detection.md`).
 ///
 /// - `distance` \[m\] between their surfaces, negative where they overlap
 /// - `tolerance` \[m\]: a distance within plus or minus this is touching distance

@@ -6,7 +6,7 @@ use glam::DVec3;
 /// `j = -(1 + e) (v2 - v1)·n / (1/m1 + 1/m2)`, along the line of centres; tangential parts are
 /// unchanged. Momentum is conserved always, kinetic energy for `e = 1`, both to round-off.
 /// Source: conservation of momentum with Newton's law of restitution (Goldsmith, "Impact", 1960);
-/// derived in `docs/physics.md`, "Impact of two spheres".
+/// derived in `docs/physics/impacts.md`, "Impact of two spheres".
 ///
 /// - `velocities` \[m/s\], `masses` \[kg\] of spheres 1 and 2
 /// - `normal`: unit vector from 1 to 2; `restitution` e in \[0, 1\]

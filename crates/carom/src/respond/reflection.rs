@@ -3,7 +3,7 @@ use glam::DVec3;
 /// Change of the velocity along the normal \[m/s\] of a sphere that hits a fixed surface,
 /// `-(1 + e) v·n`; `None` if it is not closing.
 ///
-/// Source: the course's collision response; `docs/physics.md`, "Impact on a fixed surface".
+/// Source: the course's collision response; `docs/physics/impacts.md`, "Impact on a fixed surface".
 ///
 /// - `velocity` \[m/s\] of the sphere; `normal`: unit vector from the surface to the sphere
 /// - `restitution` e in \[0, 1\]

@@ -14,7 +14,7 @@ use crate::work::Work;
 ///
 /// No contact closes afterwards beyond [`GroupResponse::resolution`], momentum is kept to
 /// round-off, and energy falls by what the law asks for. The laws and their formulas are in
-/// `docs/physics.md`, "Impacts at one instant". A single contact gets the bits that
+/// `docs/physics/impacts.md`, "Impacts at one instant". A single contact gets the bits that
 /// [`line_of_centres`](super::line_of_centres()) or [`reflection`](super::reflection()) give it.
 ///
 /// With `Simultaneous` and `Reflection`, renumbering contacts or spheres, or mirroring everything

@@ -34,6 +34,6 @@ pub struct GroupResponse {
     /// the speeds in the group.
     pub resolution: f64,
     /// Whether the law came to no end of its own and was finished otherwise
-    /// (`docs/physics.md` says how, for each law).
+    /// (`docs/physics/impacts.md` says how, for each law).
     pub cut_short: bool,
 }

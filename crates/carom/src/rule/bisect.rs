@@ -51,7 +51,7 @@ pub(crate) struct Buffers {
     search: Search,
 }
 
-/// Advances all spheres by one frame (`docs/physics.md`, rule `bisect`).
+/// Advances all spheres by one frame (`docs/physics/bisect-and-discrete.md`).
 ///
 /// Spheres that intersect at the end of the frame form islands, and each island goes through the
 /// frame again by [`settle`]. Where an island then meets a sphere outside, the two join and go

@@ -18,7 +18,7 @@ use crate::system::System;
 /// most of them, so that it seldom has to look again.
 const ROOM: f64 = 1.0 / 16.0;
 
-/// Advances all spheres by one frame (`docs/physics.md`, rule `discrete`).
+/// Advances all spheres by one frame (`docs/physics/bisect-and-discrete.md`).
 pub(crate) fn step(
     system: &System,
     parameters: Discrete,

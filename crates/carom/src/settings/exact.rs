@@ -12,7 +12,7 @@ pub struct Exact {
     /// under the forces that press them together, stay in contact; and an impact of two spheres that
     /// both were hit within that time gives nothing back, unless it is elastic. So no sequence of ever
     /// shorter bounces stops the clock. A contact lasts longer where bounces of that length cannot be
-    /// resolved: `docs/physics.md`, "Contact duration".
+    /// resolved: `docs/physics/persistent-contacts.md`, "Contact duration".
     pub contact_duration: f64,
     /// Work of one sphere in a frame: its impacts, other events of its flight, and the work of the
     /// groups it is in, in units of an impact. More is refused as an error, so that a step ends within

@@ -3,7 +3,7 @@ use std::fmt::{self, Display};
 /// How the impacts of one instant are answered where several bodies touch.
 ///
 /// All of them keep momentum, never gain energy, only push, and leave no contact closing. For a
-/// single contact they are one and the same. `docs/physics.md`, "Impacts at one instant",
+/// single contact they are one and the same. `docs/physics/impacts.md`, "Impacts at one instant",
 /// compares them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
