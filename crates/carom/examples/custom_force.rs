@@ -1,6 +1,7 @@
 //! A force of one's own: a spring that pulls every sphere to the origin, with its potential
-//! energy, so that the world's total energy counts it. Such a force is held over a frame, from its
-//! middle: the energy sways a little and does not drift away.
+//! energy, so that the world's total energy counts it. The default rule, `exact`, has no closed form
+//! for such a force and holds it over a frame, with its value in the middle of the frame: the energy
+//! varies a little and does not drift away.
 
 use carom::{DVec3, Error, Force, Settings, Sphere, SphereState, World};
 

@@ -1,4 +1,6 @@
-//! An emitter that is tilted, and keeps eight spheres alive: who comes, who goes.
+//! An emitter that is tilted, and keeps eight spheres alive: which ids come, and which go. Under the
+//! rule `discrete` a sphere comes at the start of a frame; under `exact` it would come at its own
+//! time within the frame.
 
 use carom::{DQuat, DVec3, Discrete, Emitter, Error, Gravity, Settings, Sphere, World};
 

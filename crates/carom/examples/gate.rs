@@ -1,4 +1,5 @@
-//! A trigger: a gate that counts the spheres that go through it and deflects none.
+//! A trigger: a gate that counts the spheres that go through it and deflects none. A step reports
+//! the triggers that are touched when the frame ends, so a sphere must not pass within a frame.
 
 use std::collections::BTreeSet;
 

@@ -1,5 +1,5 @@
-//! Newton's cradle: two of five balls come in, two go out. Balls that touch are answered one
-//! after the other.
+//! Newton's cradle: two of five balls come in, two go out. The three balls that touch and the two
+//! that come in are one group: the impact law answers all their contacts at one instant.
 
 use carom::{DVec3, Error, Settings, Sphere, World};
 

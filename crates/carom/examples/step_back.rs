@@ -1,4 +1,5 @@
-//! Snapshots: run, go back, run again - and end in the same state, bit for bit.
+//! Snapshots: run, go back, run again - and end in the same state, bit for bit. A snapshot keeps the
+//! flights of the spheres, too, from which the rule `exact` computes their positions.
 
 use carom::{Collider, DVec3, Error, Gravity, Pose, Settings, Shape, Sphere, World};
 
