@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::complementarity::Outcome;
 use super::group::{Answer, Group};
+use super::plastic;
 use super::project::Projector;
 use super::simultaneous;
 
@@ -49,7 +50,7 @@ pub(super) fn resolve(group: &Group, start: &[DVec3], projector: &mut Projector)
         below = level;
     }
     if below < 1.0 {
-        let answer = group.plastic(start, projector);
+        let answer = plastic::answer(group, start, projector);
         layers.push(Layer { weight: 1.0 - below, answer });
     }
     mean(group, layers)
@@ -125,7 +126,7 @@ fn reflect(group: &Group, parts: &[f64], start: &[DVec3], projector: &mut Projec
             restitute_once(group, &closing, parts, &mut answer, projector)
         };
         if outcome != Outcome::Solved {
-            return Answer { complete: false, ..group.plastic(start, projector) };
+            return Answer { complete: false, ..plastic::answer(group, start, projector) };
         }
         if group.work.done() > most_work {
             break;

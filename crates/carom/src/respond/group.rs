@@ -2,10 +2,8 @@
 
 use glam::DVec3;
 
-use super::complementarity::Outcome;
 use super::order_free;
 use super::problem::{self, Link, Tolerance};
-use super::project::Projector;
 use super::touching::TouchingContact;
 use crate::work::Work;
 
@@ -120,25 +118,6 @@ impl<'a> Group<'a> {
         for (velocity, moved) in velocities.iter_mut().zip(moved) {
             *velocity += moved;
         }
-    }
-
-    /// The plastic answer: the motion nearest (in kinetic energy) to the given one in which no
-    /// contact closes. Unless surfaces crush spheres between them, there is one.
-    pub fn plastic(&self, start: &[DVec3], projector: &mut Projector) -> Answer {
-        let mut answer = Answer::unchanged(self, start);
-        let outcome = self.finish(&mut answer, projector);
-        answer.complete = outcome == Outcome::Solved;
-        answer
-    }
-
-    /// Finishes an answer plastically: what still closes, no longer does.
-    pub fn finish(&self, answer: &mut Answer, projector: &mut Projector) -> Outcome {
-        let velocities = &mut answer.motion.velocities;
-        let before = velocities.clone();
-        let outcome = projector.project(self, |_| true, |_| 0.0, velocities);
-        answer.energy += self.work(projector.impulses(), &before, velocities).min(0.0);
-        answer.motion.add(projector.impulses(), 1.0);
-        outcome
     }
 }
 

@@ -10,6 +10,7 @@ mod group;
 mod least_change;
 mod line_of_centres;
 mod order_free;
+mod plastic;
 mod problem;
 mod project;
 mod reflection;

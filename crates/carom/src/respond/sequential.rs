@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::complementarity::Outcome;
 use super::group::{Answer, Group};
+use super::plastic;
 use super::project::Projector;
 use super::{line_of_centres, reflection};
 
@@ -35,9 +36,9 @@ pub(super) fn resolve(group: &Group, start: &[DVec3], projector: &mut Projector)
         }
     }
     answer.complete = false;
-    match group.finish(&mut answer, projector) {
+    match plastic::finish(group, &mut answer, projector) {
         // Crushed between surfaces: the sweeps have been filling it with their energy.
-        Outcome::Jammed => group.plastic(start, projector),
+        Outcome::Jammed => plastic::answer(group, start, projector),
         Outcome::Solved | Outcome::Unfinished => answer,
     }
 }

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::complementarity::Outcome;
 use super::group::{Answer, Group, Motion};
 use super::order_free;
+use super::plastic;
 use super::project::Projector;
 
 /// The motion in which no contact opens more slowly than Newton's law asks, and those that open
@@ -35,7 +36,7 @@ pub(super) fn resolve(
     let outcome = projector.project(group, |_| true, rebound, &mut newton.motion.velocities);
     newton.motion.add(projector.impulses(), 1.0);
     if outcome != Outcome::Solved {
-        return Answer { complete: false, ..group.plastic(start, projector) };
+        return Answer { complete: false, ..plastic::answer(group, start, projector) };
     }
     // The work of the impulses, with the rates after them as the law wants them.
     let work = |(contact, impulse): (usize, &f64)| {
@@ -43,7 +44,7 @@ pub(super) fn resolve(
     };
     newton.energy = order_free::sum(newton.motion.impulses.iter().enumerate().map(work));
     if newton.energy > 0.0 {
-        let plastic = group.plastic(start, projector);
+        let plastic = plastic::answer(group, start, projector);
         let part = part_without_gain(group, &plastic, &newton.motion);
         newton.motion = plastic.motion.towards(&newton.motion, part);
         newton.energy = 0.0;
