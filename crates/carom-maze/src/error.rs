@@ -5,7 +5,7 @@ use std::fmt;
 use carom_scene::SceneError;
 use thiserror::Error;
 
-use crate::drawing::TextProblem;
+use crate::text_problem::TextProblem;
 
 /// Why something is no maze.
 #[derive(Debug, Error)]
@@ -64,6 +64,13 @@ pub enum MazeError {
 
 fn at(place: &Option<(usize, usize)>) -> impl fmt::Display + use<> {
     place.map_or(String::new(), |(line, column)| format!(":{line}:{column}"))
+}
+
+impl TextProblem {
+    /// The error of a text; a place is line and column, from 1.
+    pub(crate) fn at(self, name: &str, place: impl Into<Option<(usize, usize)>>) -> MazeError {
+        MazeError::Text { name: name.to_owned(), place: place.into(), problem: self }
+    }
 }
 
 /// Why a game cannot be played, or not this frame. The game is then as it was.

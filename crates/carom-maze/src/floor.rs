@@ -3,6 +3,7 @@
 use carom::{DVec3, World};
 
 use crate::error::MazeError;
+use crate::grid::Grid;
 use crate::maze::{Maze, Role, ground_height};
 use crate::route;
 
@@ -22,13 +23,7 @@ const NEAR_END_WALL: f64 = 1.5;
 pub(crate) struct Floor {
     /// Middle of the first cell, at the height of the ball's centre \[m\].
     origin: DVec3,
-    /// Edge of a cell \[m\].
-    pub cell: f64,
-    pub columns: usize,
-    pub rows: usize,
-    free: Vec<bool>,
-    /// Distance to the nearest blocked cell \[cells\], 0 for these.
-    clearance: Vec<f64>,
+    grid: Grid,
     /// Whether the ball touches an end wall there, or nearly.
     at_end_wall: Vec<bool>,
     /// Radius of the ball \[m\].
@@ -44,19 +39,12 @@ impl Floor {
         let cell = (radius / CELLS_PER_RADIUS).max(size.max_element() / MOST_CELLS);
         let count = |length: f64| (length / cell).ceil() as usize + 1;
         let (columns, rows) = (count(size.x), count(size.z));
-        let mut floor = Self {
-            origin: DVec3::new(low.x, maze.start().y, low.z),
-            cell,
-            columns,
-            rows,
-            free: Vec::new(),
-            clearance: Vec::new(),
-            at_end_wall: Vec::new(),
-            radius,
-        };
-        let points: Vec<DVec3> = (0..columns * rows).map(|index| floor.point(index)).collect();
-        floor.free = points.iter().map(|&point| is_free(maze, &world, point)).collect();
-        floor.clearance = route::clearance(&floor);
+        let origin = DVec3::new(low.x, maze.start().y, low.z);
+        let grid = Grid { cell, columns, rows, free: Vec::new(), clearance: Vec::new() };
+        let mut floor = Self { origin, grid, at_end_wall: Vec::new(), radius };
+        let points: Vec<DVec3> = (0..floor.len()).map(|index| floor.point(index)).collect();
+        floor.grid.free = points.iter().map(|&point| is_free(maze, &world, point)).collect();
+        floor.grid.clearance = route::clearance(&floor.grid);
         floor.at_end_wall = floor.touching_end_walls(maze, &points)?;
         Ok(floor)
     }
@@ -66,24 +54,25 @@ impl Floor {
         let mut ends = maze.scene().clone();
         ends.colliders = maze.with_role(|role| role == Role::EndWall).cloned().collect();
         let ends = ends.world()?;
-        let reach = self.radius + NEAR_END_WALL * self.cell;
-        let touches = |(index, &point)| self.free[index] && ends.meets_collider(point, reach);
+        let reach = self.radius + NEAR_END_WALL * self.grid.cell;
+        let touches = |(index, &point)| self.grid.free[index] && ends.meets_collider(point, reach);
         Ok(points.iter().enumerate().map(touches).collect())
     }
 
     /// Centre of the ball in the middle of a cell \[m\].
     pub fn point(&self, index: usize) -> DVec3 {
-        let (column, row) = (index % self.columns, index / self.columns);
-        self.origin + self.cell * DVec3::new(column as f64, 0.0, row as f64)
+        let (column, row) = (index % self.grid.columns, index / self.grid.columns);
+        self.origin + self.grid.cell * DVec3::new(column as f64, 0.0, row as f64)
     }
 
-    pub fn is_free(&self, index: usize) -> bool {
-        self.free[index]
+    /// Edge of a cell \[m\].
+    pub fn cell(&self) -> f64 {
+        self.grid.cell
     }
 
     /// Distance of a cell to what blocks the ball \[m\].
     pub fn clearance(&self, index: usize) -> f64 {
-        self.cell * self.clearance.get(index).copied().unwrap_or(0.0)
+        self.grid.clearance(index)
     }
 
     pub fn is_at_end_wall(&self, index: usize) -> bool {
@@ -91,28 +80,28 @@ impl Floor {
     }
 
     pub fn len(&self) -> usize {
-        self.columns * self.rows
+        self.grid.len()
     }
 
     /// The cell that a point is in.
     pub fn cell_at(&self, point: DVec3) -> Option<usize> {
-        let place = (point - self.origin) / self.cell;
+        let place = (point - self.origin) / self.grid.cell;
         let (column, row) = ((place.x + 0.5).floor(), (place.z + 0.5).floor());
-        let is_inside =
-            (0.0..self.columns as f64).contains(&column) && (0.0..self.rows as f64).contains(&row);
-        is_inside.then(|| row as usize * self.columns + column as usize)
+        let is_inside = (0.0..self.grid.columns as f64).contains(&column)
+            && (0.0..self.grid.rows as f64).contains(&row);
+        is_inside.then(|| row as usize * self.grid.columns + column as usize)
     }
 
     /// The free cell that is nearest to a point, at most half a radius away.
     pub fn cell_near(&self, point: DVec3) -> Option<usize> {
         let reach = (0.5 * CELLS_PER_RADIUS) as isize;
-        let steps = |x: isize, z: isize| self.cell * DVec3::new(x as f64, 0.0, z as f64);
+        let steps = |x: isize, z: isize| self.grid.cell * DVec3::new(x as f64, 0.0, z as f64);
         let mut nearest = (f64::INFINITY, None);
         for z in -reach..=reach {
             for x in -reach..=reach {
                 let Some(index) = self.cell_at(point + steps(x, z)) else { continue };
                 let distance = (self.point(index) - point).reject_from(DVec3::Y).length();
-                if self.free[index] && distance < nearest.0 {
+                if self.grid.free[index] && distance < nearest.0 {
                     nearest = (distance, Some(index));
                 }
             }
@@ -126,7 +115,7 @@ impl Floor {
         const DEPTH: f64 = 0.85;
         let reach = DEPTH * (radius + self.radius);
         let near = |&index: &usize| {
-            self.free[index] && self.point(index).distance_squared(center) <= reach * reach
+            self.grid.free[index] && self.point(index).distance_squared(center) <= reach * reach
         };
         (0..self.len()).filter(near).collect()
     }
@@ -138,7 +127,18 @@ impl Floor {
 
     /// Cost of the way from any of some cells to each; infinite where there is none.
     pub fn costs_from(&self, cells: &[usize]) -> Vec<f64> {
-        route::costs(self, cells, |_| 1.0)
+        self.costs(cells, |_| 1.0)
+    }
+
+    /// Cost of the way from any of some cells to each, `extra` times as much in each cell as it says;
+    /// infinite where there is none.
+    pub fn costs(&self, cells: &[usize], extra: impl Fn(usize) -> f64) -> Vec<f64> {
+        route::costs(&self.grid, cells, extra)
+    }
+
+    /// Neighbours of a cell, with their distance \[cells\].
+    pub fn neighbours(&self, index: usize) -> impl Iterator<Item = (usize, f64)> {
+        self.grid.neighbours(index)
     }
 
     /// Whether the ball can go from one point to another on a straight line.
@@ -147,11 +147,11 @@ impl Floor {
         const AROUND_THE_BALL: f64 = 1.5;
         let way = (to - from).reject_from(DVec3::Y);
         let length = way.length();
-        let steps = (2.0 * length / self.cell).ceil();
+        let steps = (2.0 * length / self.grid.cell).ceil();
         (1..=steps as usize).all(|step| {
             let part = step as f64 / steps;
-            let is_free = |point| self.cell_at(point).is_some_and(|index| self.free[index]);
-            part * length < AROUND_THE_BALL * self.cell || is_free(from + part * way)
+            let is_free = |point| self.cell_at(point).is_some_and(|index| self.grid.free[index]);
+            part * length < AROUND_THE_BALL * self.grid.cell || is_free(from + part * way)
         })
     }
 }

@@ -1,14 +1,10 @@
 //! A maze: a scene in its own frame, and what each collider is in the game.
 
 use carom::{DQuat, DVec3};
+use carom_scene::Library;
 use carom_scene::scene::{Collider, Color, Colors, Force, Scene, Shape, Sphere};
-use carom_scene::{Library, SceneError};
 
-use crate::drawing::{Drawing, TextProblem};
 use crate::error::MazeError;
-use crate::floor::Floor;
-use crate::layout;
-use crate::random;
 
 /// Colours of what has none in the scene.
 const WALL_COLOR: Color = [0.42, 0.55, 0.71];
@@ -102,48 +98,6 @@ impl Maze {
         }
         scene.world()?;
         Ok(Self { scene, roles, start, radius, gravity })
-    }
-
-    /// A maze drawn with characters: `#` wall, space or `.` floor, `o` collectible, `S` start, `E`
-    /// end wall; the last line is nearest to the viewer. Lines before the drawing may say
-    /// `title: ...` and `walls: thin`: then the first, third, fifth, ... column and row, where walls
-    /// stand, are as narrow as the course's walls. `name` is what the maze is called in errors.
-    ///
-    /// # Errors
-    /// [`MazeError::Text`], with line and column: an unknown character, no start or two, no end, no
-    /// way between them that is wide enough for the ball, too large, or nothing at all.
-    pub fn from_text(text: &str, name: &str) -> Result<Self, MazeError> {
-        let drawing = Drawing::read(text, name)?;
-        let at_start =
-            |problem: TextProblem| problem.at(name, drawing.place_in_text(drawing.start));
-        let maze =
-            Self::from_scene(&layout::scene(&drawing, name)).map_err(|error| match error {
-                MazeError::Scene(SceneError::Invalid(_)) if !name.trim().is_empty() => {
-                    at_start(TextProblem::NarrowStart)
-                }
-                other => other,
-            })?;
-        let floor = Floor::new(&maze)?;
-        let way = floor.cell_near(maze.start).map(|cell| floor.costs_from(&[cell]));
-        let way = way.ok_or_else(|| at_start(TextProblem::NarrowStart))?;
-        let is_reached = |cell: &usize| way[*cell].is_finite();
-        if !floor.cells_at_end_walls().iter().any(is_reached) {
-            return Err(at_start(TextProblem::NoWay));
-        }
-        Ok(maze)
-    }
-
-    /// A maze with one way between any two places, collectibles in dead ends and the end wall far
-    /// from the start. The same seed and size give the same maze; [`random_text`] draws it.
-    ///
-    /// [`random_text`]: crate::random_text
-    ///
-    /// # Errors
-    /// [`MazeError::Size`] for fewer columns or rows than 2, or more than
-    /// [`MOST_CELLS_PER_SIDE`](crate::MOST_CELLS_PER_SIDE).
-    pub fn random(seed: u64, columns: usize, rows: usize) -> Result<Self, MazeError> {
-        let text = random::random_text(seed, columns, rows)?;
-        Self::from_text(&text, &format!("random-{seed}-{columns}x{rows}"))
     }
 
     /// What it is called for people.

@@ -6,7 +6,6 @@ use crate::error::{MazeError, PlanError};
 use crate::floor::Floor;
 use crate::game::Game;
 use crate::maze::Maze;
-use crate::route;
 use crate::tilt::{Steering, Tilt};
 
 /// How far ahead on its way the ball aims at most \[m\].
@@ -109,7 +108,7 @@ impl Player {
             return;
         }
         let goal = if wants_more {
-            let costs = route::costs(&self.floor, &[cell], self.detour());
+            let costs = self.floor.costs(&[cell], self.detour());
             let cost = |index: usize| {
                 self.collectibles[index].iter().map(|&it| costs[it]).fold(f64::INFINITY, f64::min)
             };
@@ -119,9 +118,7 @@ impl Player {
             Goal::EndWall
         };
         self.costs = match goal {
-            Goal::Collectible(index) => {
-                route::costs(&self.floor, &self.collectibles[index], self.detour())
-            }
+            Goal::Collectible(index) => self.floor.costs(&self.collectibles[index], self.detour()),
             Goal::EndWall => self.floor.costs_from(&self.end_walls),
         };
         self.goal = Some(goal);
@@ -138,7 +135,9 @@ impl Player {
         let (mut here, mut length) = (cell, 0.0);
         while length < LOOKAHEAD {
             let cost = |&(next, _): &(usize, f64)| self.costs[next];
-            let best = route::neighbours(&self.floor, here)
+            let best = self
+                .floor
+                .neighbours(here)
                 .min_by(|a, b| cost(a).total_cmp(&cost(b)))
                 .filter(|best| cost(best) < self.costs[here]);
             let Some((next, distance)) = best else {
@@ -149,7 +148,7 @@ impl Player {
                 break;
             }
             target = self.floor.point(next);
-            length += distance * self.floor.cell;
+            length += distance * self.floor.cell();
             here = next;
         }
         target

@@ -3,8 +3,8 @@
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::drawing::LONGEST_SIDE;
 use crate::error::MazeError;
+use crate::text_problem::LONGEST_SIDE;
 
 /// Columns or rows of cells, at most.
 pub const MOST_CELLS_PER_SIDE: usize = (LONGEST_SIDE - 1) / 2;

@@ -163,7 +163,7 @@ fn starts(maze: &Maze, floor: &Floor) -> Vec<DVec3> {
     let is_good = |&index: &usize| {
         costs[index].is_finite()
             && !floor.is_at_end_wall(index)
-            && floor.clearance(index) >= FREE_CELLS * floor.cell
+            && floor.clearance(index) >= FREE_CELLS * floor.cell()
             && !touched(floor.point(index))
     };
     starts.extend((0..floor.len()).filter(is_good).map(|index| floor.point(index)));

@@ -137,6 +137,11 @@ impl Ball {
     }
 }
 
+/// Which ball a sphere is: the balls are all spheres there ever were.
+pub(super) fn index_of(id: SphereId) -> usize {
+    id.number() as usize
+}
+
 /// Notes what balls touched in a frame: collectibles first, which count in the frame that wins.
 /// `index_of` says which ball a sphere is, if it counts.
 pub(super) fn note(

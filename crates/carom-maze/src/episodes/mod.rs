@@ -153,7 +153,7 @@ impl Episodes {
             match self.world.step(self.arena.options().frame_time).map(drop) {
                 Ok(()) => break,
                 Err(Error::TooManyImpacts { sphere, .. }) if !self.rescue.has(sphere) => {
-                    let weight = &mut self.weights[index_of(sphere)];
+                    let weight = &mut self.weights[ball::index_of(sphere)];
                     self.rescue.park(sphere, weight, &mut self.world, &self.arena)?;
                 }
                 Err(error) => return Err(error.into()),
@@ -161,7 +161,7 @@ impl Episodes {
         }
         let rescue = &self.rescue;
         ball::note(self.world.report(), &mut self.balls, &self.arena, |id| {
-            (!rescue.has(id)).then_some(index_of(id))
+            (!rescue.has(id)).then_some(ball::index_of(id))
         });
         self.rescue.release(&mut self.world, &mut self.balls, &self.arena)
     }
@@ -289,9 +289,4 @@ impl Episodes {
     pub fn rough_frames(&self) -> u64 {
         self.rescue.frames()
     }
-}
-
-/// Which ball a sphere is: the balls are all spheres there ever were.
-fn index_of(id: SphereId) -> usize {
-    id.number() as usize
 }

@@ -72,7 +72,7 @@ impl Rescue {
             self.world.set_applied_forces(&[parked.weight])?;
             self.world.set_time(0.0)?;
             let report = self.world.step(arena.options().frame_time)?;
-            ball::note(report, balls, arena, |_| Some(super::index_of(parked.id)));
+            ball::note(report, balls, arena, |_| Some(ball::index_of(parked.id)));
             let ball = self.world.sphere(alone)?;
             world.set_motions(&[(parked.id, ball.position, ball.velocity)])?;
         }
