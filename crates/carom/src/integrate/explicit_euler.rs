@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::Kinematics;
+use super::kinematics::Kinematics;
 
 /// `x' = x + h v`, `v' = v + h a(x, v)`.
 ///

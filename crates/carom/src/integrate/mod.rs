@@ -4,26 +4,19 @@
 //! an acceleration `a(t, state)` (`t` \[s\] from the start of the interval) to the state at its end.
 
 mod explicit_euler;
+mod kinematics;
 mod runge_kutta_4;
 mod semi_implicit_euler;
 mod velocity_verlet;
 
 use glam::DVec3;
+use kinematics::Kinematics;
 
 use crate::bodies::Motion;
 use crate::forces::{self, SphereState};
 use crate::interval::Interval;
 use crate::settings::Integrator;
 use crate::system::System;
-
-/// Where one sphere is and how it moves.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Kinematics {
-    /// Centre \[m\].
-    position: DVec3,
-    /// Velocity \[m/s\].
-    velocity: DVec3,
-}
 
 /// Acceleration \[m/s²\] of the sphere at `index` in the state `motion` at `time` \[s\].
 pub(crate) fn acceleration(system: &System, motion: &Motion, index: usize, time: f64) -> DVec3 {

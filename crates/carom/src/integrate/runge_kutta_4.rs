@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::Kinematics;
+use super::kinematics::Kinematics;
 
 /// Four slopes `k1 .. k4` at 0, h/2, h/2 and h; the step takes `(k1 + 2 k2 + 2 k3 + k4) / 6`.
 ///

@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::Kinematics;
+use super::kinematics::Kinematics;
 
 /// `v' = v + h a(x, v)`, `x' = x + h v'`.
 ///

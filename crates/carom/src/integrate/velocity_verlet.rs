@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::Kinematics;
+use super::kinematics::Kinematics;
 
 /// `x' = x + h v + h²/2 a`, `v' = v + h/2 (a + a')` with `a' = a(x', v + h a)`.
 ///

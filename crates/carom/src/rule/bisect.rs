@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::Scratch;
 use super::islands::{Island, Islands};
 use crate::bodies::Motion;
 use crate::contact_time::{self, Probe};
@@ -29,9 +28,17 @@ struct Frame<'a> {
     start: &'a Motion,
 }
 
-/// Working memory of the rule. Each [`Motion`] has a place for every sphere.
+/// Working memory of the rule, kept from step to step only to spare its allocation.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Buffers {
+pub(crate) struct Scratch {
+    contacts: Vec<Contact>,
+    islands: Islands,
+    buffers: Buffers,
+}
+
+/// Working memory of islands. Each [`Motion`] has a place for every sphere.
+#[derive(Debug, Clone, Default)]
+struct Buffers {
     /// States at the end of the frame.
     end: Motion,
     /// States after the last answered contact, for the spheres of the island at work.
@@ -64,7 +71,7 @@ pub(crate) fn step(
     scratch: &mut Scratch,
     report: &mut StepReport,
 ) {
-    let Scratch { contacts, islands, bisect: buffers, .. } = scratch;
+    let Scratch { contacts, islands, buffers } = scratch;
     let frame = Frame { system: *system, parameters, interval, start: motion };
     let everyone = 0..system.spheres.id.len() as u32;
     islands.reset(everyone.len());

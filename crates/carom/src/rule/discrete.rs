@@ -1,9 +1,8 @@
 //! The rule `discrete`: move, then answer what overlaps at the end of the frame.
 
-use super::Scratch;
 use crate::bodies::Motion;
 use crate::detect::contact::{Bodies, Contact};
-use crate::detect::contacts;
+use crate::detect::contacts::{self, Search};
 use crate::detect::instant::{Instant, reach};
 use crate::detect::{ContactState, sphere_surface};
 use crate::integrate;
@@ -17,6 +16,14 @@ use crate::system::System;
 /// Surfaces are looked for this part of the radius beyond a sphere: farther than it is put out of
 /// most of them, so that it seldom has to look again.
 const ROOM: f64 = 1.0 / 16.0;
+
+/// Working memory of the rule, kept from step to step only to spare its allocation.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Scratch {
+    near: Vec<u32>,
+    search: Search,
+    contacts: Vec<Contact>,
+}
 
 /// Advances all spheres by one frame (`docs/physics/bisect-and-discrete.md`).
 pub(crate) fn step(

@@ -1,8 +1,7 @@
 //! Steps by the rule `exact`: flights go on from step to step, and what is due within a step is
 //! emitted at its own time.
 
-use super::Step;
-use crate::clock::Clock;
+use super::attempt::Attempt;
 use crate::detect::contacts;
 use crate::emitter;
 use crate::error::{Error, Subject};
@@ -13,20 +12,18 @@ use crate::state::State;
 use crate::validate;
 
 /// Takes a step from event to event. If that fails, no sphere was moved.
-pub(super) fn step(mut step: Step, parameters: Exact, until: Until) -> Result<(), Error> {
-    let end = step.end.seconds();
-    step.state.check_emitters(end)?;
-    step.take(|step| {
-        let mut timeline = begin(step, parameters, end)?;
-        let end = advance(step, &mut timeline, end, until)?;
-        if end < step.end.seconds() {
-            (step.length, step.end) = (end - step.start, Clock::at(end));
-        }
-        place_spheres(step, &timeline, end)?;
-        step.state.timeline = Some(timeline);
+pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Result<(), Error> {
+    let end = attempt.end.seconds();
+    attempt.state.check_emitters(end)?;
+    attempt.take(|attempt| {
+        let mut timeline = begin(attempt, parameters, end)?;
+        let end = advance(attempt, &mut timeline, end, until)?;
+        attempt.end_at(end);
+        place_spheres(attempt, &timeline, end)?;
+        attempt.state.timeline = Some(timeline);
         Ok(())
     })?;
-    report_triggers(&mut step);
+    report_triggers(&mut attempt);
     Ok(())
 }
 
@@ -36,8 +33,8 @@ pub(super) fn step(mut step: Step, parameters: Exact, until: Until) -> Result<()
 /// # Errors
 /// [`Error::NonFiniteState`] if a force is not finite, [`Error::Invalid`] if a periodic box is too small
 /// for the spheres or if there are too many of them.
-fn begin(step: &mut Step, parameters: Exact, end: f64) -> Result<Timeline, Error> {
-    let (state, time) = (&mut *step.state, step.start);
+fn begin(attempt: &mut Attempt, parameters: Exact, end: f64) -> Result<Timeline, Error> {
+    let (state, time) = (&mut *attempt.state, attempt.start);
     check_count(state)?;
     check_box(state)?;
     let before = state.timeline.take();
@@ -51,37 +48,43 @@ fn begin(step: &mut Step, parameters: Exact, end: f64) -> Result<Timeline, Error
 
 /// Takes flights and emissions to `end` \[s\], or to the next impact; gives the time that they come to
 /// \[s\].
-fn advance(step: &mut Step, timeline: &mut Timeline, end: f64, until: Until) -> Result<f64, Error> {
-    let (start, length) = (step.start, step.length);
-    emit(step, timeline, start);
+fn advance(
+    attempt: &mut Attempt,
+    timeline: &mut Timeline,
+    end: f64,
+    until: Until,
+) -> Result<f64, Error> {
+    let (start, length) = (attempt.start, attempt.length);
+    emit(attempt, timeline, start);
     loop {
-        let due = emitter::next_due(&step.state.emitters);
+        let due = emitter::next_due(&attempt.state.emitters);
         let span = Span { start, length, end: due.min(end) };
-        let (system, _) = step.state.split();
-        let came_to = exact::advance(&system, timeline, span, &step.work, step.report, until)
+        let Attempt { state, work, report, .. } = &mut *attempt;
+        let (system, _) = state.split();
+        let came_to = exact::advance(&system, timeline, span, work, report, until)
             .map_err(|unfinished| refusal(unfinished, start))?;
-        let is_over = until == Until::NextImpact && !step.report.impacts.is_empty();
+        let is_over = until == Until::NextImpact && !attempt.report.impacts.is_empty();
         if due >= end || is_over {
             return Ok(came_to);
         }
-        emit(step, timeline, due);
+        emit(attempt, timeline, due);
     }
 }
 
 /// Emits the spheres that are due at `time` \[s\]; those that are there fly on.
-fn emit(step: &mut Step, timeline: &mut Timeline, time: f64) {
-    if !emitter::any_due(&step.state.emitters, time) {
+fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) {
+    if !emitter::any_due(&attempt.state.emitters, time) {
         return;
     }
-    let known = step.state.spheres.ids().to_vec();
-    let emission = step.emit(time);
-    let next = emitter::next_due(&step.state.emitters);
+    let known = attempt.state.spheres.ids().to_vec();
+    let emission = attempt.emit(time);
+    let next = emitter::next_due(&attempt.state.emitters);
     let time_of = |id| match emission.emitted.binary_search(&id) {
         Ok(place) => emission.due[place],
         Err(_) => time,
     };
     let arrivals = Arrivals { known: &known, time_of, next };
-    let (system, motion) = step.state.split();
+    let (system, motion) = attempt.state.split();
     *timeline = exact::adopt(timeline, &system, motion, arrivals, time);
 }
 
@@ -89,20 +92,20 @@ fn emit(step: &mut Step, timeline: &mut Timeline, time: f64) {
 ///
 /// # Errors
 /// [`Error::NonFiniteState`] if one is nowhere; then none is moved.
-fn place_spheres(step: &mut Step, timeline: &Timeline, end: f64) -> Result<(), Error> {
-    let (start, length) = (step.start, step.length);
-    let (system, motion) = step.state.split();
+fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result<(), Error> {
+    let (start, length) = (attempt.start, attempt.length);
+    let (system, motion) = attempt.state.split();
     exact::end(timeline, &system, motion, Span { start, length, end }).map_err(
         |(index, quantity)| {
-            let sphere = step.state.spheres.ids()[index];
+            let sphere = attempt.state.spheres.ids()[index];
             Error::NonFiniteState { sphere, quantity, time: start }
         },
     )
 }
 
-/// Reports the spheres that are inside triggers at the end of the step.
-fn report_triggers(step: &mut Step) {
-    let Step { state, scratch, report, .. } = step;
+/// Reports the spheres that are inside triggers at the end of the attempt.
+fn report_triggers(attempt: &mut Attempt) {
+    let Attempt { state, scratch, report, .. } = attempt;
     let now = state.now();
     contacts::of_triggers(&now, 0.0, &mut scratch.search, |contact| {
         report.triggers.extend(TriggerContact::of(&contact, &now.system));

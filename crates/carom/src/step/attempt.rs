@@ -1,0 +1,110 @@
+//! A step at work: it emits, and leaves nothing behind if it fails.
+
+use crate::bodies::{Motion, Spheres};
+use crate::clock::Clock;
+use crate::detect::contacts::Search;
+use crate::emitter::{self, Emission, EmitterState};
+use crate::error::Error;
+use crate::numbered::Numbered;
+use crate::report::StepReport;
+use crate::rule::{bisect, discrete};
+use crate::state::State;
+use crate::work::Work;
+
+/// Working memory of steps, kept from one to the next only to spare its allocation.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Scratch {
+    pub discrete: discrete::Scratch,
+    pub bisect: bisect::Scratch,
+    pub search: Search,
+    /// Motion at the start of the step, to return to if it fails.
+    pub start: Motion,
+}
+
+/// A step at work.
+pub(super) struct Attempt<'a> {
+    pub state: &'a mut State,
+    pub scratch: &'a mut Scratch,
+    pub report: &'a mut StepReport,
+    pub work: Work<'a>,
+    /// Start of the step, on the world's clock \[s\].
+    pub start: f64,
+    /// Length of the step \[s\].
+    pub length: f64,
+    /// The clock at the end of the step.
+    pub end: Clock,
+    /// What the first emission of the step changed.
+    before_emission: Option<BeforeEmission>,
+}
+
+impl<'a> Attempt<'a> {
+    /// A step of `length` \[s\], of which nothing is done yet.
+    pub fn new(
+        state: &'a mut State,
+        scratch: &'a mut Scratch,
+        report: &'a mut StepReport,
+        work: Work<'a>,
+        length: f64,
+    ) -> Self {
+        let (start, end) = (state.clock.seconds(), state.clock.after(length));
+        Self { state, scratch, report, work, start, length, end, before_emission: None }
+    }
+
+    /// Ends the step at `time` \[s\], if that is before its end.
+    pub fn end_at(&mut self, time: f64) {
+        if time < self.end.seconds() {
+            (self.length, self.end) = (time - self.start, Clock::at(time));
+        }
+    }
+
+    /// Moves the spheres by `advance`, then the clock and the colliders to the end of the step. If
+    /// `advance` fails, what was emitted is taken back, and flights begin anew.
+    pub fn take(
+        &mut self,
+        advance: impl FnOnce(&mut Self) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        if let Err(error) = advance(self) {
+            if let Some(before) = self.before_emission.take() {
+                before.restore(self.state);
+            }
+            self.state.timeline = None;
+            self.report.clear();
+            return Err(error);
+        }
+        self.state.clock = self.end;
+        self.state.advance_colliders(self.length);
+        Ok(())
+    }
+
+    /// Emits the spheres that are due at `time` \[s\]; notes what was before, the first time.
+    pub fn emit(&mut self, time: f64) -> Emission {
+        if !emitter::any_due(&self.state.emitters, time) {
+            return Emission::default();
+        }
+        self.before_emission.get_or_insert_with(|| BeforeEmission::of(self.state));
+        let State { emitters, spheres, next_id, .. } = &mut *self.state;
+        let emission = emitter::emit(emitters, spheres, next_id, time);
+        self.report.emitted.extend(&emission.emitted);
+        self.report.retired.extend(&emission.retired);
+        emission
+    }
+}
+
+/// What an emission changes, to return to if the step fails.
+struct BeforeEmission {
+    emitters: Numbered<EmitterState>,
+    spheres: Spheres,
+    next_id: u64,
+}
+
+impl BeforeEmission {
+    fn of(state: &State) -> Self {
+        let State { emitters, spheres, next_id, .. } = state;
+        Self { emitters: emitters.clone(), spheres: spheres.clone(), next_id: *next_id }
+    }
+
+    fn restore(self, state: &mut State) {
+        let Self { emitters, spheres, next_id } = self;
+        (state.emitters, state.spheres, state.next_id) = (emitters, spheres, next_id);
+    }
+}
