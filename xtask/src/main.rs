@@ -14,6 +14,7 @@ mod setup;
 mod shell;
 mod sizes;
 mod sources;
+mod stages;
 mod test;
 mod wasm;
 mod wasm_toolchain;

@@ -1,7 +1,7 @@
 //! Every check, in the order in which they fail fastest.
 
 use crate::shell::{Outcome, cargo, cargo_with};
-use crate::{architecture, js_package, python, setup, web, words};
+use crate::{architecture, js_package, python, setup, stages, web, words};
 
 /// Runs the tests of the physics that take minutes, optimised.
 pub fn long_tests() -> Outcome {
@@ -22,6 +22,7 @@ pub fn test() -> Outcome {
     cargo(&["fmt", "--all", "--check"])?;
     architecture::check()?;
     words::check()?;
+    stages::check()?;
     cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "--deny", "warnings"])?;
     let documents = ["doc", "--workspace", "--no-deps", "--document-private-items", "--quiet"];
     cargo_with(&documents, &[("RUSTDOCFLAGS", "--deny warnings")])?;

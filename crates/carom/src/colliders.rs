@@ -13,7 +13,7 @@ use crate::surface::{self, Role, Surface};
 pub(crate) struct Colliders {
     list: Numbered<Collider>,
     surfaces: Vec<Surface>,
-    /// Made when first asked for after a change.
+    /// Made when first needed after a change.
     tree: OnceLock<SurfaceTree>,
     /// Tree of the surfaces of triggers, made when it is first read.
     trigger_tree: OnceLock<SurfaceTree>,

@@ -1,5 +1,5 @@
 //! **Carom moves spheres exactly.** Spheres under forces that collide with each other and with
-//! surfaces, which are at rest or move as they are told.
+//! surfaces, at rest or moving at velocities of their own.
 //!
 //! A [`World`] holds [`Spheres`], forces ([`Force`]), [`Collider`]s and [`Emitter`]s.
 //! [`World::step`] advances it by a frame and reports every [`Impact`]. The stages of a step are
@@ -7,13 +7,13 @@
 //!
 //! 1. **emit** the spheres that are due (`emitter`)
 //! 2. **integrate** motion under the forces, without contacts (`forces`, `integrate`)
-//! 3. **detect** who touches whom: broad phase, distance, classification ([`detect`])
+//! 3. **detect** which bodies touch: broad phase, distance, classification ([`detect`])
 //! 4. find the **time of contact** ([`contact_time`])
-//! 5. **respond** with impulses, or with forces where contacts last ([`respond`])
+//! 5. **respond** with impulses, or with forces where contacts persist ([`respond`])
 //!
 //! [`Rule::Discrete`] and [`Rule::Bisect`] take a frame so. The default, [`Rule::Exact`], knows the
 //! motion between impacts in closed form ([`Flight`]) and takes it from event to event: **predict**
-//! what each sphere comes upon next, take the first from a **queue**, **respond**, and predict
+//! what each sphere meets next, take the first from a **queue**, **respond**, and predict
 //! anew what changed. Spheres are emitted on the way, each at its own time.
 //!
 //! Right-handed frame, y up, SI units, double precision. The same input gives the same bits on

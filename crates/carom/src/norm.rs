@@ -6,7 +6,7 @@ use glam::DVec3;
 pub(crate) trait Norm {
     /// `|v|`, by the processor's own square root.
     ///
-    /// The same bits as glam's `length`. That asks `libm`, as all of glam does here; but in
+    /// The same bits as glam's `length`. That calls `libm`, as all of glam does here; but in
     /// WebAssembly `libm` works square roots out in whole numbers: a sixth of the time of a frame.
     fn norm(self) -> f64;
 }

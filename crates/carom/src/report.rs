@@ -39,15 +39,17 @@ pub struct StepReport {
 pub struct StageCounts {
     /// Predict: how often the next events of a sphere were predicted, under the rule `exact`.
     pub predictions: u64,
-    /// Predict, or detect: pairs of spheres that were tested for a meeting, or for a contact.
+    /// Predict: pairs of spheres that were tested for a meeting; under the other rules, pairs that were
+    /// tested for a contact.
     pub pair_tests: u64,
     /// Queue: events that were taken from it, void ones among them, under the rule `exact`.
     pub events: u64,
-    /// Queue: of these events, cell crossings.
+    /// Cell crossing: how many of these events were one.
     pub cell_crossings: u64,
-    /// Respond: groups of touching bodies that were answered as a whole, under the rule `exact`.
+    /// Impact: groups of touching bodies that were answered as a whole, under the rule `exact`.
     pub groups: u64,
-    /// Respond: iterations of the solvers of these groups, each counted once for every contact.
+    /// Impact: iterations of the solvers of these groups, for impulses and for the forces of persistent
+    /// contacts, each counted once for every contact.
     pub solver_iterations: u64,
 }
 

@@ -8,7 +8,7 @@ use crate::error::InvalidValue;
 
 type Check = Result<(), InvalidValue>;
 
-/// Any other requirement, told in these words.
+/// Any other requirement, in these words.
 pub(crate) fn require(
     holds: bool,
     field: &'static str,

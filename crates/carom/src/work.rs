@@ -62,7 +62,7 @@ pub(crate) struct Work<'a> {
     stop: Option<&'a StopRequest>,
     /// Units done.
     done: Cell<u64>,
-    /// Units up to which nothing has to be asked.
+    /// Units up to which the stop request need not be looked at.
     next_look: Cell<u64>,
     /// Units after which it ends in any case.
     limit: Cell<u64>,

@@ -125,7 +125,7 @@ fn contacts_that_go_on_move_spheres_like_contacts_found_anew() {
     for frame in 0..300 {
         steer(&mut carried, frame);
         steer(&mut anew, frame);
-        // Settings that are set, even to what they are, end all flights and lasting contacts.
+        // Settings that are set, even to what they are, end all flights and persistent contacts.
         anew.set_settings(*anew.settings()).unwrap();
         impacts += carried.step(FRAME).unwrap().impacts.len();
         anew.step(FRAME).unwrap();

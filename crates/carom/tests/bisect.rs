@@ -425,7 +425,7 @@ fn a_bouncing_ball_comes_to_rest_when_its_bounces_end() {
             assert_eq!(came_to_rest, None, "it moves again at {}", world.time());
         }
     }
-    // Seen at the end of a frame; what happens after the last bounce that is told apart, of a
+    // Seen at the end of a frame; what happens after the last bounce that is distinguished, of a
     // period of 1/32 of a frame, is over within another.
     assert_close(came_to_rest.unwrap(), end, 2.0 / 240.0);
     assert_close(world.sphere(ball).unwrap().position.y, 0.5, 1e-9);

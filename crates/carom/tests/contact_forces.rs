@@ -1,4 +1,4 @@
-//! Forces at lasting contacts, against statics and against the conditions that define them.
+//! Forces at persistent contacts, against statics and against the conditions that define them.
 //!
 //! Geometry is made here, so these say nothing about detection.
 

@@ -1,6 +1,6 @@
 //! The rule `exact` through what it does to spheres. Proves that frames, cells and insertion order
 //! leave no trace, that contacts last and end as mechanics says, and that walls move, boxes repeat
-//! and forces act as told. It proves nothing about speed.
+//! and forces act as they say. It proves nothing about speed.
 
 mod common;
 
@@ -202,7 +202,7 @@ fn a_ball_shot_into_a_block_at_rest_keeps_the_clock_going_and_the_momentum_acros
     world.add_sphere(ball(vec(-3.0, 1.1, 1.3)).with_velocity(vec(5.0, 0.0, 0.0))).unwrap();
     run(&mut world, 1.0 / 60.0, 120);
     let momentum: DVec3 = world.spheres().velocities().iter().sum();
-    // Corrections of lasting contacts push both bodies alike, each time to a rounding.
+    // Corrections of persistent contacts push both bodies alike, each time to a rounding.
     assert!((momentum.x - 5.0).abs() < 1e-9 && momentum.z.abs() < 1e-9, "{momentum}");
 }
 

@@ -1,4 +1,4 @@
-//! Single impacts through the rule `bisect`, and the laws they must obey. Bisection is told to
+//! Single impacts through the rule `bisect`, and the laws they must obey. Bisection is set to
 //! place the contacts on frames' halves, so nothing here depends on the error of a contact time.
 
 // What is expected need not have the same bits everywhere.

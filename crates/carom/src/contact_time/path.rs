@@ -18,7 +18,7 @@ pub(super) trait Path {
     /// An upper bound of the acceleration along all unit vectors \[m/s²\], as above.
     fn max_acceleration_anywhere(&self, from: f64, to: f64) -> f64;
 
-    /// The longest time \[s\] for which [`Self::max_acceleration`] is worth asking at first.
+    /// The longest time \[s\] for which [`Self::max_acceleration`] is worth computing at first.
     fn window(&self) -> f64 {
         f64::INFINITY
     }

@@ -21,7 +21,7 @@ const STEPS_OF_A_DEPTH: u32 = 16;
 
 /// Past this a search gives up. Flights take a handful of steps, seldom hundreds, and turning
 /// surfaces some tens per turn; this is for numbers whose squares overflow, and for a horizon of
-/// more turns than anyone waits for.
+/// more turns than a user waits for.
 const MAX_STEPS: u32 = 1 << 20;
 
 /// Doublings of a rounding error that make it larger than anything it is the rounding of.

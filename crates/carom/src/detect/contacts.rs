@@ -148,7 +148,7 @@ pub(crate) struct Moved<'a> {
     pub contains: &'a dyn Fn(u32) -> bool,
 }
 
-/// Contacts that are not `Separate` of moved spheres with anyone and with solid surfaces, in no
+/// Contacts that are not `Separate` of moved spheres with all others and with solid surfaces, in no
 /// useful order.
 pub(crate) fn of_moved(
     instant: &Instant,

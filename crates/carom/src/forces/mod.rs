@@ -41,7 +41,7 @@ pub trait Force: Debug + Send + Sync {
         0.0
     }
 
-    /// Refuses parameters that make no sense; asked once, when the force enters a world.
+    /// Refuses parameters that make no sense; called once, when the force enters a world.
     ///
     /// # Errors
     /// The field, what it must be and what it is.

@@ -7,7 +7,7 @@ use super::problem::{self, Link, Tolerance};
 use super::touching::TouchingContact;
 use crate::work::Work;
 
-/// Speeds are told apart down to these multiples of the rounding of the largest speed. A velocity
+/// Speeds are distinguished down to these multiples of the rounding of the largest speed. A velocity
 /// that went through a handful of operations is off by a few roundings: below `FINE` an iteration
 /// gains nothing; `COARSE` leaves room for sums over many contacts.
 const FINE: f64 = 4.0 * f64::EPSILON;
@@ -22,7 +22,7 @@ pub(super) struct Group<'a> {
     pub restitutions: Vec<f64>,
     /// \[kg\], one per body.
     pub masses: &'a [f64],
-    /// Work of the step: solvers count their own, and end early when told to.
+    /// Work of the step: solvers count their own, and end early on a stop request.
     pub work: &'a Work<'a>,
 }
 
@@ -153,7 +153,7 @@ pub(super) fn speed_scale(velocities: impl Iterator<Item = DVec3>) -> f64 {
     velocities.map(|velocity| velocity.abs().max_element()).fold(1.0, f64::max)
 }
 
-/// What can be told apart from zero where speeds are of this scale.
+/// What can be distinguished from zero where speeds are of this scale.
 pub(super) fn tolerance(speed: f64) -> Tolerance {
     Tolerance { scale: speed, fine: FINE * speed, coarse: COARSE * speed }
 }

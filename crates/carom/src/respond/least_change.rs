@@ -9,7 +9,7 @@ use super::touching::TouchingContact;
 use crate::work::Work;
 
 /// Where contacts differ by less than that in their normals \[rad\], as the faces of a box do in their
-/// common edge, what tells them apart is rounding: a gap of 1e-16 m would be closed by a way as long
+/// common edge, what distinguishes them is rounding: a gap of 1e-16 m would be closed by a way as long
 /// as it divided by that.
 const SAME_NORMAL: f64 = 1e-8;
 

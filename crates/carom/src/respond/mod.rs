@@ -1,4 +1,4 @@
-//! What an impact does to velocities, and what lasting contacts do to accelerations. One file
+//! What an impact does to velocities, and what persistent contacts do to accelerations. One file
 //! per law.
 
 mod combine;

@@ -1,10 +1,10 @@
-//! Contacts as a problem: bodies, what impulses at contacts do to them, and what is asked.
+//! Contacts as a problem: bodies, what impulses at contacts do to them, and the rates that are wanted.
 
 use glam::DVec3;
 
 use super::order_free::{Grid, Steps};
 
-/// One contact of a problem: what its impulse moves, and the rate it asks for.
+/// One contact of a problem: what its impulse moves, and the rate that is wanted of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
     /// Body 1, pushed against the normal; none for a surface.
@@ -36,7 +36,7 @@ pub(super) struct Problem {
     pub tolerance: Tolerance,
 }
 
-/// Rates of opening that are told apart from zero.
+/// Rates of opening that are distinguished from zero.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Tolerance {
     /// The largest speed of the problem.

@@ -13,7 +13,7 @@ use crate::work::Work;
 /// velocities after it, and tells by what impulses.
 ///
 /// No contact closes afterwards beyond [`GroupResponse::resolution`], momentum is kept to
-/// round-off, and energy falls by what the law asks for. The laws and their formulas are in
+/// round-off, and energy falls by what the law demands. The laws and their formulas are in
 /// `docs/physics/impacts.md`, "Impacts at one instant". A single contact gets the bits that
 /// [`line_of_centres`](super::line_of_centres()) or [`reflection`](super::reflection()) give it.
 ///

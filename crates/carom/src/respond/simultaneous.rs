@@ -8,7 +8,7 @@ use super::order_free;
 use super::plastic;
 use super::project::Projector;
 
-/// The motion in which no contact opens more slowly than Newton's law asks, and those that open
+/// The motion in which no contact opens more slowly than Newton's law demands, and those that open
 /// faster have no impulse:
 ///
 /// ```text
@@ -16,7 +16,7 @@ use super::project::Projector;
 /// ```
 ///
 /// Source: Moreau, "Unilateral contact and dry friction in finite freedom dynamics" (1988);
-/// Glocker and Pfeiffer, Nonlinear Dynamics 7, 471 (1995). A contact that was opening asks for
+/// Glocker and Pfeiffer, Nonlinear Dynamics 7, 471 (1995). A contact that was opening demands
 /// nothing but not to close.
 ///
 /// With different e, or where opening contacts are pressed, that would gain energy (Kane, "A

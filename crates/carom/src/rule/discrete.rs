@@ -42,7 +42,7 @@ pub(crate) fn step(
     meet_each_other(system, motion, frame, scratch, report);
 }
 
-/// Answers the surfaces that a sphere overlaps, in scene order; each sees what the ones before
+/// Answers the surfaces that a sphere overlaps, in scene order; each acts on what the ones before
 /// it made of the sphere.
 fn meet_surfaces(
     system: &System,

@@ -1,10 +1,18 @@
 //! The rule `exact`: spheres fly in closed form from event to event.
 //!
-//! 1. **predict** what each sphere meets next: another sphere, a surface, the end of its neighbour region
-//! 2. take the first event from the **queue**
-//! 3. **impact**: answer it, with all that touch there, and predict anew what changed
+//! 1. **Begin** (`frame`): forces without a closed form are held for the frame
+//! 2. **Predict** (`predict`): what each sphere meets next, another sphere or a surface, and when it leaves
+//!    its neighbour region
+//! 3. **Queue** (`events`): the first event of all
+//! 4. **Cell crossing** (`neighbours`): a sphere gets another neighbour region
+//! 5. **Impact** (`impact`): an answer for all that touch there
+//! 6. **Persistent contacts** (`persistent`): what stays closed, with its forces; then 2 again for the
+//!    spheres at work
+//! 7. **Emission**: spheres that are due within the frame are taken in (`frame`)
+//! 8. **End of the frame** (`frame`): states are written, flights go on
 //!
-//! until the frame ends. What was predicted stays good from frame to frame.
+//! What was predicted stays good from frame to frame. `docs/physics/exact.md` has the stages under the
+//! same names.
 
 mod clearance;
 mod contact_scale;

@@ -1,0 +1,86 @@
+//! Keeps the stages of the rule `exact` under one name in code, documents and reports.
+
+use std::fs;
+
+use crate::shell::{Outcome, root};
+
+const DOCUMENT: &str = "docs/physics/exact.md";
+const CODE: &str = "crates/carom/src/rule/exact/mod.rs";
+const REPORT: &str = "crates/carom/src/report.rs";
+
+/// Compares the stages that the document describes with those of the code, and with what the report
+/// counts.
+pub fn check() -> Outcome {
+    let [document, code, report] = [read(DOCUMENT)?, read(CODE)?, read(REPORT)?];
+    let (described, coded) = (stages(&document), stages(&code));
+    if described.is_empty() || described != coded {
+        return Err(format!("{DOCUMENT} has the stages {described:?}, but {CODE} has {coded:?}"));
+    }
+    let counted = counted_stages(&report);
+    let unknown = counted.iter().find(|stage| !coded.contains(stage));
+    match unknown {
+        Some(stage) => {
+            Err(format!("{REPORT} counts work of the stage {stage:?}, which {CODE} lacks"))
+        }
+        None if counted.is_empty() => Err(format!("{REPORT} counts no work of stages")),
+        None => Ok(()),
+    }
+}
+
+/// The names in bold with which the points of a numbered list begin, of the first list that has such.
+fn stages(text: &str) -> Vec<String> {
+    let mut stages = Vec::new();
+    for line in text.lines() {
+        let line = line.trim_start_matches("//!").trim_start();
+        let point = format!("{}. **", stages.len() + 1);
+        if let Some((name, _)) = line.strip_prefix(&point).and_then(|rest| rest.split_once("**")) {
+            stages.push(name.trim_end_matches('.').to_owned());
+        }
+    }
+    stages
+}
+
+/// The stage that the documentation of each field of `StageCounts` begins with.
+fn counted_stages(report: &str) -> Vec<String> {
+    let body = report.split_once("pub struct StageCounts {").map_or("", |(_, rest)| rest);
+    let body = body.split_once("\n}").map_or("", |(body, _)| body);
+    let mut is_first_line = true;
+    let mut stages = Vec::new();
+    for line in body.lines().map(str::trim) {
+        match line.strip_prefix("/// ") {
+            Some(text) if is_first_line => {
+                stages.push(text.split_once(':').map_or(text, |(stage, _)| stage).to_owned());
+                is_first_line = false;
+            }
+            Some(_) => {}
+            None => is_first_line = true,
+        }
+    }
+    stages
+}
+
+fn read(name: &str) -> Outcome<String> {
+    fs::read_to_string(root().join(name)).map_err(|error| format!("{name}: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{counted_stages, stages};
+
+    #[test]
+    fn stages_are_the_bold_names_of_a_numbered_list() {
+        let document =
+            "# Rule\n\n1. **Begin.** It is\n   **so**.\n2. **Cell crossing** (`grid/`).\n";
+        assert_eq!(stages(document), ["Begin", "Cell crossing"]);
+        let code = "//! Rule\n//!\n//! 1. **Begin** (`frame`): x\n//! 2. **Cell crossing**: y\n";
+        assert_eq!(stages(code), ["Begin", "Cell crossing"]);
+        assert!(stages("1. no name\n2. **second**").is_empty());
+    }
+
+    #[test]
+    fn a_field_counts_the_stage_that_its_documentation_begins_with() {
+        let report = "pub struct StageCounts {\n    /// Predict: how\n    /// often: many.\n    \
+                      pub predictions: u64,\n    /// Queue: events.\n    pub events: u64,\n}\n";
+        assert_eq!(counted_stages(report), ["Predict", "Queue"]);
+    }
+}
