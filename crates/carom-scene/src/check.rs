@@ -1,9 +1,8 @@
 //! Requirements on a scene that no part of the world looks at.
 
 use crate::error::Problem;
-use crate::generate;
-use crate::scene::{Color, DensityColor, Quaternion, Rule, Scene, Simulation, Vector};
-use crate::world::{quaternion, vector};
+use crate::requirement::{check, check_non_negative, check_positive, check_rotation, check_vector};
+use crate::scene::{Color, DensityColor, Generator, Rule, Scene, Simulation};
 
 /// Numbers that no part of the world looks at.
 pub(crate) fn check_numbers(scene: &Scene) -> Result<(), Problem> {
@@ -46,8 +45,8 @@ fn colors(scene: &Scene) -> Vec<(String, Color)> {
         add(format!("spheres[{i}].color"), sphere.color);
     }
     for (i, generator) in scene.generators.iter().enumerate() {
-        let path = format!("generators[{i}].{}.sphere.color", generate::kind(generator));
-        add(path, generate::template(generator).color);
+        let path = format!("generators[{i}].{}.sphere.color", generator.kind());
+        add(path, generator.template().color);
     }
     for (i, collider) in scene.colliders.iter().enumerate() {
         add(format!("colliders[{i}].color"), collider.color);
@@ -67,40 +66,9 @@ fn colors(scene: &Scene) -> Vec<(String, Color)> {
     colors
 }
 
-pub(crate) fn check(
-    holds: bool,
-    path: &str,
-    problem: impl FnOnce() -> String,
-) -> Result<(), Problem> {
-    if holds { Ok(()) } else { Err(Problem::new(path, problem())) }
-}
-
-pub(crate) fn check_positive(value: f64, path: &str) -> Result<(), Problem> {
-    check(value > 0.0 && value.is_finite(), path, || {
-        format!("must be positive and finite, not {value}")
-    })
-}
-
-pub(crate) fn check_non_negative(value: f64, path: &str) -> Result<(), Problem> {
-    check(value >= 0.0 && value.is_finite(), path, || {
-        format!("must be zero or positive, and finite, not {value}")
-    })
-}
-
-pub(crate) fn check_vector(value: Vector, path: &str) -> Result<(), Problem> {
-    check(vector(value).is_finite(), path, || format!("must be finite, not {value:?}"))
-}
-
-fn check_rotation(value: Quaternion, path: &str) -> Result<(), Problem> {
-    let length_squared = quaternion(value).length_squared();
-    check(length_squared.is_finite() && length_squared >= f64::MIN_POSITIVE, path, || {
-        format!("must be a quaternion x, y, z, w that is finite and not zero, not {value:?}")
-    })
-}
-
 /// Refuses a touching distance that is no longer small against the smallest sphere.
 fn check_tolerance(scene: &Scene) -> Result<(), Problem> {
-    let spheres = scene.spheres.iter().chain(scene.generators.iter().map(generate::template));
+    let spheres = scene.spheres.iter().chain(scene.generators.iter().map(Generator::template));
     let spheres = spheres.chain(scene.emitters.iter().map(|emitter| &emitter.sphere));
     let radii = spheres.filter_map(|s| s.radius.or(s.diameter.map(|diameter| 0.5 * diameter)));
     let smallest = radii.filter(|radius| *radius > 0.0).fold(f64::INFINITY, f64::min);

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use carom::InvalidValue;
 use thiserror::Error;
 
 /// What can go wrong with scenes.
@@ -88,6 +89,18 @@ pub(crate) struct Problem {
 impl Problem {
     pub fn new(field: impl Into<String>, problem: impl Into<String>) -> Self {
         Self { field: field.into(), problem: problem.into() }
+    }
+
+    /// A refusal of the physics, about what is written at `path`.
+    pub fn of_physics(path: &str, error: carom::Error) -> Self {
+        match error {
+            carom::Error::Invalid {
+                source: InvalidValue { field, requirement, value }, ..
+            } => {
+                Self::new(format!("{path}.{field}"), format!("must be {requirement}, not {value}"))
+            }
+            other => Self::new(path, other.to_string()),
+        }
     }
 
     /// The fault of a scene that was put together in code.

@@ -1,7 +1,6 @@
 //! Generators written out.
 
 use crate::error::SceneError;
-use crate::generate;
 use crate::scene::Scene;
 
 impl Scene {
@@ -14,7 +13,7 @@ impl Scene {
         let mut scene = Self { generators: Vec::new(), ..self.clone() };
         scene.simulation.allow_overlap = true;
         for (i, generator) in self.generators.iter().enumerate() {
-            let path = format!("generators[{i}].{}", generate::kind(generator));
+            let path = format!("generators[{i}].{}", generator.kind());
             let spheres = generator.spheres(&scene.world()?, &path);
             scene.spheres.extend(spheres.map_err(|problem| problem.in_code(&self.name))?);
         }

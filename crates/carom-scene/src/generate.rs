@@ -6,10 +6,11 @@ use carom::{DVec3, World};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::check::{check, check_non_negative, check_positive, check_vector};
+use crate::bodies::{add_sphere, sphere};
 use crate::error::Problem;
+use crate::requirement::{check, check_non_negative, check_positive, check_vector};
+use crate::scene::values::vector;
 use crate::scene::{Generator, Sphere};
-use crate::world::{add_sphere, sphere, vector};
 
 /// Places tried for each sphere of a random filling. Random places fill a box to a volume
 /// fraction of 0.38 at most (random sequential addition), and slow down long before.
@@ -18,24 +19,6 @@ const TRIES_PER_SPHERE: u32 = 10_000;
 /// More spheres than this in one generator are a slip of the keyboard, and would fill the memory
 /// (about 1 GB for the world alone).
 const MOST_SPHERES: u64 = 10_000_000;
-
-/// Name of a generator's kind, as it is written.
-pub(crate) fn kind(generator: &Generator) -> &'static str {
-    match generator {
-        Generator::Row { .. } => "row",
-        Generator::Lattice { .. } => "lattice",
-        Generator::Random { .. } => "random",
-    }
-}
-
-/// What the spheres of a generator have in common.
-pub(crate) fn template(generator: &Generator) -> &Sphere {
-    match generator {
-        Generator::Row { sphere, .. }
-        | Generator::Lattice { sphere, .. }
-        | Generator::Random { sphere, .. } => sphere,
-    }
-}
 
 impl Generator {
     /// The spheres it stands for, one by one, when `world` holds what comes before them.

@@ -15,6 +15,7 @@
 
 #![warn(clippy::unwrap_used)]
 
+mod bodies;
 mod builtin;
 mod check;
 mod error;
@@ -30,8 +31,10 @@ mod palette;
 pub mod part;
 #[cfg(feature = "recording")]
 pub mod recording;
+mod requirement;
 pub mod scene;
 mod schema;
+mod settings;
 mod world;
 
 pub use builtin::FILES as BUILT_IN_FILES;

@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 use carom::volume;
 
 use crate::error::SceneError;
-use crate::generate;
 use crate::origin::{Origin, Origins};
-use crate::scene::{Collider, Color, Colors, Emitter, Scene, Sphere};
+use crate::scene::{Collider, Color, Colors, Emitter, Generator, Scene, Sphere};
 
 /// A density counts as listed if it differs by this part at most: mass / volume is off by a few
 /// roundings (1e-15), densities that somebody lists differ by far more.
@@ -61,7 +60,7 @@ impl Palette {
             added: Vec::new(),
             painted: BTreeMap::new(),
             spheres: scene.spheres.iter().map(color).collect(),
-            generators: scene.generators.iter().map(generate::template).map(color).collect(),
+            generators: scene.generators.iter().map(Generator::template).map(color).collect(),
             emitters: scene.emitters.iter().map(|emitter| emitter.sphere.color).collect(),
             colliders: collider_colors(&scene.colliders),
             colors: scene.colors.clone().unwrap_or_default(),

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use carom::World;
 
-use super::{Format, csv_file, digits};
+use super::csv_file::{csv_file, digits};
+use super::format::Format;
 
 /// Columns: time at the end of the frame \[s\], number of the sphere in order of appearance,
 /// position \[m\], velocity \[m/s\].

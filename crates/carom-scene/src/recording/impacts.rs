@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use carom::{BodyPair, Impact};
 
-use super::{RecordingError, csv_file, digits, unwritable};
+use super::csv_file::{csv_file, digits};
+use super::error::{RecordingError, unwritable};
 
 /// Columns: time \[s\]; kind and number of body 1 (`sphere` or `collider`) and number of body 2, a
 /// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; impulse \[N s\].

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use carom::{LedgerEntry, StepReport};
 
+use super::csv_file::{csv_file, digits};
+use super::error::{RecordingError, unwritable};
 use super::impacts::impact_fields;
-use super::{RecordingError, csv_file, digits, unwritable};
 
 /// Columns: those of the impacts up to the normal; speeds of approach and separation \[m/s\] and
 /// impulse \[N s\]; the law, the number of the group in the run and how many impacts it has; momentum

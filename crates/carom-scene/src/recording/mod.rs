@@ -1,7 +1,10 @@
 //! Recordings on disk: trajectories as CSV, NPZ or VTK, impacts as CSV. Trajectories in CSV can be
 //! played again.
 
+mod csv_file;
 mod csv_table;
+mod error;
+mod format;
 mod impacts;
 mod ledger;
 mod npz;
@@ -9,53 +12,24 @@ mod playback;
 mod replay;
 mod vtk;
 
-use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use carom::World;
-use thiserror::Error;
 
+pub use error::RecordingError;
 pub use impacts::ImpactTable;
 pub use ledger::LedgerTable;
 pub use playback::Playback;
 pub use replay::{LineProblem, Replay, ReplayBall, ReplayError, ReplayFrame};
 
-/// Why a recording failed.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum RecordingError {
-    /// The ending of the file name names no format.
-    #[error("cannot tell the format of {path}: use {known}", known = ENDINGS)]
-    UnknownFormat {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The file cannot be written.
-    #[error("cannot write {path}: {source}")]
-    Unwritable {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-}
-
-const ENDINGS: &str = ".csv, .npz, or .pvd (a series of .vtp files for ParaView)";
+use error::unwritable;
+use format::Format;
 
 /// Writes the states of a world, frame by frame.
 pub struct Trajectory {
     path: PathBuf,
     format: Box<dyn Format>,
-}
-
-/// One format of trajectories.
-trait Format: Send {
-    /// Writes the spheres as they are now.
-    fn write(&mut self, world: &World) -> io::Result<()>;
-
-    /// Completes the file.
-    fn finish(self: Box<Self>) -> io::Result<()>;
 }
 
 impl std::fmt::Debug for Trajectory {
@@ -97,20 +71,4 @@ impl Trajectory {
         let Self { path, format } = self;
         format.finish().map_err(|source| unwritable(&path, source))
     }
-}
-
-fn unwritable(path: &Path, source: io::Error) -> RecordingError {
-    RecordingError::Unwritable { path: path.to_owned(), source }
-}
-
-/// Creates a CSV file with this header.
-fn csv_file(path: &Path, header: &[&str]) -> io::Result<csv::Writer<File>> {
-    let mut writer = csv::Writer::from_writer(File::create(path)?);
-    writer.write_record(header)?;
-    Ok(writer)
-}
-
-/// A number with 17 significant digits: as many as tell any two doubles apart.
-fn digits(value: f64) -> String {
-    format!("{value:.16e}")
 }

@@ -11,7 +11,7 @@ use carom::World;
 use npyz::WriterBuilder;
 use zip::write::SimpleFileOptions;
 
-use super::Format;
+use super::format::Format;
 
 /// An NPZ file holds one array after the other, frames come one after the other: columns wait in
 /// temporary files (beside the result, where there is room for it) until all frames are known.

@@ -9,7 +9,6 @@ use thiserror::Error;
 
 use super::csv_table::HEADER;
 use crate::error::SceneError;
-use crate::generate;
 use crate::origin::{Origin, Origins};
 use crate::palette;
 use crate::scene::{Color, Scene};
@@ -301,7 +300,7 @@ impl Balls {
         let origins = palette::origins(scene)?;
         let color = |number| match origins.of(number)? {
             Origin::Sphere(index) => scene.spheres[index].color,
-            Origin::Generator(index) => generate::template(&scene.generators[index]).color,
+            Origin::Generator(index) => scene.generators[index].template().color,
             Origin::Emitter(_) => None,
         };
         let spheres = world.spheres();

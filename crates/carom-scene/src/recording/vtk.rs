@@ -10,7 +10,7 @@ use vtkio::model::{
     Attribute, Attributes, ByteOrder, DataSet, PolyDataPiece, Version, VertexNumbers, Vtk,
 };
 
-use super::Format;
+use super::format::Format;
 
 /// Files `NAME.pvd` and `NAME_000000.vtp`, `NAME_000001.vtp`, ...
 pub(super) struct Series {

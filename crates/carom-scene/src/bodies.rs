@@ -1,0 +1,71 @@
+//! Spheres, colliders and emitters of scenes, as the physics knows them.
+
+use carom::{Mass, Pose, World};
+
+use crate::error::Problem;
+use crate::requirement::check_positive;
+use crate::scene::values::{quaternion, vector};
+use crate::scene::{Collider, Emitter, Shape, Sphere};
+
+/// Adds a sphere written at `path`.
+pub(crate) fn add_sphere(world: &mut World, sphere: &Sphere, path: &str) -> Result<(), Problem> {
+    let sphere = self::sphere(sphere, path)?;
+    world.add_sphere(sphere).map_err(|error| Problem::of_physics(path, error))?;
+    Ok(())
+}
+
+/// A sphere written at `path`, its numbers not yet checked.
+pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Problem> {
+    let radius = match (sphere.radius, sphere.diameter) {
+        (Some(radius), None) => radius,
+        (None, Some(diameter)) => {
+            check_positive(diameter, &format!("{path}.diameter"))?;
+            0.5 * diameter
+        }
+        (None, None) => return Err(Problem::new(path, "needs `radius` or `diameter`")),
+        (Some(_), Some(_)) => {
+            return Err(Problem::new(format!("{path}.diameter"), "`radius` says it already"));
+        }
+    };
+    let mass = match (sphere.mass, sphere.density) {
+        (None, None) => Mass::Kilograms(1.0),
+        (Some(mass), None) => Mass::Kilograms(mass),
+        (None, Some(density)) => Mass::Density(density),
+        (Some(_), Some(_)) => {
+            return Err(Problem::new(format!("{path}.density"), "`mass` says it already"));
+        }
+    };
+    Ok(carom::Sphere::new(vector(sphere.position), radius)
+        .with_velocity(vector(sphere.velocity))
+        .with_mass(mass)
+        .with_restitution(sphere.restitution))
+}
+
+/// A collider, its numbers not yet checked.
+pub(crate) fn collider(collider: &Collider) -> carom::Collider {
+    let shape = match collider.shape {
+        Shape::Sphere { radius } => carom::Shape::Sphere { radius },
+        Shape::Rectangle { size_x, size_z } => carom::Shape::Rectangle { size_x, size_z },
+        Shape::HalfSpace => carom::Shape::HalfSpace,
+        Shape::Box { size } => carom::Shape::Box { size: vector(size) },
+    };
+    let pose = Pose::at(vector(collider.position)).rotated(quaternion(collider.rotation));
+    let solid = carom::Collider::new(shape, pose)
+        .moving(vector(collider.velocity), vector(collider.angular_velocity))
+        .with_restitution(collider.restitution);
+    if collider.trigger { solid.as_trigger() } else { solid }
+}
+
+/// An emitter written at `path`, its own numbers not yet checked.
+pub(crate) fn emitter(emitter: &Emitter, path: &str) -> Result<carom::Emitter, Problem> {
+    let sphere_path = format!("{path}.sphere");
+    let sphere = sphere(&emitter.sphere, &sphere_path)?;
+    // Adding the sphere to an empty world checks it, with its own path in the error.
+    World::default()
+        .add_sphere(sphere)
+        .map_err(|error| Problem::of_physics(&sphere_path, error))?;
+    Ok(carom::Emitter::new(sphere, emitter.period)
+        .with_position(vector(emitter.position))
+        .with_rotation(quaternion(emitter.rotation))
+        .with_max_spheres(emitter.max_spheres))
+}

@@ -1,0 +1,14 @@
+//! Formats of trajectories.
+
+use std::io;
+
+use carom::World;
+
+/// One format of trajectories.
+pub(super) trait Format: Send {
+    /// Writes the spheres as they are now.
+    fn write(&mut self, world: &World) -> io::Result<()>;
+
+    /// Completes the file.
+    fn finish(self: Box<Self>) -> io::Result<()>;
+}

@@ -1,0 +1,31 @@
+//! Sources of spheres.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::sphere::Sphere;
+use super::values::{Quaternion, Vector, unturned};
+
+/// Emits a sphere at the times 0, period, 2 period, ...
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Emitter {
+    /// What it is called.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// Where spheres appear, in m.
+    #[serde(default)]
+    pub position: Vector,
+    /// How the emitter, and with it the velocity of its spheres, is turned.
+    #[serde(default = "unturned")]
+    pub rotation: Quaternion,
+    /// Time between two spheres, in s, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub period: f64,
+    /// With this many of its spheres alive, the oldest makes place; no limit where it is missing.
+    #[schemars(range(min = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_spheres: Option<u32>,
+    /// What is emitted.
+    pub sphere: Sphere,
+}

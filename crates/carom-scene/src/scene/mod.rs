@@ -1,0 +1,91 @@
+//! What a scene file says: one type per table of the file.
+//!
+//! The doc comments here are the descriptions in the JSON Schema that editors show.
+
+mod collider;
+mod emitter;
+mod force;
+mod look;
+mod simulation;
+mod sphere;
+pub(crate) mod values;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use collider::{Collider, Shape};
+pub use emitter::Emitter;
+pub use force::Force;
+pub use look::{Camera, Colors, DensityColor, Sun};
+pub use simulation::{
+    Bisect, Boundary, CombineRule, Discrete, Exact, ImpactLaw, Integrator, Rule, Simulation,
+    WindBack,
+};
+pub use sphere::{Generator, Sphere};
+pub use values::{Color, Quaternion, Vector};
+
+/// A Carom scene: spheres, what acts on them, what they bounce off, and how to look at it.
+/// Right-handed frame, y up, SI units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Short name, as typed on the command line.
+    pub name: String,
+    /// Name as shown to people; the scene is found by it too.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub title: String,
+    /// What there is to see, in a sentence or two.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub description: String,
+    /// Where the scene comes from.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub origin: String,
+    /// How the scene is stepped.
+    #[serde(default)]
+    pub simulation: Simulation,
+    /// Forces on every sphere; they add up.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub forces: Vec<Force>,
+    /// Single spheres.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub spheres: Vec<Sphere>,
+    /// Rows, lattices and random fillings of spheres, placed after the single ones.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub generators: Vec<Generator>,
+    /// Fixed shapes, in the order in which the rule `discrete` looks at them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub colliders: Vec<Collider>,
+    /// Sources of spheres.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub emitters: Vec<Emitter>,
+    /// Where to look from; fitted to the scene where it is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera: Option<Camera>,
+    /// The light.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sun: Option<Sun>,
+    /// Colours of what has none of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub colors: Option<Colors>,
+}
+
+impl Scene {
+    /// An empty scene of this name, to be filled by code.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            title: String::new(),
+            description: String::new(),
+            origin: String::new(),
+            simulation: Simulation::default(),
+            forces: Vec::new(),
+            spheres: Vec::new(),
+            generators: Vec::new(),
+            colliders: Vec::new(),
+            emitters: Vec::new(),
+            camera: None,
+            sun: None,
+            colors: None,
+        }
+    }
+}

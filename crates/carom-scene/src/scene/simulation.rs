@@ -1,0 +1,214 @@
+//! How a scene is stepped.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::values::Vector;
+
+/// How a scene is stepped.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Simulation {
+    /// The step rule.
+    pub rule: Rule,
+    /// Length of a frame, in s, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub frame_time: f64,
+    /// Time worth watching, in s, > 0: what `carom run` takes unless told.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub duration: f64,
+    /// Whether spheres collide with one another; with colliders they always do.
+    pub spheres_collide: bool,
+    /// Restitution of a contact from that of its two bodies.
+    pub combine_rule: CombineRule,
+    /// Whether spheres may overlap each other or colliders at the start.
+    pub allow_overlap: bool,
+    /// What is around the spheres, besides colliders.
+    pub boundary: Boundary,
+    /// Parameters of the rule `exact`.
+    pub exact: Exact,
+    /// Parameters of the rule `bisect`.
+    pub bisect: Bisect,
+    /// Parameters of the rule `discrete`.
+    pub discrete: Discrete,
+}
+
+impl Default for Simulation {
+    fn default() -> Self {
+        Self {
+            rule: Rule::default(),
+            frame_time: 1.0 / 60.0,
+            duration: 10.0,
+            spheres_collide: true,
+            combine_rule: CombineRule::default(),
+            allow_overlap: false,
+            boundary: Boundary::default(),
+            exact: Exact::default(),
+            bisect: Bisect::default(),
+            discrete: Discrete::default(),
+        }
+    }
+}
+
+/// A step rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rule {
+    /// Move every sphere by the frame, then answer what overlaps (the course's rule).
+    Discrete,
+    /// Wind back what intersects and find the time of contact by bisection (the tutorial's rule).
+    Bisect,
+    /// Fly in closed form from impact to impact, each at its own time: nothing is missed.
+    #[default]
+    Exact,
+}
+
+impl Rule {
+    /// The names of all rules in scene files, the default first.
+    pub const NAMES: [&str; 3] = [Self::Exact.name(), Self::Bisect.name(), Self::Discrete.name()];
+
+    /// Its name in scene files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Discrete => "discrete",
+            Self::Bisect => "bisect",
+            Self::Exact => "exact",
+        }
+    }
+}
+
+impl std::fmt::Display for Rule {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// How impacts at one instant among spheres that touch are answered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ImpactLaw {
+    /// Pair after pair, as other engines do; it breaks symmetries.
+    Sequential,
+    /// Newton's law of restitution at all contacts at once; it does not pass impacts on.
+    Simultaneous,
+    /// Generalized reflection: keeps symmetries, and passes impacts on as Newton's cradle does.
+    #[default]
+    Reflection,
+}
+
+/// What is around the spheres, besides colliders.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Boundary {
+    /// Nothing.
+    #[default]
+    Open,
+    /// A box about the origin that repeats itself without end; only with the rule `exact`.
+    Periodic {
+        /// Edges, in m, each > 0; `inf` along an axis that is open.
+        size: Vector,
+    },
+}
+
+/// Parameters of the rule `exact`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Exact {
+    /// How impacts at one instant among spheres that touch are answered.
+    pub impact_law: ImpactLaw,
+    /// How long a contact lasts at least, in s, > 0: bodies that would meet again sooner stay together.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub contact_duration: f64,
+    /// Impacts and other work per sphere in a frame, >= 1; more is refused.
+    #[schemars(range(min = 1))]
+    pub max_impacts: u32,
+}
+
+impl Default for Exact {
+    fn default() -> Self {
+        let carom::Exact { contact_duration, max_impacts, .. } = carom::Exact::default();
+        Self { impact_law: ImpactLaw::default(), contact_duration, max_impacts }
+    }
+}
+
+/// How spheres move under forces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Integrator {
+    /// Velocity first, then position with the new velocity. First order.
+    #[default]
+    SemiImplicitEuler,
+    /// Position with the old velocity, then velocity. First order.
+    ExplicitEuler,
+    /// Second order.
+    VelocityVerlet,
+    /// Fourth order.
+    #[serde(rename = "runge-kutta-4", alias = "rk4")]
+    RungeKutta4,
+}
+
+/// Restitution of a contact from that of its two bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CombineRule {
+    /// Their product: with a sphere of 1, the collider's value governs.
+    #[default]
+    Product,
+    /// The smaller one.
+    Minimum,
+    /// The larger one.
+    Maximum,
+    /// Their mean.
+    Average,
+}
+
+/// Parameters of the rule `bisect`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Bisect {
+    /// How spheres move under forces.
+    pub integrator: Integrator,
+    /// Distance of surfaces that counts as touching, in m, >= 0.
+    #[schemars(range(min = 0.0))]
+    pub tolerance: f64,
+    /// Halvings in search of a contact, >= 1.
+    #[schemars(range(min = 1))]
+    pub max_halvings: u32,
+    /// How often two bodies may meet in a frame, >= 1; then the rest of it is taken in one piece.
+    #[schemars(range(min = 1))]
+    pub max_impacts: u32,
+    /// Which spheres go through the pieces into which a contact cuts the frame.
+    pub wind_back: WindBack,
+}
+
+impl Default for Bisect {
+    fn default() -> Self {
+        let carom::Bisect { tolerance, max_halvings, max_impacts, .. } = carom::Bisect::default();
+        Self {
+            integrator: Integrator::default(),
+            tolerance,
+            max_halvings,
+            max_impacts,
+            wind_back: WindBack::default(),
+        }
+    }
+}
+
+/// Which spheres go through the pieces into which a contact cuts the frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum WindBack {
+    /// Those that take part in contacts of the same group.
+    #[default]
+    Touched,
+    /// All, as the tutorial does; slow for many spheres.
+    All,
+}
+
+/// Parameters of the rule `discrete`.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Discrete {
+    /// How spheres move under forces.
+    pub integrator: Integrator,
+}

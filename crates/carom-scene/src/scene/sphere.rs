@@ -1,0 +1,131 @@
+//! Single spheres, and generators of many.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::values::{Color, Vector, one};
+
+/// A sphere, or what the spheres of a generator or an emitter have in common.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "oneOf" = [{ "required": ["radius"] }, { "required": ["diameter"] }],
+    "not" = { "required": ["mass", "density"] }
+))]
+pub struct Sphere {
+    /// Centre, in m; in a generator or an emitter an offset from the place it gives.
+    #[serde(default)]
+    pub position: Vector,
+    /// Velocity, in m/s; in an emitter in the emitter's frame.
+    #[serde(default)]
+    pub velocity: Vector,
+    /// Radius, in m, > 0. Give this or `diameter`.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Diameter, in m, > 0. Give this or `radius`.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diameter: Option<f64>,
+    /// Mass, in kg, > 0; 1 unless this or `density` is given.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass: Option<f64>,
+    /// Density, in kg/m³, > 0, instead of `mass`.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
+    /// Coefficient of restitution in [0, 1].
+    #[schemars(range(min = 0.0, max = 1.0))]
+    #[serde(default = "one")]
+    pub restitution: f64,
+    /// Colour; by density or the scene's own where it is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+}
+
+impl Sphere {
+    /// A sphere at rest at a place \[m\], of 1 kg.
+    pub fn at(position: Vector, radius: f64) -> Self {
+        Self {
+            position,
+            velocity: [0.0; 3],
+            radius: Some(radius),
+            diameter: None,
+            mass: None,
+            density: None,
+            restitution: 1.0,
+            color: None,
+        }
+    }
+}
+
+/// Places for many spheres.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Generator {
+    /// Spheres one after the other along a line.
+    Row {
+        /// How many, >= 1.
+        #[schemars(range(min = 1))]
+        count: u32,
+        /// Centre of the first, in m.
+        start: Vector,
+        /// From each centre to the next, in m.
+        step: Vector,
+        /// What they have in common.
+        sphere: Sphere,
+    },
+    /// Spheres on a box-shaped lattice; x runs fastest, then y, then z.
+    Lattice {
+        /// How many along x, y and z, each >= 1.
+        counts: [u32; 3],
+        /// Centre of the first, in m.
+        start: Vector,
+        /// Distance of neighbours along x, y and z, in m.
+        spacing: Vector,
+        /// What they have in common.
+        sphere: Sphere,
+    },
+    /// Spheres scattered in a box, none overlapping another sphere or a collider.
+    Random {
+        /// How many, >= 1.
+        #[schemars(range(min = 1))]
+        count: u32,
+        /// Lower corner of the box that holds the whole spheres, in m.
+        min: Vector,
+        /// Upper corner of the box, in m.
+        max: Vector,
+        /// The same seed gives the same scene.
+        seed: u32,
+        /// Speed, in m/s, >= 0, in a random direction, on top of the common velocity.
+        #[schemars(range(min = 0.0))]
+        #[serde(default)]
+        speed: f64,
+        /// Smallest and largest radius, in m, evenly distributed, instead of the common one.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        radius_range: Option<[f64; 2]>,
+        /// What they have in common.
+        sphere: Sphere,
+    },
+}
+
+impl Generator {
+    /// Name of its kind, as it is written.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::Row { .. } => "row",
+            Self::Lattice { .. } => "lattice",
+            Self::Random { .. } => "random",
+        }
+    }
+
+    /// What its spheres have in common.
+    pub(crate) fn template(&self) -> &Sphere {
+        match self {
+            Self::Row { sphere, .. }
+            | Self::Lattice { sphere, .. }
+            | Self::Random { sphere, .. } => sphere,
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! Values of fields: vectors, rotations, colours.
+
+use carom::{DQuat, DVec3};
+
+/// Three numbers x, y, z.
+pub type Vector = [f64; 3];
+/// A rotation as a quaternion x, y, z, w; any length but zero.
+pub type Quaternion = [f64; 4];
+/// Red, green, blue, each in [0, 1] (sRGB).
+pub type Color = [f64; 3];
+
+/// What a field that counts fully is where it is missing.
+pub(super) fn one() -> f64 {
+    1.0
+}
+
+/// The rotation that turns nothing.
+pub(super) fn unturned() -> Quaternion {
+    [0.0, 0.0, 0.0, 1.0]
+}
+
+/// A vector, to compute with.
+pub(crate) fn vector(value: Vector) -> DVec3 {
+    DVec3::from_array(value)
+}
+
+/// A rotation, to compute with; of any length.
+pub(crate) fn quaternion(value: Quaternion) -> DQuat {
+    DQuat::from_array(value)
+}

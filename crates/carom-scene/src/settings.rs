@@ -1,0 +1,91 @@
+//! How a scene is stepped, as the physics knows it.
+
+use carom::Settings;
+
+use crate::error::Problem;
+use crate::scene::values::vector;
+use crate::scene::{
+    Bisect, Boundary, CombineRule, Discrete, Exact, ImpactLaw, Integrator, Rule, Scene, Simulation,
+    WindBack,
+};
+
+impl Scene {
+    /// How the scene is stepped.
+    pub fn settings(&self) -> Settings {
+        settings(&self.simulation)
+    }
+}
+
+fn settings(simulation: &Simulation) -> Settings {
+    let rule: carom::Rule = match simulation.rule {
+        Rule::Discrete => discrete(&simulation.discrete).into(),
+        Rule::Bisect => bisect(&simulation.bisect).into(),
+        Rule::Exact => exact(&simulation.exact).into(),
+    };
+    let combine_rule = match simulation.combine_rule {
+        CombineRule::Product => carom::CombineRule::Product,
+        CombineRule::Minimum => carom::CombineRule::Minimum,
+        CombineRule::Maximum => carom::CombineRule::Maximum,
+        CombineRule::Average => carom::CombineRule::Average,
+    };
+    let boundary = match simulation.boundary {
+        Boundary::Open => carom::Boundary::Open,
+        Boundary::Periodic { size } => carom::Boundary::Periodic { size: vector(size) },
+    };
+    Settings::default()
+        .with_rule(rule)
+        .with_combine_rule(combine_rule)
+        .with_spheres_collide(simulation.spheres_collide)
+        .with_boundary(boundary)
+}
+
+fn discrete(parameters: &Discrete) -> carom::Discrete {
+    carom::Discrete::default().with_integrator(integrator(parameters.integrator))
+}
+
+fn bisect(parameters: &Bisect) -> carom::Bisect {
+    let wind_back = match parameters.wind_back {
+        WindBack::Touched => carom::WindBack::Touched,
+        WindBack::All => carom::WindBack::All,
+    };
+    carom::Bisect::default()
+        .with_integrator(integrator(parameters.integrator))
+        .with_tolerance(parameters.tolerance)
+        .with_max_halvings(parameters.max_halvings)
+        .with_max_impacts(parameters.max_impacts)
+        .with_wind_back(wind_back)
+}
+
+fn exact(parameters: &Exact) -> carom::Exact {
+    let impact_law = match parameters.impact_law {
+        ImpactLaw::Sequential => carom::ImpactLaw::Sequential,
+        ImpactLaw::Simultaneous => carom::ImpactLaw::Simultaneous,
+        ImpactLaw::Reflection => carom::ImpactLaw::Reflection,
+    };
+    carom::Exact::default()
+        .with_impact_law(impact_law)
+        .with_contact_duration(parameters.contact_duration)
+        .with_max_impacts(parameters.max_impacts)
+}
+
+fn integrator(integrator: Integrator) -> carom::Integrator {
+    match integrator {
+        Integrator::SemiImplicitEuler => carom::Integrator::SemiImplicitEuler,
+        Integrator::ExplicitEuler => carom::Integrator::ExplicitEuler,
+        Integrator::VelocityVerlet => carom::Integrator::VelocityVerlet,
+        Integrator::RungeKutta4 => carom::Integrator::RungeKutta4,
+    }
+}
+
+/// A refusal of the settings, about the table they are written in.
+pub(crate) fn settings_problem(simulation: &Simulation, error: carom::Error) -> Problem {
+    let path = match &error {
+        carom::Error::Invalid { source, .. } if source.field == "size" => {
+            "simulation.boundary.periodic"
+        }
+        carom::Error::Invalid { source, .. } if source.field == "boundary" => "simulation",
+        _ if simulation.rule == Rule::Exact => "simulation.exact",
+        _ => "simulation.bisect",
+    };
+    Problem::of_physics(path, error)
+}
