@@ -1,17 +1,7 @@
 //! Everything that can be changed while a scene runs.
 
-use std::sync::Arc;
-
-use carom::{
-    ColliderId, DVec3, Emitter, EmitterId, Error, ForceId, Mass, SphereId, Subject, World,
-};
-use carom_scene::SceneError;
-use carom_scene::scene::{self, Color, Force, Scene, Simulation};
-
-use crate::change::Change;
-use crate::error::SessionError;
-use crate::looks::{self, Looks};
-use crate::setup::{Setup, describe_emitter};
+use carom::{ColliderId, DVec3, Emitter, EmitterId, ForceId, Mass, SphereId};
+use carom_scene::scene::{Color, Force, Simulation};
 
 /// A change from outside.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,7 +54,7 @@ pub struct SphereChange {
 
 impl SphereChange {
     /// The sphere, changed.
-    fn of(&self, sphere: carom::Sphere) -> carom::Sphere {
+    pub(crate) fn of(&self, sphere: carom::Sphere) -> carom::Sphere {
         sphere
             .with_position(self.position.unwrap_or(sphere.position))
             .with_velocity(self.velocity.unwrap_or(sphere.velocity))
@@ -107,168 +97,4 @@ impl Edit {
             _ => None,
         }
     }
-}
-
-/// All that edits change.
-pub(crate) struct Subjects<'a> {
-    pub world: &'a mut World,
-    pub setup: &'a mut Arc<Setup>,
-    pub looks: &'a mut Looks,
-}
-
-/// Makes a change, in the world and in the description of the scene.
-///
-/// # Errors
-/// [`SessionError`], and nothing is changed: not even do flights begin anew.
-pub(crate) fn apply(edit: &Edit, scene: &Scene, to: Subjects) -> Result<(), SessionError> {
-    let Subjects { world, setup, looks } = to;
-    match edit {
-        Edit::Simulation(simulation) => set_simulation(simulation, scene, world, setup),
-        Edit::FrameTime(frame_time) => {
-            let mut simulation = setup.simulation.clone();
-            simulation.frame_time = *frame_time;
-            set_simulation(&simulation, scene, world, setup)
-        }
-        Edit::Force(id, force) => set_force(*id, force, world, setup),
-        Edit::AddForce(force) => {
-            let id = force.add_to(world)?;
-            Arc::make_mut(setup).forces.push((id, force.clone()));
-            Ok(())
-        }
-        Edit::RemoveForce(id) => remove_force(*id, world, setup),
-        Edit::ColliderRestitution(id, restitution) => {
-            set_restitution(*id, *restitution, world, setup)
-        }
-        Edit::AllColliderRestitutions(restitution) => {
-            // What is refused for one is refused for the first: none is changed then.
-            let ids: Vec<ColliderId> = setup.colliders.iter().map(|(id, _)| *id).collect();
-            ids.into_iter().try_for_each(|id| set_restitution(id, *restitution, world, setup))
-        }
-        Edit::Emitter(id, emitter) => set_emitter(*id, emitter, scene, (world, setup, looks)),
-        Edit::Sphere(id, change) => {
-            let changed = change.of(world.sphere(*id)?);
-            if change.radius.is_some() {
-                check_writable(scene, setup, changed.radius)?;
-            }
-            Ok(world.set_sphere(*id, changed)?)
-        }
-        Edit::Throw { sphere, color } => {
-            check_writable(scene, setup, sphere.radius)?;
-            let id = world.add_sphere(*sphere)?;
-            looks.paint(id, color.or_else(|| looks::color_of(scene, sphere)));
-            Ok(())
-        }
-        Edit::RemoveSphere(id) => Ok(world.remove_sphere(*id).map(drop)?),
-    }
-}
-
-/// Makes a change, of whichever kind.
-///
-/// # Errors
-/// As [`apply`].
-pub(crate) fn make(change: &Change, scene: &Scene, to: Subjects) -> Result<(), SessionError> {
-    match change {
-        Change::Edit(edit) => apply(edit, scene, to),
-        Change::FailedStep => {
-            begin_flights_anew(to.world);
-            Ok(())
-        }
-    }
-}
-
-/// As it happens after a step that failed.
-pub(crate) fn begin_flights_anew(world: &mut World) {
-    let settings = *world.settings();
-    // Settings that the world has were not refused when it got them.
-    let _ = world.set_settings(settings);
-}
-
-fn set_simulation(
-    simulation: &Simulation,
-    scene: &Scene,
-    world: &mut World,
-    setup: &mut Arc<Setup>,
-) -> Result<(), SessionError> {
-    let changed = Setup { simulation: simulation.clone(), ..(**setup).clone() };
-    let smallest = world.spheres().radii().iter().copied().fold(f64::INFINITY, f64::min);
-    check_writable(scene, &changed, smallest)?;
-    let settings = changed.scene(scene).settings();
-    // Flights begin anew with settings, even with the same ones.
-    if settings != *world.settings() {
-        world.set_settings(settings)?;
-    }
-    *setup = Arc::new(changed);
-    Ok(())
-}
-
-/// Refuses what no scene file could say, with `smallest` for the radius \[m\] of the smallest
-/// sphere; the words are those of scene files.
-fn check_writable(scene: &Scene, setup: &Setup, smallest: f64) -> Result<(), SceneError> {
-    let mut probe = Setup { colliders: Vec::new(), ..setup.clone() }.scene(scene);
-    probe.simulation.allow_overlap = true;
-    // What is wrong with the sphere itself, the world says.
-    if smallest.is_finite() && smallest > 0.0 {
-        probe.spheres.push(scene::Sphere::at([0.0; 3], smallest));
-    }
-    probe.world().map(drop)
-}
-
-fn set_force(
-    id: ForceId,
-    force: &Force,
-    world: &mut World,
-    setup: &mut Arc<Setup>,
-) -> Result<(), SessionError> {
-    force.replace_in(world, id)?;
-    let forces = &mut Arc::make_mut(setup).forces;
-    forces.iter_mut().filter(|it| it.0 == id).for_each(|it| it.1 = force.clone());
-    Ok(())
-}
-
-fn remove_force(
-    id: ForceId,
-    world: &mut World,
-    setup: &mut Arc<Setup>,
-) -> Result<(), SessionError> {
-    // Asked first: a world that does not know the force would let all flights begin anew.
-    if !setup.forces.iter().any(|it| it.0 == id) {
-        return Err(Error::Unknown(Subject::Force(id)).into());
-    }
-    world.remove_force(id)?;
-    Arc::make_mut(setup).forces.retain(|it| it.0 != id);
-    Ok(())
-}
-
-fn set_restitution(
-    id: ColliderId,
-    restitution: f64,
-    world: &mut World,
-    setup: &mut Arc<Setup>,
-) -> Result<(), SessionError> {
-    let collider = world.collider(id)?.with_restitution(restitution);
-    world.set_collider(id, collider)?;
-    let colliders = &mut Arc::make_mut(setup).colliders;
-    colliders.iter_mut().filter(|it| it.0 == id).for_each(|it| it.1.restitution = restitution);
-    Ok(())
-}
-
-fn set_emitter(
-    id: EmitterId,
-    emitter: &Emitter,
-    scene: &Scene,
-    to: (&mut World, &mut Arc<Setup>, &mut Looks),
-) -> Result<(), SessionError> {
-    let (world, setup, looks) = to;
-    let unknown = Error::Unknown(Subject::Emitter(id));
-    let place = setup.emitters.iter().position(|it| it.0 == id).ok_or(unknown)?;
-    let mut changed = (**setup).clone();
-    let is_anew = changed.emitters[place].1.period != emitter.period;
-    describe_emitter(emitter, &mut changed.emitters[place].1);
-    check_writable(scene, &changed, f64::INFINITY)?;
-    world.set_emitter(id, *emitter)?;
-    if is_anew {
-        looks.restart_emitter(id, world.time());
-    }
-    *setup = Arc::new(changed);
-    Ok(())
 }

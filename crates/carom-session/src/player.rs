@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use carom::StopRequest;
 
-use crate::Session;
 use crate::command::Command;
 use crate::comparison::Comparison;
 use crate::error::SessionError;
 use crate::pace::Pace;
 use crate::queue::Queue;
+use crate::session::Session;
 use crate::view::{Playback, View};
 use crate::watched::Watched;
 

@@ -7,11 +7,11 @@ use carom_scene::SceneError;
 use carom_scene::scene::{Scene, Simulation};
 
 use crate::change::{Change, PastChange};
-use crate::edit::{self, Subjects};
 use crate::error::SessionError;
 use crate::link::Link;
 use crate::looks::Looks;
 use crate::setup::Setup;
+use crate::subjects::Subjects;
 use crate::timetable::Timetable;
 
 /// A world that goes forwards, with the changes of a link made at their frames: what a
@@ -106,7 +106,8 @@ impl Replay {
         let frame = self.frame;
         while let Some(past) = self.changes.get(self.made).filter(|it| it.frame == frame) {
             let Self { scene, world, setup, looks, .. } = self;
-            edit::make(&past.change, scene, Subjects { world, setup, looks })
+            Subjects { world, setup, looks }
+                .change(&past.change, scene)
                 .map_err(|error| SessionError::Repeat { frame, source: Box::new(error) })?;
             self.made += 1;
         }

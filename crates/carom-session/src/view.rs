@@ -5,9 +5,8 @@ use std::sync::Arc;
 use carom::{DVec3, Pose, SphereId, StateHash};
 use carom_scene::scene::{Color, Scene, Sphere};
 
-use crate::Session;
 use crate::change::PastChange;
-use crate::comparison::Distance;
+use crate::distance::Distance;
 use crate::error::SessionError;
 use crate::impacts::ListedImpact;
 use crate::readings::{PickedReading, Reading};
@@ -144,7 +143,7 @@ impl Default for View {
 }
 
 impl View {
-    /// The present as a scene; see [`Session::scene_now`].
+    /// The present as a scene; see [`Session::scene_now`](crate::Session::scene_now).
     pub fn scene_now(&self) -> Scene {
         let mut scene = self.setup.scene(&self.scene);
         for (collider, pose) in scene.colliders.iter_mut().zip(&self.poses) {
@@ -184,63 +183,6 @@ impl SphereArrays {
             restitution: self.restitutions[index],
             color: self.colors[index],
         }
-    }
-}
-
-impl Session {
-    /// Copies all that an interface shows of it, without allocating where there is place. How it
-    /// is played is left as it was.
-    pub fn fill(&self, view: &mut View) {
-        let is_same = Arc::ptr_eq(&view.scene, &self.scene);
-        if !(is_same && view.spheres.stamp == self.stamp) {
-            self.fill_properties(&mut view.spheres);
-            view.scene = self.scene.clone();
-        }
-        self.fill_motion(&mut view.spheres);
-        (view.setup, view.changes) = (self.setup.clone(), self.history.changes().clone());
-        (view.frame, view.time) = (self.frame, self.time());
-        (view.furthest_frame, view.furthest) = self.history.furthest();
-        view.seeking = self.target;
-        replace(&mut view.poses, self.world.colliders().map(|(_, collider)| collider.pose));
-        self.fill_readings(view);
-    }
-
-    fn fill_properties(&self, arrays: &mut SphereArrays) {
-        let spheres = self.world.spheres();
-        replace(&mut arrays.ids, spheres.ids().iter().copied());
-        replace(&mut arrays.radii, spheres.radii().iter().copied());
-        replace(&mut arrays.masses, spheres.masses().iter().copied());
-        replace(&mut arrays.restitutions, spheres.restitutions().iter().copied());
-        let mut colors = self.looks.colors().iter().peekable();
-        // Both lists are ascending.
-        let color_of = |id: &SphereId| {
-            while colors.next_if(|(of, _)| of < id).is_some() {}
-            colors.next_if(|(of, _)| of == id).map(|(_, color)| *color)
-        };
-        replace(&mut arrays.colors, spheres.ids().iter().map(color_of));
-        arrays.stamp = self.stamp;
-    }
-
-    fn fill_motion(&self, arrays: &mut SphereArrays) {
-        let spheres = self.world.spheres();
-        replace(&mut arrays.positions, spheres.positions().iter().copied());
-        replace(&mut arrays.velocities, spheres.velocities().iter().copied());
-        replace(&mut arrays.previous_positions, self.previous_positions().iter().copied());
-    }
-
-    fn fill_readings(&self, view: &mut View) {
-        let Self { readings, frame, world, .. } = self;
-        view.now = readings.present(*frame, world);
-        replace(&mut view.readings, readings.until(*frame).copied());
-        view.readings.pop_if(|last| last.time >= view.now.time);
-        view.readings.push(view.now);
-        view.picked = readings.picked();
-        replace(&mut view.picked_readings, readings.of_picked_until(*frame).copied());
-        if let Some(now) = readings.present_of_picked(world) {
-            view.picked_readings.pop_if(|last| last.time >= now.time);
-            view.picked_readings.push(now);
-        }
-        replace(&mut view.impacts, readings.last_impacts().copied());
     }
 }
 

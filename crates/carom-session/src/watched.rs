@@ -2,10 +2,10 @@
 
 use carom::{SphereId, StateHash, StopRequest};
 
-use crate::Session;
 use crate::comparison::Comparison;
 use crate::edit::Edit;
 use crate::error::SessionError;
+use crate::session::Session;
 use crate::view::View;
 
 /// What a driver drives.

@@ -4,8 +4,10 @@ use carom_scene::SceneError;
 use carom_scene::scene::Rule;
 use thiserror::Error;
 
-use super::packed::MAX_UNPACKED;
-use super::parse::PARTS;
+use super::packed::PackedError;
+
+/// Names of the parts of a link.
+const PARTS: [&str; 7] = ["scene", "file", "name", "set", "rule", "edits", "t"];
 
 /// What is wrong with a link.
 #[derive(Debug, Error)]
@@ -70,18 +72,4 @@ pub enum LinkError {
     /// Something is wrong with its scene, or an override of it.
     #[error(transparent)]
     Scene(#[from] SceneError),
-}
-
-/// Why something packed cannot be unpacked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum PackedError {
-    /// Something in it was lost or changed.
-    #[error("is cut short or garbled; was all of the link copied?")]
-    Garbled,
-    /// It unpacks to more than is taken.
-    #[error("unpacks to more than {} MiB, which is more than is taken", MAX_UNPACKED >> 20)]
-    TooLarge,
-    /// It unpacks to something else than text.
-    #[error("unpacks to something that is no text")]
-    NoText,
 }

@@ -7,12 +7,25 @@ use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
-
-use super::error::PackedError;
+use thiserror::Error;
 
 /// Most that something packed may unpack to \[bytes\]: a scene of 100,000 single spheres, far more
 /// than an address can hold of any but the dullest; little enough not to be felt in memory.
 pub const MAX_UNPACKED: usize = 16 << 20;
+
+/// Why something packed cannot be unpacked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum PackedError {
+    /// Something in it was lost or changed.
+    #[error("is cut short or garbled; was all of the link copied?")]
+    Garbled,
+    /// It unpacks to more than is taken.
+    #[error("unpacks to more than {} MiB, which is more than is taken", MAX_UNPACKED >> 20)]
+    TooLarge,
+    /// It unpacks to something else than text.
+    #[error("unpacks to something that is no text")]
+    NoText,
+}
 
 /// Packs a text.
 pub fn pack(text: &str) -> String {

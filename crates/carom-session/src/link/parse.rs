@@ -1,23 +1,18 @@
 //! Addresses to links.
 
+use std::str::FromStr;
 use std::sync::Arc;
 
-use carom_scene::Override;
-use carom_scene::scene::Rule;
 use percent_encoding::percent_decode_str;
 
 use super::error::LinkError;
 use super::packed::unpack;
-use super::{Link, LinkSource, written};
-
-/// Names of the parts of a link.
-pub const PARTS: [&str; 7] = ["scene", "file", "name", "set", "rule", "edits", "t"];
-
-/// What an override that changes the rule begins with.
-const RULE_PATH: &str = "simulation.rule=";
-
-/// Longest quotation from a link in an error \[characters\].
-const LONGEST_QUOTATION: usize = 40;
+use super::quotation::quoted;
+use super::rule::rule_override;
+use super::run::{Link, LinkSource};
+use super::time::checked_time;
+use super::written;
+use crate::change::PastChange;
 
 /// The values of a link as they are written, of those that come once.
 #[derive(Default)]
@@ -30,8 +25,26 @@ struct Once<'a> {
     t: Option<&'a str>,
 }
 
+impl Link {
+    /// Reads a link: a whole address, or the part of it after `#`.
+    ///
+    /// # Errors
+    /// [`LinkError`], but not for what is wrong in a scene; [`Self::open`] says that.
+    pub fn parse(text: &str) -> Result<Self, LinkError> {
+        link(text)
+    }
+}
+
+impl FromStr for Link {
+    type Err = LinkError;
+
+    fn from_str(text: &str) -> Result<Self, LinkError> {
+        Self::parse(text)
+    }
+}
+
 /// Reads a link: a whole address, or the part of it after `#`.
-pub fn link(text: &str) -> Result<Link, LinkError> {
+fn link(text: &str) -> Result<Link, LinkError> {
     let text = text.trim();
     let fragment = match text.split_once('#') {
         Some((_, fragment)) => fragment,
@@ -92,7 +105,7 @@ fn source(once: &Once) -> Result<LinkSource, LinkError> {
     }
 }
 
-fn edits(packed: &str) -> Result<Vec<crate::PastChange>, LinkError> {
+fn edits(packed: &str) -> Result<Vec<PastChange>, LinkError> {
     let text = unpacked("edits", packed)?;
     written::from_toml(&text).map_err(|problem| LinkError::Edits { problem })
 }
@@ -102,29 +115,6 @@ fn time(text: &str) -> Result<f64, LinkError> {
     checked_time(seconds)
 }
 
-/// A time \[s\], if it is one.
-pub fn checked_time(seconds: f64) -> Result<f64, LinkError> {
-    if seconds >= 0.0 && seconds.is_finite() {
-        // Not -0, which is a time as well as 0 but reads like none.
-        Ok(seconds.abs())
-    } else {
-        Err(LinkError::Time { found: format!("{seconds:?}") })
-    }
-}
-
-/// What `rule=` stands for.
-pub fn rule_override(rule: &str) -> Result<Override, LinkError> {
-    if !Rule::NAMES.contains(&rule) {
-        return Err(LinkError::Rule { found: quoted(rule) });
-    }
-    Ok(format!("{RULE_PATH}{rule}").parse()?)
-}
-
-/// The rule that an override sets, if that is what it does in so many words.
-pub fn rule_of_override(text: &str) -> Option<&str> {
-    text.strip_prefix(RULE_PATH).filter(|rule| Rule::NAMES.contains(rule))
-}
-
 fn unpacked(part: &'static str, packed: &str) -> Result<String, LinkError> {
     unpack(packed).map_err(|source| LinkError::Packed { part, source })
 }
@@ -132,18 +122,4 @@ fn unpacked(part: &'static str, packed: &str) -> Result<String, LinkError> {
 fn decoded(part: &'static str, text: &str) -> Result<String, LinkError> {
     let decoded = percent_decode_str(text).decode_utf8();
     Ok(decoded.map_err(|_| LinkError::NoText { part })?.into_owned())
-}
-
-/// The beginning of what a link says.
-fn quoted(text: &str) -> String {
-    shortened(text, LONGEST_QUOTATION)
-}
-
-/// A text, or the beginning of one with more than `longest` characters.
-pub fn shortened(text: &str, longest: usize) -> String {
-    let mut shortened: String = text.chars().take(longest).collect();
-    if shortened.len() < text.len() {
-        shortened.push_str("...");
-    }
-    shortened
 }

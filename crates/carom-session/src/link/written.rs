@@ -12,7 +12,7 @@ use carom::{ColliderId, DQuat, DVec3, EmitterId, ForceId, Mass, SphereId};
 use carom_scene::scene::{Color, Force, Quaternion, Simulation, Vector};
 use serde::{Deserialize, Serialize};
 
-use super::parse::shortened;
+use super::quotation::shortened;
 use crate::change::{Change, PastChange};
 use crate::edit::{Edit, SphereChange};
 

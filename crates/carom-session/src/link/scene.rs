@@ -1,0 +1,64 @@
+//! The scene of a link.
+
+use carom_scene::scene::Scene;
+use carom_scene::{BUILT_IN_FILES, Library, Override, SceneError};
+
+use super::error::LinkError;
+use super::rule::rule_override;
+use super::run::{Link, LinkSource};
+
+/// What errors call a scene file without a name.
+const NAMELESS: &str = "scene file";
+
+impl Link {
+    /// To the beginning of this scene: a built-in one goes by its name, with its rule where it has
+    /// another; any other is written out.
+    pub fn to_scene(scene: &Scene) -> Self {
+        as_built_in(scene).unwrap_or_else(|| {
+            let (name, text) = (scene.name.clone(), scene.to_toml());
+            Self::new(LinkSource::File { name, text })
+        })
+    }
+
+    /// The scene at its beginning.
+    ///
+    /// # Errors
+    /// [`LinkError::Scene`] if there is no such scene, or with what is wrong in it.
+    pub fn open(&self) -> Result<Scene, LinkError> {
+        let scene = match &self.source {
+            LinkSource::BuiltIn(name) => built_in(name, &self.overrides),
+            LinkSource::File { name, text } => {
+                let name = if name.is_empty() { NAMELESS } else { name };
+                Scene::from_toml_with(text, name, &self.overrides)
+            }
+        };
+        Ok(scene?)
+    }
+}
+
+/// A scene by the name of a built-in one with the same values but for its rule, if there is one.
+fn as_built_in(scene: &Scene) -> Option<Link> {
+    let mut own = built_in(&scene.name, &[]).ok()?;
+    let link = Link::new(LinkSource::BuiltIn(own.name.clone()));
+    if own == *scene {
+        return Some(link);
+    }
+    own.simulation.rule = scene.simulation.rule;
+    let rule = rule_override(scene.simulation.rule.name()).ok()?;
+    (own == *scene).then(|| link.with_overrides([rule]))
+}
+
+/// A built-in scene by name or title. A link must not reach for files by their path, as
+/// [`Library::find`] does.
+fn built_in(name: &str, overrides: &[Override]) -> Result<Scene, SceneError> {
+    let wanted = name.to_lowercase();
+    let is_wanted = |file: &str| file.strip_suffix(".toml").is_some_and(|own| own == wanted);
+    if let Some((file, text)) = BUILT_IN_FILES.iter().find(|(file, _)| is_wanted(file)) {
+        return Scene::from_toml_with(text, file, overrides);
+    }
+    let is_path = name.ends_with(".toml") || name.contains(['/', '\\']);
+    if is_path {
+        return Err(SceneError::Unknown { name: name.to_owned(), nearest: None });
+    }
+    Ok(Library::new().find(name, overrides)?.0)
+}

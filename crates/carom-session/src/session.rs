@@ -1,0 +1,419 @@
+//! A session: a scene with its past and its edits.
+
+use std::sync::Arc;
+
+use carom::{DVec3, SphereId, StateHash, StopRequest, World};
+use carom_scene::SceneError;
+use carom_scene::scene::Scene;
+
+use crate::change::{Change, PastChange};
+use crate::edit::Edit;
+use crate::error::SessionError;
+use crate::history::{History, Moment};
+use crate::link::Link;
+use crate::looks::Looks;
+use crate::previous::Previous;
+use crate::readings::Readings;
+use crate::setup::Setup;
+use crate::subjects::{self, Subjects};
+use crate::view::{SphereArrays, View, replace};
+
+/// A scene being watched.
+///
+/// Time goes in frames. Every frame reached so far can be had again, to the bit, with every change
+/// from outside repeated when its time comes; a new change cuts off what came after it.
+#[derive(Debug)]
+pub struct Session {
+    /// As first opened.
+    scene: Arc<Scene>,
+    setup: Arc<Setup>,
+    world: World,
+    looks: Looks,
+    /// Number of frames taken.
+    frame: u64,
+    /// How many of all changes have been made.
+    changes: usize,
+    history: History,
+    readings: Readings,
+    previous: Previous,
+    /// The frame to go to.
+    target: Option<u64>,
+    /// Counts what may have changed anything of spheres but their motion.
+    stamp: u64,
+}
+
+impl Session {
+    /// Opens a scene.
+    ///
+    /// # Errors
+    /// [`SceneError`] if the scene makes no sense; only one put together in code can.
+    pub fn new(scene: Scene) -> Result<Self, SceneError> {
+        Self::with_changes(scene, Arc::default())
+    }
+
+    /// Opens a scene; `changes`, ascending by frame, are to come.
+    fn with_changes(scene: Scene, changes: Arc<Vec<PastChange>>) -> Result<Self, SceneError> {
+        let world = scene.world()?;
+        let setup = Arc::new(Setup::new(&scene, &world));
+        let looks = Looks::new(&scene, &world);
+        let start = Moment::new(0, 0, 0, &world, (&setup, &looks));
+        let history = History::new(start, setup.simulation.frame_time, changes);
+        let mut readings = Readings::default();
+        readings.measure(0, &world);
+        let previous = Previous::new(&world);
+        let scene = Arc::new(scene);
+        let (frame, changes, target, stamp) = (0, 0, None, 0);
+        Ok(Self {
+            scene,
+            setup,
+            world,
+            looks,
+            frame,
+            changes,
+            history,
+            readings,
+            previous,
+            target,
+            stamp,
+        })
+    }
+
+    /// Opens a scene, the one of this link, on the way to the time of the link:
+    /// [`Self::advance_seek`] goes there, and makes every change of the link when its frame comes.
+    /// There it is the session, to the bit, that the link was made of. Changes after that time are
+    /// made if it goes on.
+    ///
+    /// # Errors
+    /// [`SessionError::Scene`] if the scene makes no sense, [`SessionError::Repeat`] for a change
+    /// at the beginning that is refused, and as [`Self::frame_at`].
+    pub fn replay(scene: Scene, link: &Link) -> Result<Self, SessionError> {
+        let mut session = Self::with_changes(scene, link.changes().clone())?;
+        session.repeat_changes()?;
+        if let Some(time) = link.time() {
+            session.seek(session.frame_at(time)?);
+        }
+        Ok(session)
+    }
+
+    /// Takes one frame. Gives up going elsewhere.
+    ///
+    /// # Errors
+    /// [`SessionError::World`] if the physics cannot take it; the session stays where it is.
+    /// [`SessionError::Repeat`] if the frame is taken, but a change of a link that comes there is
+    /// refused.
+    pub fn step(&mut self) -> Result<(), SessionError> {
+        self.target = None;
+        self.take_frame()
+    }
+
+    /// Goes back by one frame, if there is one.
+    ///
+    /// # Errors
+    /// None that taking the same frames did not have.
+    pub fn step_back(&mut self) -> Result<(), SessionError> {
+        self.seek(self.frame.saturating_sub(1));
+        self.advance_seek(u64::MAX).map(drop)
+    }
+
+    /// Goes back to the beginning; what came after is not lost.
+    ///
+    /// # Errors
+    /// None that beginning did not have.
+    pub fn restart(&mut self) -> Result<(), SessionError> {
+        self.seek(0);
+        self.advance_seek(u64::MAX).map(drop)
+    }
+
+    /// Goes to the frame nearest to a time \[s\], in one go; to one not reached yet, too.
+    ///
+    /// # Errors
+    /// [`SessionError::Time`] for a time that makes no sense; as [`Self::step`] on new ground.
+    pub fn jump(&mut self, time: f64) -> Result<(), SessionError> {
+        self.seek(self.frame_at(time)?);
+        self.advance_seek(u64::MAX).map(drop)
+    }
+
+    /// The frame nearest to a time \[s\].
+    ///
+    /// # Errors
+    /// [`SessionError::Time`] for a time that is negative or not finite, [`SessionError::TooFar`]
+    /// for one that is so far away that its frames cannot be counted.
+    pub fn frame_at(&self, time: f64) -> Result<u64, SessionError> {
+        self.history.frame_at(time)
+    }
+
+    /// Sets out for a frame; [`Self::advance_seek`] goes there.
+    pub fn seek(&mut self, frame: u64) {
+        let moment = self.history.before(frame);
+        let is_ahead = self.frame <= frame;
+        if !(is_ahead && moment.frame <= self.frame) {
+            moment.restore(&mut self.world);
+            (self.frame, self.changes) = (moment.frame, moment.changes);
+            (self.setup, self.looks) = (moment.setup.clone(), moment.looks.clone());
+            self.readings.go_to(moment.frame, moment.impacts);
+            self.previous.remember(&self.world);
+            self.stamp += 1;
+            // What was changed at a frame that was reached was not refused there.
+            let _ = self.repeat_changes();
+        }
+        self.target = Some(frame).filter(|frame| *frame != self.frame);
+    }
+
+    /// The frame it is on the way to.
+    pub fn seeking(&self) -> Option<u64> {
+        self.target
+    }
+
+    /// Gives up going elsewhere: stays where it has come to.
+    pub fn stop_seeking(&mut self) {
+        self.target = None;
+    }
+
+    /// Takes up to `budget` frames of the way to where [`Self::seek`] set out for. Returns whether
+    /// it is there.
+    ///
+    /// # Errors
+    /// As [`Self::step`]; it gives up then.
+    pub fn advance_seek(&mut self, budget: u64) -> Result<bool, SessionError> {
+        for _ in 0..budget {
+            let Some(target) = self.target else { break };
+            if let Err(error) = self.take_frame() {
+                self.target = None;
+                return Err(error);
+            }
+            self.target = Some(target).filter(|target| *target != self.frame);
+        }
+        Ok(self.target.is_none())
+    }
+
+    /// Makes a change, now; what came after the present is cut off.
+    ///
+    /// # Errors
+    /// What is wrong with it; nothing changes then.
+    pub fn edit(&mut self, edit: Edit) -> Result<(), SessionError> {
+        let change = Change::Edit(edit);
+        self.apply(&change)?;
+        self.target = None;
+        self.history.cut(self.frame, self.world.time());
+        self.changes = self.history.note(change, self.frame_time());
+        self.readings.cut(self.frame, &self.world);
+        Ok(())
+    }
+
+    /// Whether a change would be refused.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn check(&self, edit: &Edit) -> Result<(), SessionError> {
+        let (mut world, mut setup) = (self.world.clone(), self.setup.clone());
+        let mut looks = self.looks.clone();
+        let subjects = Subjects { world: &mut world, setup: &mut setup, looks: &mut looks };
+        subjects.edit(edit, &self.scene)
+    }
+
+    /// Follows another sphere, or none, from now on.
+    pub fn pick(&mut self, sphere: Option<SphereId>) {
+        self.readings.pick(sphere);
+        self.readings.measure(self.frame, &self.world);
+    }
+
+    /// Bounds the memory that the past may take \[bytes\]: the rest of it is calculated again when
+    /// it is asked for. The beginning is always kept.
+    pub fn set_memory(&mut self, bytes: usize) {
+        self.history.set_memory(bytes, self.frame);
+    }
+
+    /// Memory that the past takes, estimated \[bytes\].
+    pub fn memory(&self) -> usize {
+        self.history.bytes()
+    }
+
+    /// The scene as first opened.
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
+    /// The present as a scene: what was edited, and every sphere as a single one. Opened again it
+    /// is the same world, to the bit, but for its clock, which starts at 0, and its emitters,
+    /// which emit at once; flights begin anew, as after an edit.
+    pub fn scene_now(&self) -> Scene {
+        let mut view = View::default();
+        self.fill(&mut view);
+        view.scene_now()
+    }
+
+    /// Copies all that an interface shows of it, without allocating where there is place. How it
+    /// is played is left as it was.
+    pub fn fill(&self, view: &mut View) {
+        let is_same = Arc::ptr_eq(&view.scene, &self.scene);
+        if !(is_same && view.spheres.stamp == self.stamp) {
+            self.fill_properties(&mut view.spheres);
+            view.scene = self.scene.clone();
+        }
+        self.fill_motion(&mut view.spheres);
+        (view.setup, view.changes) = (self.setup.clone(), self.history.changes().clone());
+        (view.frame, view.time) = (self.frame, self.time());
+        (view.furthest_frame, view.furthest) = self.history.furthest();
+        view.seeking = self.target;
+        replace(&mut view.poses, self.world.colliders().map(|(_, collider)| collider.pose));
+        self.fill_readings(view);
+    }
+
+    /// What is not spheres, as edited.
+    pub fn setup(&self) -> &Arc<Setup> {
+        &self.setup
+    }
+
+    /// What was changed from outside, ascending by frame, the future included.
+    pub fn changes(&self) -> &Arc<Vec<PastChange>> {
+        self.history.changes()
+    }
+
+    /// Has steps end early once a request is made; see [`World::set_stop_request`].
+    pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
+        self.world.set_stop_request(request);
+    }
+
+    /// The world at present.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The state of the world as one number.
+    pub fn state_hash(&self) -> StateHash {
+        self.world.state_hash()
+    }
+
+    /// Number of frames taken.
+    pub fn frame(&self) -> u64 {
+        self.frame
+    }
+
+    /// Time of the present \[s\].
+    pub fn time(&self) -> f64 {
+        self.world.time()
+    }
+
+    /// Length of the next frame \[s\].
+    pub fn frame_time(&self) -> f64 {
+        self.setup.simulation.frame_time
+    }
+
+    /// The largest time reached \[s\], that was not cut off.
+    pub fn furthest(&self) -> f64 {
+        self.history.furthest().1
+    }
+
+    /// The last frame reached that was not cut off.
+    pub fn furthest_frame(&self) -> u64 {
+        self.history.furthest().0
+    }
+
+    /// Where the spheres were a frame ago \[m\], in the order of the world's; those that were not
+    /// there, where they are now.
+    pub fn previous_positions(&self) -> &[DVec3] {
+        self.previous.positions()
+    }
+
+    fn take_frame(&mut self) -> Result<(), SessionError> {
+        let start = self.world.time();
+        self.previous.remember(&self.world);
+        if let Err(error) = self.world.step(self.setup.simulation.frame_time) {
+            self.note_failed_step();
+            return Err(error.into());
+        }
+        self.frame += 1;
+        let report = self.world.report();
+        if !(report.emitted.is_empty() && report.retired.is_empty()) {
+            self.looks.note(report, start, &self.scene, (&self.world, &self.setup));
+            self.stamp += 1;
+        }
+        self.previous.align(&self.world);
+        self.readings.note(self.frame, start, &self.world);
+        self.history.reach(self.frame, self.world.time());
+        self.repeat_changes()?;
+        if self.history.wants(self.frame, &self.world) {
+            let more = (&self.setup, &self.looks);
+            let impacts = self.readings.impacts;
+            let moment = Moment::new(self.frame, self.changes, impacts, &self.world, more);
+            self.history.keep(moment);
+        }
+        Ok(())
+    }
+
+    /// After a step that failed flights begin anew. That is made part of the past, so that the
+    /// frames that follow it can be had again to the bit.
+    fn note_failed_step(&mut self) {
+        subjects::begin_flights_anew(&mut self.world);
+        if self.frame == self.furthest_frame() && !self.history.ends_with_failed_step() {
+            self.changes = self.history.note(Change::FailedStep, self.frame_time());
+        }
+    }
+
+    /// Makes the changes that come at this frame. One that is refused, which none is that was made
+    /// in this session before, is dropped with all that follow.
+    fn repeat_changes(&mut self) -> Result<(), SessionError> {
+        let (frame, first) = (self.frame, self.changes);
+        let mut refused = None;
+        while let Some(change) = self.history.change_at(frame, self.changes) {
+            let change = change.clone();
+            if let Err(error) = self.apply(&change) {
+                self.history.forget_changes_after(self.changes);
+                refused = Some(SessionError::Repeat { frame, source: Box::new(error) });
+                break;
+            }
+            self.changes += 1;
+        }
+        if self.changes > first && frame == self.furthest_frame() {
+            self.history.note_frame_time(self.frame_time());
+            self.readings.cut(frame, &self.world);
+        }
+        refused.map_or(Ok(()), Err)
+    }
+
+    fn apply(&mut self, change: &Change) -> Result<(), SessionError> {
+        let Self { scene, setup, world, looks, .. } = self;
+        Subjects { world, setup, looks }.change(change, scene)?;
+        self.previous.remember(&self.world);
+        self.stamp += 1;
+        Ok(())
+    }
+
+    fn fill_properties(&self, arrays: &mut SphereArrays) {
+        let spheres = self.world.spheres();
+        replace(&mut arrays.ids, spheres.ids().iter().copied());
+        replace(&mut arrays.radii, spheres.radii().iter().copied());
+        replace(&mut arrays.masses, spheres.masses().iter().copied());
+        replace(&mut arrays.restitutions, spheres.restitutions().iter().copied());
+        let mut colors = self.looks.colors().iter().peekable();
+        // Both lists are ascending.
+        let color_of = |id: &SphereId| {
+            while colors.next_if(|(of, _)| of < id).is_some() {}
+            colors.next_if(|(of, _)| of == id).map(|(_, color)| *color)
+        };
+        replace(&mut arrays.colors, spheres.ids().iter().map(color_of));
+        arrays.stamp = self.stamp;
+    }
+
+    fn fill_motion(&self, arrays: &mut SphereArrays) {
+        let spheres = self.world.spheres();
+        replace(&mut arrays.positions, spheres.positions().iter().copied());
+        replace(&mut arrays.velocities, spheres.velocities().iter().copied());
+        replace(&mut arrays.previous_positions, self.previous_positions().iter().copied());
+    }
+
+    fn fill_readings(&self, view: &mut View) {
+        let Self { readings, frame, world, .. } = self;
+        view.now = readings.present(*frame, world);
+        replace(&mut view.readings, readings.until(*frame).copied());
+        view.readings.pop_if(|last| last.time >= view.now.time);
+        view.readings.push(view.now);
+        view.picked = readings.picked();
+        replace(&mut view.picked_readings, readings.of_picked_until(*frame).copied());
+        if let Some(now) = readings.present_of_picked(world) {
+            view.picked_readings.pop_if(|last| last.time >= now.time);
+            view.picked_readings.push(now);
+        }
+        replace(&mut view.impacts, readings.last_impacts().copied());
+    }
+}
