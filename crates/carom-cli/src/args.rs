@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
-use carom_scene::{Library, Override, Scene, Source};
+use carom_scene::Library;
 use clap::{Parser, Subcommand};
 
+use crate::choice::{Changes, Choice, RULES};
 use crate::failure::Failure;
+use crate::length::{Length, positive};
 use crate::link::Link;
 #[cfg(feature = "pictures")]
 use crate::pictures::args::{Maze, Picture, Record};
@@ -106,75 +108,6 @@ pub enum Command {
     View(View),
 }
 
-/// Which scene, and what is different in it.
-#[derive(Debug, clap::Args)]
-pub struct Choice {
-    /// Name or title of a scene, or a scene file.
-    scene: String,
-    /// What is different.
-    #[command(flatten)]
-    changes: Changes,
-}
-
-impl Choice {
-    /// The scene with its changes, and then those of `more`.
-    pub fn find(
-        &self,
-        library: &Library,
-        more: impl IntoIterator<Item = String>,
-    ) -> Result<Scene, Failure> {
-        Ok(self.changes.find(library, &self.scene, more)?.0)
-    }
-
-    /// Name or title of the scene, or its file.
-    pub fn scene(&self) -> &str {
-        &self.scene
-    }
-
-    /// What is different in it.
-    pub fn changes(&self) -> &Changes {
-        &self.changes
-    }
-}
-
-/// What is different in a scene.
-#[derive(Debug, Clone, Default, clap::Args)]
-pub struct Changes {
-    /// Change a value of the scene, like emitters.0.max_spheres=100, or take it out with
-    /// emitters.0.max_spheres=none; may be given several times.
-    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
-    #[arg(requires = "scene")]
-    overrides: Vec<Override>,
-}
-
-impl Changes {
-    /// A scene with these changes, and then those of `more`.
-    pub fn find(
-        &self,
-        library: &Library,
-        scene: &str,
-        more: impl IntoIterator<Item = String>,
-    ) -> Result<(Scene, Source), Failure> {
-        Ok(library.find(scene, &self.overrides(more)?)?)
-    }
-
-    /// These changes, and then those of `more`.
-    pub fn overrides(
-        &self,
-        more: impl IntoIterator<Item = String>,
-    ) -> Result<Vec<Override>, Failure> {
-        let mut overrides = self.overrides.clone();
-        for text in more {
-            overrides.push(text.parse()?);
-        }
-        Ok(overrides)
-    }
-}
-
-fn parse_override(text: &str) -> Result<Override, String> {
-    text.parse().map_err(|error: carom_scene::SceneError| error.to_string())
-}
-
 /// Print a scene.
 #[derive(Debug, clap::Args)]
 pub struct Show {
@@ -184,50 +117,6 @@ pub struct Show {
     /// Write out every sphere that generators make.
     #[arg(long)]
     pub expand: bool,
-}
-
-/// How long to run, in which frames.
-#[derive(Debug, clap::Args)]
-pub struct Length {
-    /// Length of a frame, instead of the scene's own.
-    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
-    frame_time: Option<f64>,
-    /// How long to run, instead of the scene's own duration; taken up to whole frames.
-    #[arg(long, conflicts_with = "frames", value_parser = positive, allow_negative_numbers = true)]
-    seconds: Option<f64>,
-    /// How many frames to run.
-    #[arg(long)]
-    frames: Option<u64>,
-}
-
-impl Length {
-    /// What it changes in a scene.
-    pub fn overrides(&self) -> Option<String> {
-        self.frame_time.map(|h| format!("simulation.frame_time={h:?}"))
-    }
-
-    /// How many frames of a scene that is `duration` long, in frames of `h` \[s\].
-    pub fn frames(&self, duration: f64, h: f64) -> Result<u64, Failure> {
-        if let Some(frames) = self.frames {
-            return Ok(frames);
-        }
-        whole_frames(self.seconds.unwrap_or(duration), h)
-    }
-}
-
-/// How many frames of `h` \[s\] take this long \[s\], up to whole ones.
-pub fn whole_frames(seconds: f64, h: f64) -> Result<u64, Failure> {
-    // A billionth of a frame is rounding.
-    countable((seconds / h - 1e-9).ceil(), h)
-}
-
-/// As many frames of `h` \[s\], if they can be counted one by one.
-pub fn countable(frames: f64, h: f64) -> Result<u64, Failure> {
-    if frames < 2f64.powi(53) {
-        Ok(frames as u64)
-    } else {
-        Err(Failure::Usage(format!("{frames} frames of {h} s are more than can be counted")))
-    }
 }
 
 /// Run a scene.
@@ -269,16 +158,6 @@ pub struct Run {
     #[arg(long)]
     pub json: bool,
 }
-
-pub fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => Err("a positive number is needed".to_owned()),
-    }
-}
-
-/// Names of the step rules.
-pub const RULES: [&str; 3] = carom_scene::scene::Rule::NAMES;
 
 /// Check this build against physics.
 #[derive(Debug, clap::Args)]

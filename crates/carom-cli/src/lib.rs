@@ -5,10 +5,12 @@
 
 mod args;
 mod bench;
+mod choice;
 mod compare;
 mod failure;
 mod gas;
 mod interruption;
+mod length;
 mod link;
 mod machine;
 mod numbers;

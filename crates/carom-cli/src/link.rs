@@ -6,8 +6,9 @@ use std::path::Path;
 use carom_scene::{Library, Source};
 use carom_session::{LOCAL_PAGE, LinkSource, Replay};
 
-use crate::args::{Choice, RULES, whole_frames};
+use crate::choice::{Choice, RULES};
 use crate::failure::Failure;
+use crate::length::whole_frames;
 
 /// Print a link.
 #[derive(Debug, clap::Args)]

@@ -7,7 +7,7 @@ use carom_render::Quality;
 use carom_scene::{Library, Scene, Source};
 use carom_view::{Desktop, Setup, Start, default_folder, window};
 
-use crate::args::{Changes, RULES};
+use crate::choice::{Changes, RULES};
 use crate::failure::Failure;
 use crate::link::{self, usual_page};
 use crate::pictures::args::quality;

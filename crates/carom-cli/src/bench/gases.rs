@@ -6,7 +6,7 @@ use std::time::Instant;
 use carom::{Rule, World};
 use serde::{Deserialize, Serialize};
 
-use super::median;
+use super::median::median;
 use crate::args::Bench;
 use crate::failure::Failure;
 use crate::gas::{self, COLLISIONS_TO_EQUILIBRIUM, Filling, Speeds};

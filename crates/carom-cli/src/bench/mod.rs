@@ -1,6 +1,7 @@
 //! The command `bench`: how fast gases and scenes run on one core.
 
 mod gases;
+mod median;
 mod scenes;
 
 use std::io::{self, Write};
@@ -58,10 +59,4 @@ impl Figures {
         }
         writeln!(out, "{}", self.machine)
     }
-}
-
-/// The median of some figures; of an even number of them, the lower one of the middle.
-fn median(mut figures: Vec<f64>) -> f64 {
-    figures.sort_by(f64::total_cmp);
-    figures.get((figures.len().max(1) - 1) / 2).copied().unwrap_or(f64::NAN)
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use carom_scene::{Library, Override, Scene};
 use serde::Serialize;
 
-use super::median;
+use super::median::median;
 use crate::failure::Failure;
 use crate::table::{Side, Table};
 

@@ -6,7 +6,8 @@ use carom_render::Quality;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::viewpoint::Viewpoint;
-use crate::args::{Changes, Choice, RULES, positive};
+use crate::choice::{Changes, Choice, RULES};
+use crate::length::positive;
 
 /// How a scene is seen.
 #[derive(Debug, Clone, clap::Args)]

@@ -7,8 +7,8 @@ use carom_scene::Library;
 use super::args::Picture;
 use super::stepped::Stepped;
 use super::studio::Studio;
-use crate::args::countable;
 use crate::failure::Failure;
+use crate::length::countable;
 use crate::progress::Progress;
 
 /// Draws a scene at a time.

@@ -12,8 +12,8 @@ use carom_render::FilmSummary;
 use super::film::{Filming, Order};
 use super::footage::Footage;
 use super::studio::Studio;
-use crate::args::whole_frames;
 use crate::failure::Failure;
+use crate::length::whole_frames;
 use crate::progress::Progress;
 
 /// Films footage for so many seconds, up to a whole frame of the film, and prints a line about the film.

@@ -1,0 +1,77 @@
+//! Which scene the command line chooses, and what is different in it.
+
+use carom_scene::{Library, Override, Scene, Source};
+
+use crate::failure::Failure;
+
+/// Names of the step rules.
+pub const RULES: [&str; 3] = carom_scene::scene::Rule::NAMES;
+
+/// Which scene, and what is different in it.
+#[derive(Debug, clap::Args)]
+pub struct Choice {
+    /// Name or title of a scene, or a scene file.
+    scene: String,
+    /// What is different.
+    #[command(flatten)]
+    changes: Changes,
+}
+
+impl Choice {
+    /// The scene with its changes, and then those of `more`.
+    pub fn find(
+        &self,
+        library: &Library,
+        more: impl IntoIterator<Item = String>,
+    ) -> Result<Scene, Failure> {
+        Ok(self.changes.find(library, &self.scene, more)?.0)
+    }
+
+    /// Name or title of the scene, or its file.
+    pub fn scene(&self) -> &str {
+        &self.scene
+    }
+
+    /// What is different in it.
+    pub fn changes(&self) -> &Changes {
+        &self.changes
+    }
+}
+
+/// What is different in a scene.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct Changes {
+    /// Change a value of the scene, like emitters.0.max_spheres=100, or take it out with
+    /// emitters.0.max_spheres=none; may be given several times.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
+    #[arg(requires = "scene")]
+    overrides: Vec<Override>,
+}
+
+impl Changes {
+    /// A scene with these changes, and then those of `more`.
+    pub fn find(
+        &self,
+        library: &Library,
+        scene: &str,
+        more: impl IntoIterator<Item = String>,
+    ) -> Result<(Scene, Source), Failure> {
+        Ok(library.find(scene, &self.overrides(more)?)?)
+    }
+
+    /// These changes, and then those of `more`.
+    pub fn overrides(
+        &self,
+        more: impl IntoIterator<Item = String>,
+    ) -> Result<Vec<Override>, Failure> {
+        let mut overrides = self.overrides.clone();
+        for text in more {
+            overrides.push(text.parse()?);
+        }
+        Ok(overrides)
+    }
+}
+
+fn parse_override(text: &str) -> Result<Override, String> {
+    text.parse().map_err(|error: carom_scene::SceneError| error.to_string())
+}

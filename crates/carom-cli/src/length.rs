@@ -1,0 +1,55 @@
+//! How long the command line has a scene run.
+
+use crate::failure::Failure;
+
+/// How long to run, in which frames.
+#[derive(Debug, clap::Args)]
+pub struct Length {
+    /// Length of a frame, instead of the scene's own.
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
+    frame_time: Option<f64>,
+    /// How long to run, instead of the scene's own duration; taken up to whole frames.
+    #[arg(long, conflicts_with = "frames", value_parser = positive, allow_negative_numbers = true)]
+    seconds: Option<f64>,
+    /// How many frames to run.
+    #[arg(long)]
+    frames: Option<u64>,
+}
+
+impl Length {
+    /// What it changes in a scene.
+    pub fn overrides(&self) -> Option<String> {
+        self.frame_time.map(|h| format!("simulation.frame_time={h:?}"))
+    }
+
+    /// How many frames of a scene that is `duration` long, in frames of `h` \[s\].
+    pub fn frames(&self, duration: f64, h: f64) -> Result<u64, Failure> {
+        if let Some(frames) = self.frames {
+            return Ok(frames);
+        }
+        whole_frames(self.seconds.unwrap_or(duration), h)
+    }
+}
+
+/// How many frames of `h` \[s\] take this long \[s\], up to whole ones.
+pub fn whole_frames(seconds: f64, h: f64) -> Result<u64, Failure> {
+    // A billionth of a frame is rounding.
+    countable((seconds / h - 1e-9).ceil(), h)
+}
+
+/// As many frames of `h` \[s\], if they can be counted one by one.
+pub fn countable(frames: f64, h: f64) -> Result<u64, Failure> {
+    if frames < 2f64.powi(53) {
+        Ok(frames as u64)
+    } else {
+        Err(Failure::Usage(format!("{frames} frames of {h} s are more than can be counted")))
+    }
+}
+
+/// Reads a positive number.
+pub fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("a positive number is needed".to_owned()),
+    }
+}
