@@ -34,6 +34,17 @@ impl std::fmt::Display for Source {
 ///
 /// Where several have the same name, a registered one comes before one in a folder, and that
 /// before a built-in one; of two folders the one added first counts.
+///
+/// ```
+/// use carom_scene::{Library, Source};
+///
+/// let library = Library::new();
+/// let (scene, source) = library.find("SimTest1", &["simulation.rule=exact".parse()?])?;
+/// assert_eq!((scene.name.as_str(), source), ("simtest1", Source::BuiltIn));
+/// let mistyped = library.find("simtst1", &[]).unwrap_err();
+/// assert!(mistyped.to_string().contains("did you mean \"simtest1\"?"));
+/// # Ok::<(), carom_scene::SceneError>(())
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct Library {
     registered: Vec<Scene>,

@@ -14,6 +14,22 @@ use crate::world;
 impl Scene {
     /// Reads a scene from TOML; `source_name` is what errors call it.
     ///
+    /// ```
+    /// use carom_scene::Scene;
+    ///
+    /// let text = r#"
+    /// name = "fall"
+    /// spheres = [{ position = [0, 1, 0], radius = 0.5 }]
+    /// [[forces]]
+    /// gravity = { acceleration = [0, -9.81, 0] }
+    /// "#;
+    /// let scene = Scene::from_toml(text, "fall.toml")?;
+    /// assert_eq!(scene.world()?.spheres().len(), 1);
+    /// let mistyped = Scene::from_toml(&text.replace("radius", "radus"), "fall.toml").unwrap_err();
+    /// assert!(mistyped.to_string().starts_with("fall.toml:3: spheres[0].radus: unknown field"));
+    /// # Ok::<(), carom_scene::SceneError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`SceneError::Invalid`] for text that is no TOML, unknown fields, numbers that make no
     /// sense, and spheres that overlap at the start.

@@ -25,6 +25,16 @@ impl From<f64> for Mass {
 }
 
 /// One sphere, as it is added to a world and read from it.
+///
+/// ```
+/// use carom::{DVec3, Sphere};
+///
+/// let sphere = Sphere::new(DVec3::new(0.0, 2.0, 0.0), 0.5)
+///     .with_velocity(DVec3::X)
+///     .with_density(1000.0)
+///     .with_restitution(0.8);
+/// assert_eq!(sphere.kilograms(), 1000.0 * carom::volume(0.5));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Sphere {

@@ -73,6 +73,24 @@ impl Pose {
 }
 
 /// A shape somewhere in the world that never gives way, at rest or moved from outside.
+///
+/// ```
+/// use carom::{Collider, DQuat, DVec3, Pose, Shape, Sphere, World};
+///
+/// // A wall that faces the sphere, and comes towards it.
+/// let towards_sphere = DQuat::from_rotation_arc(DVec3::Y, DVec3::NEG_X);
+/// let wall = Collider::new(Shape::HalfSpace, Pose::at(DVec3::X).rotated(towards_sphere))
+///     .moving(DVec3::NEG_X, DVec3::ZERO)
+///     .with_restitution(0.5);
+/// let mut world = World::default();
+/// let id = world.add_collider(wall)?;
+/// let sphere = world.add_sphere(Sphere::new(DVec3::ZERO, 0.5))?;
+/// world.step(1.0)?;
+/// assert_eq!(world.collider(id)?.pose.position, DVec3::ZERO);
+/// // It leaves the wall with half the speed at which they met.
+/// assert!((world.sphere(sphere)?.velocity.x + 1.5).abs() < 1e-12);
+/// # Ok::<(), carom::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Collider {

@@ -22,6 +22,20 @@ const MAX_PER_FRAME: f64 = 1e6;
 ///
 /// When it emits depends on no sphere: one that is in the way is overlapped. A stream of spheres needs
 /// a period in which each leaves its place, and room below it for all of them.
+///
+/// ```
+/// use carom::{DVec3, Emitter, Sphere, World};
+///
+/// let falling = Sphere::new(DVec3::ZERO, 0.1).with_velocity(DVec3::NEG_Y);
+/// let emitter = Emitter::new(falling, 0.5).with_position(DVec3::Y).with_max_spheres(2);
+/// let mut world = World::default();
+/// world.add_emitter(emitter)?;
+/// let report = world.step(1.2)?;
+/// // At 0, 0.5 and 1 s; the first makes place for the third.
+/// assert_eq!((report.emitted.len(), report.retired.len()), (3, 1));
+/// assert_eq!(world.spheres().len(), 2);
+/// # Ok::<(), carom::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Emitter {

@@ -15,6 +15,20 @@ use crate::real::{Real, Vector};
 ///
 /// f1 -> 1 and f2 -> 1/2 as γ -> 0, where this is the parabola, to the last digit. The terminal
 /// velocity is a/γ. Derived in `docs/physics/motion.md`, "Free flight".
+///
+/// ```
+/// use carom::{DVec3, Flight};
+///
+/// let fall = Flight {
+///     position: DVec3::ZERO,
+///     velocity: DVec3::X,
+///     acceleration: DVec3::new(0.0, -10.0, 0.0),
+///     drag_rate: 0.0,
+/// };
+/// assert_eq!(fall.after(2.0), (DVec3::new(2.0, -20.0, 0.0), DVec3::new(1.0, -20.0, 0.0)));
+/// let slowed = Flight { drag_rate: 5.0, ..fall };
+/// assert!((slowed.velocity_at(10.0) - DVec3::new(0.0, -2.0, 0.0)).length() < 1e-12);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flight {
     /// Centre at time 0, x0 \[m\].

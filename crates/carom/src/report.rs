@@ -10,6 +10,20 @@ use crate::settings::ImpactLaw;
 use crate::system::System;
 
 /// What happened in one step.
+///
+/// ```
+/// use carom::{BodyPair, DVec3, Sphere, World};
+///
+/// let mut world = World::default();
+/// let moving = Sphere::new(DVec3::ZERO, 0.5).with_velocity(DVec3::new(2.0, 0.0, 0.0));
+/// let first = world.add_sphere(moving)?;
+/// let second = world.add_sphere(Sphere::new(DVec3::new(2.0, 0.0, 0.0), 0.5))?;
+/// let report = world.step(1.0)?;
+/// let impact = &report.impacts[0];
+/// assert_eq!(impact.between, BodyPair::Spheres(first, second));
+/// assert_eq!((impact.time, impact.approach_speed, impact.impulse), (0.5, 2.0, 2.0));
+/// # Ok::<(), carom::Error>(())
+/// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct StepReport {

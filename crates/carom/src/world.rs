@@ -50,6 +50,20 @@ pub struct World {
 /// The state of a world at one moment, to return to.
 ///
 /// Holds all that the future depends on, parameters too: settings, forces, colliders, emitters.
+///
+/// ```
+/// use carom::{DVec3, Sphere, World};
+///
+/// let mut world = World::default();
+/// world.add_sphere(Sphere::new(DVec3::ZERO, 0.5).with_velocity(DVec3::X))?;
+/// world.step(1.0)?;
+/// let (snapshot, hash) = (world.snapshot(), world.state_hash());
+/// world.step(1.0)?;
+/// world.restore(&snapshot);
+/// assert_eq!(world.state_hash(), hash);
+/// assert_eq!(world.time(), 1.0);
+/// # Ok::<(), carom::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Snapshot(State);
 

@@ -27,6 +27,24 @@ use error::unwritable;
 use format::Format;
 
 /// Writes the states of a world, frame by frame.
+///
+/// ```
+/// use carom::{DVec3, Sphere, World};
+/// use carom_scene::recording::Trajectory;
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("fall.csv");
+/// let mut world = World::default();
+/// world.add_sphere(Sphere::new(DVec3::ZERO, 0.5).with_velocity(DVec3::X))?;
+/// let mut trajectory = Trajectory::create(&path)?;
+/// trajectory.write(&world)?;
+/// world.step(0.5)?;
+/// trajectory.write(&world)?;
+/// trajectory.finish()?;
+/// // A line of headings, and one for each sphere and time.
+/// assert_eq!(std::fs::read_to_string(&path)?.lines().count(), 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Trajectory {
     path: PathBuf,
     format: Box<dyn Format>,

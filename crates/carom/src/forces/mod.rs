@@ -23,6 +23,38 @@ use crate::numbered::Numbered;
 ///
 /// For reproducible bits an implementation must use no function whose result depends on the
 /// platform (`sin`, `exp`, ... of the standard library; take those of the `libm` crate).
+///
+/// ```
+/// use carom::{DVec3, Force, Sphere, SphereState, World};
+///
+/// /// A spring from the origin to every sphere.
+/// #[derive(Debug)]
+/// struct Spring {
+///     /// In N/m.
+///     stiffness: f64,
+/// }
+///
+/// impl Force for Spring {
+///     fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
+///         -self.stiffness * sphere.position
+///     }
+///
+///     fn potential_energy(&self, sphere: &SphereState, _time: f64) -> f64 {
+///         0.5 * self.stiffness * sphere.position.length_squared()
+///     }
+/// }
+///
+/// let mut world = World::default();
+/// world.add_force(Spring { stiffness: 1.0 })?;
+/// let sphere = world.add_sphere(Sphere::new(DVec3::X, 0.1))?;
+/// for _ in 0..100 {
+///     world.step(std::f64::consts::PI / 100.0)?;
+/// }
+/// // Half a period later it is on the other side, with the same energy.
+/// assert!((world.sphere(sphere)?.position + DVec3::X).length() < 1e-3);
+/// assert!((world.total_energy() - 0.5).abs() < 1e-3);
+/// # Ok::<(), carom::Error>(())
+/// ```
 pub trait Force: Debug + Send + Sync {
     /// Force \[N\] on a sphere in this state, at this time \[s\] of the world's clock.
     fn on(&self, sphere: &SphereState, time: f64) -> DVec3;

@@ -4,6 +4,20 @@ use crate::error::InvalidValue;
 use crate::validate;
 
 /// What is around the spheres, besides colliders.
+///
+/// ```
+/// use carom::{Boundary, DVec3, Settings, Sphere, World};
+///
+/// let size = DVec3::new(4.0, f64::INFINITY, f64::INFINITY);
+/// let settings = Settings::default().with_boundary(Boundary::Periodic { size });
+/// let mut world = World::new(settings)?;
+/// let to_the_right = Sphere::new(DVec3::ZERO, 0.5).with_velocity(DVec3::X);
+/// let id = world.add_sphere(to_the_right)?;
+/// world.step(3.0)?;
+/// // Out at 2, and in again at -2.
+/// assert_eq!(world.sphere(id)?.position, DVec3::NEG_X);
+/// # Ok::<(), carom::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Boundary {
     /// Nothing: space without end.

@@ -1,4 +1,11 @@
 /// Coefficient of restitution of a contact, from those of the two bodies.
+///
+/// ```
+/// use carom::CombineRule;
+///
+/// assert_eq!(CombineRule::Product.combine(0.5, 0.8), 0.4);
+/// assert_eq!(CombineRule::Minimum.combine(0.5, 0.8), 0.5);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum CombineRule {

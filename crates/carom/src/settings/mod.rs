@@ -26,6 +26,18 @@ use crate::validate;
 ///
 /// What only one rule reads is a parameter of that [`Rule`]; what is here describes the world itself, or
 /// counts under every rule.
+///
+/// ```
+/// use carom::{CombineRule, Exact, Rule, Settings, World};
+///
+/// let settings = Settings::default()
+///     .with_rule(Exact::default().with_max_impacts(10_000))
+///     .with_combine_rule(CombineRule::Minimum);
+/// let world = World::new(settings)?;
+/// assert!(matches!(world.settings().rule, Rule::Exact(exact) if exact.max_impacts == 10_000));
+/// assert!(World::new(settings.with_rule(Exact::default().with_max_impacts(0))).is_err());
+/// # Ok::<(), carom::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Settings {

@@ -1,6 +1,28 @@
 use super::{Bisect, Discrete, Exact};
 
 /// How a frame is taken.
+///
+/// ```
+/// use carom::{Bisect, Collider, DVec3, Discrete, Error, Exact, Pose, Rule, Settings, Shape};
+/// use carom::{Sphere, World};
+///
+/// /// Height of a sphere after a frame in which it crosses a rectangle at height 0.
+/// fn height(rule: impl Into<Rule>) -> Result<f64, Error> {
+///     let mut world = World::new(Settings::default().with_rule(rule))?;
+///     let plate = Shape::Rectangle { size_x: 1.0, size_z: 1.0 };
+///     world.add_collider(Collider::new(plate, Pose::at(DVec3::ZERO)))?;
+///     let fast = Sphere::new(DVec3::Y, 0.1).with_velocity(DVec3::new(0.0, -20.0, 0.0));
+///     let fast = world.add_sphere(fast)?;
+///     world.step(0.1)?;
+///     Ok(world.sphere(fast)?.position.y)
+/// }
+///
+/// assert!(height(Exact::default())? > 0.0);
+/// // It was above the rectangle before the frame, and is below it after.
+/// assert!(height(Bisect::default())? < 0.0);
+/// assert!(height(Discrete::default())? < 0.0);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Rule {
