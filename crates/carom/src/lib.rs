@@ -74,7 +74,8 @@ pub use settings::{
     Bisect, Boundary, CombineRule, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings, WindBack,
 };
 pub use work::StopRequest;
-pub use world::{Snapshot, World};
+pub use world::World;
+pub use world::snapshot::Snapshot;
 
 /// The programs of the README, compiled and run as documentation tests.
 #[cfg(doctest)]

@@ -1,20 +1,20 @@
 //! The world: everything that persists, and the step that moves it on.
 
+mod measures;
+pub(crate) mod snapshot;
+
 use std::sync::Arc;
 
 use glam::DVec3;
 
 use crate::bodies::{Sphere, Spheres};
 use crate::collider::{Collider, Pose};
-use crate::detect::contacts::{self, Search};
 use crate::emitter::{Emitter, EmitterState};
 use crate::error::{Error, Subject};
 use crate::forces::Force;
-use crate::hash::{self, StateHash};
 use crate::id::{ColliderId, EmitterId, ForceId, SphereId};
-use crate::invariants;
 use crate::persistent_contact::PersistentContact;
-use crate::report::{Overlap, StepReport};
+use crate::report::StepReport;
 use crate::settings::Settings;
 use crate::state::State;
 use crate::step::{self, Scratch, Until};
@@ -46,26 +46,6 @@ pub struct World {
     /// Looked at while a step is at work.
     stop_request: Option<StopRequest>,
 }
-
-/// The state of a world at one moment, to return to.
-///
-/// Holds all that the future depends on, parameters too: settings, forces, colliders, emitters.
-///
-/// ```
-/// use carom::{DVec3, Sphere, World};
-///
-/// let mut world = World::default();
-/// world.add_sphere(Sphere::new(DVec3::ZERO, 0.5).with_velocity(DVec3::X))?;
-/// world.step(1.0)?;
-/// let (snapshot, hash) = (world.snapshot(), world.state_hash());
-/// world.step(1.0)?;
-/// world.restore(&snapshot);
-/// assert_eq!(world.state_hash(), hash);
-/// assert_eq!(world.time(), 1.0);
-/// # Ok::<(), carom::Error>(())
-/// ```
-#[derive(Debug, Clone)]
-pub struct Snapshot(State);
 
 impl World {
     /// An empty world, at time 0.
@@ -446,67 +426,5 @@ impl World {
     pub fn remove_emitter(&mut self, id: EmitterId) -> Result<Emitter, Error> {
         let removed = self.state.emitters.remove(id.0);
         removed.map(|state| state.emitter).ok_or(Error::Unknown(Subject::Emitter(id)))
-    }
-
-    /// Kinetic energy \[J\].
-    pub fn kinetic_energy(&self) -> f64 {
-        invariants::kinetic_energy(self.spheres())
-    }
-
-    /// Potential energy \[J\] in all forces that have one.
-    pub fn potential_energy(&self) -> f64 {
-        invariants::potential_energy(self.spheres(), &self.state.forces, self.time())
-    }
-
-    /// Kinetic and potential energy \[J\].
-    pub fn total_energy(&self) -> f64 {
-        self.kinetic_energy() + self.potential_energy()
-    }
-
-    /// Momentum \[kg m/s\].
-    pub fn momentum(&self) -> DVec3 {
-        invariants::momentum(self.spheres())
-    }
-
-    /// Angular momentum about the origin \[kg m²/s\].
-    pub fn angular_momentum(&self) -> DVec3 {
-        invariants::angular_momentum(self.spheres())
-    }
-
-    /// Spheres that overlap each other (where spheres collide) or a solid collider by more than
-    /// `tolerance` \[m\], in order of their bodies, each two bodies once.
-    pub fn overlaps(&self, tolerance: f64) -> Vec<Overlap> {
-        let mut overlaps = Vec::new();
-        let now = self.state.now();
-        contacts::of_overlaps(&now, tolerance, &mut Search::default(), |contact| {
-            overlaps.push(Overlap::of(contact, &now.system));
-        });
-        // A box has several surfaces: the deepest overlap counts.
-        let order =
-            |a: &Overlap, b: &Overlap| a.between.cmp(&b.between).then(b.depth.total_cmp(&a.depth));
-        overlaps.sort_by(order);
-        overlaps.dedup_by_key(|overlap| overlap.between);
-        overlaps
-    }
-
-    /// Whether a sphere at `center` with `radius` \[m\] would touch or overlap a solid collider.
-    pub fn meets_collider(&self, center: DVec3, radius: f64) -> bool {
-        contacts::meets_surface(&self.state.now().system, center, radius)
-    }
-
-    /// The state as one number, to compare worlds to the bit.
-    pub fn state_hash(&self) -> StateHash {
-        hash::of_state(&self.state)
-    }
-
-    /// Everything the future depends on, to return to.
-    pub fn snapshot(&self) -> Snapshot {
-        Snapshot(self.state.clone())
-    }
-
-    /// Returns to a snapshot, bit for bit. The report of the last step is gone.
-    pub fn restore(&mut self, snapshot: &Snapshot) {
-        self.state.clone_from(&snapshot.0);
-        self.report.clear();
     }
 }

@@ -1,0 +1,56 @@
+//! What is measured of a world: energies, momenta, overlaps.
+
+use glam::DVec3;
+
+use super::World;
+use crate::detect::contacts::{self, Search};
+use crate::invariants;
+use crate::report::Overlap;
+
+impl World {
+    /// Kinetic energy \[J\].
+    pub fn kinetic_energy(&self) -> f64 {
+        invariants::kinetic_energy(self.spheres())
+    }
+
+    /// Potential energy \[J\] in all forces that have one.
+    pub fn potential_energy(&self) -> f64 {
+        invariants::potential_energy(self.spheres(), &self.state.forces, self.time())
+    }
+
+    /// Kinetic and potential energy \[J\].
+    pub fn total_energy(&self) -> f64 {
+        self.kinetic_energy() + self.potential_energy()
+    }
+
+    /// Momentum \[kg m/s\].
+    pub fn momentum(&self) -> DVec3 {
+        invariants::momentum(self.spheres())
+    }
+
+    /// Angular momentum about the origin \[kg m²/s\].
+    pub fn angular_momentum(&self) -> DVec3 {
+        invariants::angular_momentum(self.spheres())
+    }
+
+    /// Spheres that overlap each other (where spheres collide) or a solid collider by more than
+    /// `tolerance` \[m\], in order of their bodies, each two bodies once.
+    pub fn overlaps(&self, tolerance: f64) -> Vec<Overlap> {
+        let mut overlaps = Vec::new();
+        let now = self.state.now();
+        contacts::of_overlaps(&now, tolerance, &mut Search::default(), |contact| {
+            overlaps.push(Overlap::of(contact, &now.system));
+        });
+        // A box has several surfaces: the deepest overlap counts.
+        let order =
+            |a: &Overlap, b: &Overlap| a.between.cmp(&b.between).then(b.depth.total_cmp(&a.depth));
+        overlaps.sort_by(order);
+        overlaps.dedup_by_key(|overlap| overlap.between);
+        overlaps
+    }
+
+    /// Whether a sphere at `center` with `radius` \[m\] would touch or overlap a solid collider.
+    pub fn meets_collider(&self, center: DVec3, radius: f64) -> bool {
+        contacts::meets_surface(&self.state.now().system, center, radius)
+    }
+}
