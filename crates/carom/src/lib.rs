@@ -81,3 +81,8 @@ pub use world::snapshot::Snapshot;
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+/// The program of the README that this crate is published with.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct CrateReadme;
