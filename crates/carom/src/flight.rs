@@ -73,7 +73,7 @@ impl Flight {
         t * (self.velocity.abs() + 0.5 * t * self.acceleration.abs())
     }
 
-    /// This flight as seen from a frame whose origin starts at `origin` \[m\] and moves with a
+    /// This flight in a coordinate system whose origin starts at `origin` \[m\] and moves with a
     /// constant velocity u \[m/s\]. The air stays at rest, so that `w = v - u` obeys
     /// `w' = (a - γu) - γw`.
     pub(crate) fn seen_from(&self, origin: DVec3, u: DVec3) -> Self {

@@ -16,8 +16,8 @@
 //! what each sphere meets next, take the first from a **queue**, **respond**, and predict
 //! anew what changed. Spheres are emitted on the way, each at its own time.
 //!
-//! Right-handed frame, y up, SI units, double precision. The same input gives the same bits on
-//! every platform: only `+ - * /`, `sqrt` and the `libm` crate are used, in a fixed order
+//! Right-handed coordinate system, y up, SI units, double precision. The same input gives the same
+//! bits on every platform: only `+ - * /`, `sqrt` and the `libm` crate are used, in a fixed order
 //! ([`World::state_hash`]). The formulas and their sources are in `docs/physics/`.
 
 #![warn(clippy::unwrap_used)]

@@ -1,6 +1,6 @@
 /**
  * Carom moves spheres exactly: event-driven collisions in double precision, with the same bits on every
- * machine. Right-handed frame, y up, SI units.
+ * machine. Right-handed coordinate system, y up, SI units.
  *
  * @example
  * const world = World.fromScene("tutorial3");

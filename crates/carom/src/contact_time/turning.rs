@@ -43,14 +43,14 @@ impl Turns {
     }
 }
 
-/// A flight as seen from a frame that turns about the origin: with `y = R⁻¹ x`,
+/// A flight in a coordinate system that turns about the origin: with `y = R⁻¹ x`,
 ///
 /// ```text
 /// y'  = R⁻¹ (x' - ω×x)      y'' = R⁻¹ (x'' - 2 ω×x' + ω×(ω×x))
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Turning {
-    /// In a frame that does not turn.
+    /// In a coordinate system that does not turn.
     pub flight: Flight,
     pub turns: Turns,
 }
@@ -117,7 +117,7 @@ impl Path for Turning {
     }
 }
 
-/// A flight as seen from a point that circles the origin, in a frame that does not turn.
+/// A flight as seen from a point that circles the origin, in a coordinate system that does not turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Orbit {
     pub flight: Flight,
