@@ -4,9 +4,12 @@
 
 mod architecture;
 mod circles;
+mod commands;
 mod demo;
+mod documents;
 mod imports;
 mod js_package;
+mod markdown;
 mod native_hashes;
 mod python;
 mod schema;
@@ -36,6 +39,8 @@ Usage: cargo xtask COMMAND
             tests it in a browser; `web --package` makes the package alone, `web --test-package`
             tests it in Node.js
   python    make the wheel of the Python package; `python --test` also installs and tests it
+  documents refuse words that say little, links and names that lead nowhere; run the commands
+            that README.md and docs/ show, except those that draw
   circles   refuse modules that use each other in a circle
   sizes     refuse files and functions that are too long
   schema    write scenes/scene.schema.json anew from the scene types
@@ -59,6 +64,9 @@ fn main() -> ExitCode {
         ["web", "--test-package"] => js_package::test(),
         ["python"] => python::build().map(drop),
         ["python", "--test"] => python::test(),
+        ["documents"] => {
+            words::check().and_then(|()| documents::check()).and_then(|()| commands::check_plain())
+        }
         ["circles"] => circles::check(),
         ["sizes"] => sizes::check(),
         ["schema"] => schema::write(),

@@ -1,7 +1,8 @@
 //! Every check, in the order in which they fail fastest.
 
-use crate::shell::{Outcome, cargo, cargo_with};
-use crate::{architecture, js_package, python, setup, stages, web, words};
+use crate::commands::{self, Programs};
+use crate::shell::{Outcome, cargo, cargo_with, target_folder};
+use crate::{architecture, documents, js_package, python, setup, stages, web, words};
 
 /// Runs the tests of the physics that take minutes, optimised.
 pub fn long_tests() -> Outcome {
@@ -23,6 +24,7 @@ pub fn test() -> Outcome {
     architecture::check()?;
     words::check()?;
     stages::check()?;
+    documents::check()?;
     cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "--deny", "warnings"])?;
     let documents = ["doc", "--workspace", "--no-deps", "--document-private-items", "--quiet"];
     cargo_with(&documents, &[("RUSTDOCFLAGS", "--deny warnings")])?;
@@ -41,6 +43,9 @@ pub fn test() -> Outcome {
     cargo_with(&["test", "--workspace", "--quiet"], &graphics)?;
     // What the physics is held against.
     cargo(&[&["run", "--release"], &plain[..], &["--", "verify"]].concat())?;
+    // The tests of the command line have left a program with pictures, the claims one without.
+    let [plain, drawing] = ["release", "debug"].map(|folder| target_folder().join(folder));
+    commands::check(&Programs { plain, drawing: Some(drawing) })?;
     // The same bits in every build: the tests that pin hashes, optimised.
     let optimised = ["test", "--release", "--quiet", "--package"];
     cargo(&[&optimised[..], &["carom", "--test", "world", "--test", "exact"]].concat())?;

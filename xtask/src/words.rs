@@ -7,9 +7,22 @@ use std::path::Path;
 use crate::shell::{Outcome, root};
 
 /// Words without which every sentence here can do.
-const WORDS: [&str; 3] = ["whoever", "nobody", "reckoned"];
+const WORDS: [&str; 5] = ["whoever", "nobody", "reckoned", "vicinity", "outlook"];
 /// Openings that send a reader elsewhere.
-const OPENINGS: [&str; 2] = ["Likewise", "As there."];
+const OPENINGS: [&str; 3] = ["Likewise", "As there.", "The same."];
+/// Phrases of documents in which nothing acts, or that have a word of the field.
+const PHRASES_OF_DOCUMENTS: [&str; 10] = [
+    "are asked",
+    "are told",
+    "be told",
+    "is asked",
+    "is told",
+    "lasting contact",
+    "lasting contacts",
+    "told to",
+    "unless told",
+    "who is near",
+];
 
 /// What is read: folders, and the documents beside them.
 const PLACES: [&str; 8] =
@@ -44,7 +57,8 @@ fn check_place(path: &Path, faults: &mut Vec<String>) -> std::io::Result<()> {
     }
     let text = fs::read_to_string(path)?;
     for (number, line) in (1..).zip(text.lines()) {
-        if let Some(fault) = fault_of(line) {
+        let of_document = || phrase_of_document(line).filter(|_| ending == "md");
+        if let Some(fault) = fault_of(line).or_else(of_document) {
             let place = path.strip_prefix(root()).unwrap_or(path).display();
             faults.push(format!("{place}:{number}: \"{fault}\" in: {}", line.trim()));
         }
@@ -64,6 +78,17 @@ fn fault_of(line: &str) -> Option<&'static str> {
     OPENINGS.into_iter().find(|opening| text.starts_with(opening))
 }
 
+/// The phrase of a line that documents do without, if there is one.
+fn phrase_of_document(line: &str) -> Option<&'static str> {
+    let is_within_a_word = |letter: Option<char>| letter.is_some_and(char::is_alphanumeric);
+    PHRASES_OF_DOCUMENTS.into_iter().find(|phrase| {
+        line.match_indices(phrase).any(|(at, _)| {
+            let (before, after) = (&line[..at], &line[at + phrase.len()..]);
+            !is_within_a_word(before.chars().next_back()) && !is_within_a_word(after.chars().next())
+        })
+    })
+}
+
 /// Whether this is the word, small or at the beginning of a sentence; names in capitals are others.
 fn is_word(word: &str, found: &str) -> bool {
     let mut letters = found.chars();
@@ -73,13 +98,23 @@ fn is_word(word: &str, found: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::fault_of;
+    use super::{fault_of, phrase_of_document};
 
     #[test]
     fn refused_words_and_openings_are_found() {
         assert_eq!(fault_of("/// Likewise for a sphere."), Some("Likewise"));
         assert_eq!(fault_of("    // Nobody reads it, so"), Some("nobody"));
         assert_eq!(fault_of("the times, reckoned anew"), Some("reckoned"));
+        assert_eq!(fault_of("/// The same. For all."), Some("The same."));
+    }
+
+    #[test]
+    fn phrases_are_found_as_whole_words() {
+        assert_eq!(phrase_of_document("Forces in lasting contact."), Some("lasting contact"));
+        assert_eq!(phrase_of_document("a solver is told where"), Some("is told"));
+        for line in ["an everlasting contact", "this tolerance", "told tomorrow"] {
+            assert_eq!(phrase_of_document(line), None, "{line}");
+        }
     }
 
     #[test]
