@@ -30,6 +30,15 @@ type Arrays<'py> = (
     Bound<'py, PyArray1<u64>>,
 );
 
+/// How long frames are, and which of them are recorded.
+#[derive(Clone, Copy)]
+struct Rhythm {
+    /// Length of a frame \[s\]; the scene's own without one.
+    dt: Option<f64>,
+    /// The state after every so many frames is recorded.
+    every: u64,
+}
+
 #[pymethods]
 impl Engine {
     /// How many frames of `dt` [s], or of the scene's own, take `seconds` [s], or the scene's own
@@ -63,6 +72,7 @@ impl Engine {
         if every == 0 {
             return Err(Failure::value("every", "must be at least 1, not 0").into());
         }
+        let rhythm = Rhythm { dt, every };
         let mut recording = Recording::default();
         let before = {
             let inner = &*self.lock(py)?;
@@ -71,7 +81,7 @@ impl Engine {
         };
         let mut frame = 0;
         while frame < frames {
-            frame = self.take_frames(frame..frames, dt, every, (py, &before, &mut recording))?;
+            frame = self.take_frames(py, frame..frames, rhythm, &before, &mut recording)?;
             // A signal handler may read the time of the world: the lock is free by now.
             py.check_signals()?;
         }
@@ -84,13 +94,14 @@ impl Engine {
     /// refused, the world is as it was `before`.
     fn take_frames(
         &self,
+        py: Python<'_>,
         frames: Range<u64>,
-        dt: Option<f64>,
-        every: u64,
-        (py, before, recording): (Python<'_>, &Snapshot, &mut Recording),
+        rhythm: Rhythm,
+        before: &Snapshot,
+        recording: &mut Recording,
     ) -> PyResult<u64> {
         let inner = &mut *self.lock(py)?;
-        let taken = py.detach(|| take_frames(inner, frames, dt, every, recording));
+        let taken = py.detach(|| take_frames(inner, frames, rhythm, recording));
         if taken.is_err() {
             inner.restore(before);
         }
@@ -103,15 +114,14 @@ impl Engine {
 fn take_frames(
     inner: &mut Inner,
     frames: Range<u64>,
-    dt: Option<f64>,
-    every: u64,
+    rhythm: Rhythm,
     recording: &mut Recording,
 ) -> Result<u64, Failure> {
     let (began, end) = (Instant::now(), frames.end);
     for frame in frames {
-        inner.take_frame(inner.frame_time(dt))?;
+        inner.take_frame(inner.frame_time(rhythm.dt))?;
         recording.impacts.push_impacts(inner.frame_start, &inner.world.report().impacts);
-        if (frame + 1).is_multiple_of(every) {
+        if (frame + 1).is_multiple_of(rhythm.every) {
             recording.push(&inner.world);
         }
         if began.elapsed() > PATIENCE {

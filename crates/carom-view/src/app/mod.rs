@@ -1,9 +1,12 @@
 //! The interface as a whole.
 
-use std::path::Path;
+mod bar;
+mod files;
+mod saving;
+
 use std::sync::Arc;
 
-use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
+use carom_maze::Maze;
 use carom_render::Quality;
 use carom_scene::scene::Scene;
 use carom_scene::{Library, Source};
@@ -14,15 +17,13 @@ use egui::{Context, Pos2, Rect, Theme, Ui};
 use crate::action::{self, Action};
 use crate::address::Address;
 use crate::chooser::Chooser;
-use crate::exports::{Exports, Outlet};
+use crate::exports::Exports;
 use crate::help;
-use crate::host::{Host, Inbox, ReadFile};
-use crate::layout::is_narrow;
+use crate::host::{Host, Inbox};
 use crate::link_dialog::LinkDialog;
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
 use crate::orbit::Preset;
-use crate::snapshot::Snapshot;
 use crate::studio::Studio;
 use crate::watching::{Manner, Watching};
 
@@ -82,9 +83,6 @@ enum Screen {
     Watching(Box<Watching>),
     Maze(Box<MazeScreen>),
 }
-
-/// Smallest picture that is saved \[pixels\].
-const SMALLEST_PICTURE: [u32; 2] = [1280, 720];
 
 impl App {
     /// The interface, on the graphics device of its host.
@@ -251,56 +249,6 @@ impl App {
         }
     }
 
-    /// Opens files that were dropped on the window: scenes, or mazes drawn with characters.
-    fn open_dropped(&mut self) {
-        for file in self.context.input(|input| input.raw.dropped_files.clone()) {
-            self.host.read(&file, &self.inbox);
-        }
-        for ReadFile { path, content } in self.inbox.take() {
-            match content {
-                Ok(content) => self.open_text(&String::from_utf8_lossy(&content), &path),
-                Err(error) => {
-                    self.notices.complain(format!("cannot read {}: {error}", path.display()));
-                }
-            }
-        }
-    }
-
-    /// Opens the text of a file.
-    fn open_text(&mut self, text: &str, path: &Path) {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        if path.extension().is_some_and(|ending| ending == "txt") {
-            let name = name.trim_end_matches(".txt");
-            match Maze::from_text(text, name) {
-                Ok(maze) => self.play(maze),
-                Err(error) => self.notices.complain(format!("{}: {error}", path.display())),
-            }
-            return;
-        }
-        match Scene::from_toml(text, &name) {
-            Ok(scene) => self.open(scene, Source::File(path.to_owned())),
-            Err(error) => self.notices.complain(error),
-        }
-    }
-
-    /// Reads a scene file anew that was changed on the disk.
-    fn reload_changed(&mut self) {
-        let now = self.context.input(|input| input.time);
-        let Screen::Watching(watching) = &mut self.screen else { return };
-        if let Some(seconds) = self.host.seconds_to_look() {
-            self.context.request_repaint_after_secs(seconds as f32);
-        }
-        let Some(path) = self.host.changed_file(now) else { return };
-        let reloaded = Scene::from_file(&path, &[]).and_then(|scene| watching.reload(scene));
-        match reloaded {
-            Ok(()) => {
-                self.notices.clear();
-                self.notices.tell(format!("{} was changed, and read anew", path.display()));
-            }
-            Err(error) => self.notices.complain(error),
-        }
-    }
-
     /// Does what was asked for by a key or button.
     pub fn act(&mut self, action: Action) {
         match action {
@@ -372,72 +320,6 @@ impl App {
         }
     }
 
-    fn snapshot(&mut self, size: [u32; 2]) -> Option<Snapshot> {
-        let manner = self.manner();
-        let drawn = match &mut self.screen {
-            Screen::Watching(watching) => watching.snapshot(&mut self.studio, manner, size),
-            Screen::Maze(screen) => screen.snapshot(&mut self.studio, size),
-            Screen::Empty => return None,
-        };
-        drawn.map_err(|error| self.notices.complain(error)).ok()
-    }
-
-    /// Saves a picture with the simulation time on it, of the size of the window at least.
-    fn screenshot(&mut self) {
-        let Some((name, time)) = self.shown() else { return };
-        let window = self.context.content_rect().size() * self.context.pixels_per_point();
-        let [width, height] = SMALLEST_PICTURE;
-        let size = [width.max(window.x as u32), height.max(window.y as u32)];
-        if let Some(snapshot) = self.snapshot(size) {
-            self.exports.save_picture(snapshot, name, time);
-        }
-    }
-
-    /// Saves the present state as a scene file.
-    fn save(&mut self) {
-        let Screen::Watching(watching) = &self.screen else {
-            self.notices.complain("a game cannot be saved as a scene");
-            return;
-        };
-        let view = watching.view();
-        let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
-        outlet.save_scene(&view.scene_now(), view.time);
-    }
-
-    /// Begins to record a film, or ends it.
-    fn record(&mut self) {
-        if self.exports.is_recording() {
-            self.exports.end_film();
-            return;
-        }
-        let Some((name, _)) = self.shown() else { return };
-        let time = self.film_clock();
-        let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
-        self.exports.begin_film(&name, time, &mut outlet);
-    }
-
-    /// The time by which films go on \[s\].
-    fn film_clock(&self) -> f64 {
-        match &self.screen {
-            Screen::Watching(watching) => watching.view().time,
-            Screen::Maze(screen) => screen.clock(),
-            Screen::Empty => 0.0,
-        }
-    }
-
-    /// Adds the frames of the film that are due, and saves what has been drawn.
-    fn export(&mut self) {
-        if let Some((size, frames)) = self.exports.film_due(self.film_clock())
-            && let Some(snapshot) = self.snapshot(size)
-        {
-            self.exports.add_to_film(snapshot, frames);
-        }
-        let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
-        if self.exports.collect(&self.studio, &mut outlet) {
-            self.context.request_repaint();
-        }
-    }
-
     /// Says what went wrong in the physics.
     fn complain_of_session(&mut self) {
         let Screen::Watching(watching) = &mut self.screen else { return };
@@ -462,85 +344,6 @@ impl App {
             let advice = "Save the scene with Ctrl + S, and start anew.";
             self.notices.complain(format!("{text}. {advice}"));
         }
-    }
-
-    /// What there is to choose in the maze game. Returns another maze to play.
-    fn mazes(&mut self, ui: &mut Ui) -> Option<Result<Maze, MazeError>> {
-        let Screen::Maze(screen) = &mut self.screen else { return None };
-        let mut levels_back = screen.levels_back();
-        if ui.checkbox(&mut levels_back, "Level back").changed()
-            && let Err(error) = screen.set_levels_back(levels_back)
-        {
-            self.notices.complain(error);
-        }
-        if self.host.offers_tilt()
-            && ui.checkbox(&mut self.tilts_device, "Tilt the device").changed()
-        {
-            self.host.use_tilt(self.tilts_device);
-        }
-        ui.separator();
-        let mut chosen = None;
-        if ui.button("Course").clicked() {
-            chosen = Some(Maze::course());
-        }
-        for (name, text) in BUILT_IN_DRAWINGS {
-            if ui.button(*name).clicked() {
-                chosen = Some(Maze::from_text(text, name));
-            }
-        }
-        if ui.button("Random").on_hover_text("another one each time").clicked() {
-            self.random_mazes += 1;
-            chosen = Some(Maze::random(self.random_mazes, 8, 6));
-        }
-        ui.separator();
-        chosen
-    }
-
-    fn bar(&mut self, ui: &mut Ui) -> Vec<Action> {
-        let mut actions = Vec::new();
-        ui.horizontal_wrapped(|ui| {
-            if ui.button("Scenes").on_hover_text("Enter").clicked() {
-                actions.push(Action::Choose);
-            }
-            if let Some((name, _)) = self.shown() {
-                ui.strong(name);
-                ui.separator();
-            }
-            if is_narrow(ui) {
-                let menu = ui.menu_button("Menu", |ui| self.switches(ui));
-                actions.extend(menu.inner.unwrap_or_default());
-            } else {
-                actions.extend(self.switches(ui));
-            }
-        });
-        actions
-    }
-
-    /// Everything in the bar but the choice of a scene.
-    fn switches(&mut self, ui: &mut Ui) -> Vec<Action> {
-        let mut actions = Vec::new();
-        if let Screen::Watching(watching) = &self.screen {
-            actions.extend(watching.switches(ui));
-            ui.separator();
-        }
-        match self.mazes(ui) {
-            Some(Ok(maze)) => self.play(maze),
-            Some(Err(error)) => self.notices.complain(error),
-            None => {}
-        }
-        for (text, action) in [
-            ("Picture", Action::Screenshot),
-            ("Film", Action::Record),
-            ("Save", Action::Save),
-            ("Link", Action::Link),
-            ("Light/dark", Action::Theme),
-            ("Keys", Action::Help),
-        ] {
-            if ui.button(text).on_hover_text(action.text()).clicked() {
-                actions.push(action);
-            }
-        }
-        actions
     }
 
     fn screen(&mut self, ui: &mut Ui) {

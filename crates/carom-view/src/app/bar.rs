@@ -1,0 +1,89 @@
+//! The bar above everything.
+
+use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
+use egui::Ui;
+
+use super::{App, Screen};
+use crate::action::Action;
+use crate::layout::is_narrow;
+
+impl App {
+    /// What there is to choose in the maze game. Returns another maze to play.
+    fn mazes(&mut self, ui: &mut Ui) -> Option<Result<Maze, MazeError>> {
+        let Screen::Maze(screen) = &mut self.screen else { return None };
+        let mut levels_back = screen.levels_back();
+        if ui.checkbox(&mut levels_back, "Level back").changed()
+            && let Err(error) = screen.set_levels_back(levels_back)
+        {
+            self.notices.complain(error);
+        }
+        if self.host.offers_tilt()
+            && ui.checkbox(&mut self.tilts_device, "Tilt the device").changed()
+        {
+            self.host.use_tilt(self.tilts_device);
+        }
+        ui.separator();
+        let mut chosen = None;
+        if ui.button("Course").clicked() {
+            chosen = Some(Maze::course());
+        }
+        for (name, text) in BUILT_IN_DRAWINGS {
+            if ui.button(*name).clicked() {
+                chosen = Some(Maze::from_text(text, name));
+            }
+        }
+        if ui.button("Random").on_hover_text("another one each time").clicked() {
+            self.random_mazes += 1;
+            chosen = Some(Maze::random(self.random_mazes, 8, 6));
+        }
+        ui.separator();
+        chosen
+    }
+
+    pub(super) fn bar(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let mut actions = Vec::new();
+        ui.horizontal_wrapped(|ui| {
+            if ui.button("Scenes").on_hover_text("Enter").clicked() {
+                actions.push(Action::Choose);
+            }
+            if let Some((name, _)) = self.shown() {
+                ui.strong(name);
+                ui.separator();
+            }
+            if is_narrow(ui) {
+                let menu = ui.menu_button("Menu", |ui| self.switches(ui));
+                actions.extend(menu.inner.unwrap_or_default());
+            } else {
+                actions.extend(self.switches(ui));
+            }
+        });
+        actions
+    }
+
+    /// Everything in the bar but the choice of a scene.
+    fn switches(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let mut actions = Vec::new();
+        if let Screen::Watching(watching) = &self.screen {
+            actions.extend(watching.switches(ui));
+            ui.separator();
+        }
+        match self.mazes(ui) {
+            Some(Ok(maze)) => self.play(maze),
+            Some(Err(error)) => self.notices.complain(error),
+            None => {}
+        }
+        for (text, action) in [
+            ("Picture", Action::Screenshot),
+            ("Film", Action::Record),
+            ("Save", Action::Save),
+            ("Link", Action::Link),
+            ("Light/dark", Action::Theme),
+            ("Keys", Action::Help),
+        ] {
+            if ui.button(text).on_hover_text(action.text()).clicked() {
+                actions.push(action);
+            }
+        }
+        actions
+    }
+}

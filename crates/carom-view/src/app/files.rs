@@ -1,0 +1,62 @@
+//! Files that the interface opens: dropped ones, and those that change on the disk.
+
+use std::path::Path;
+
+use carom_maze::Maze;
+use carom_scene::Source;
+use carom_scene::scene::Scene;
+
+use super::{App, Screen};
+use crate::host::ReadFile;
+
+impl App {
+    /// Opens files that were dropped on the window: scenes, or mazes drawn with characters.
+    pub(super) fn open_dropped(&mut self) {
+        for file in self.context.input(|input| input.raw.dropped_files.clone()) {
+            self.host.read(&file, &self.inbox);
+        }
+        for ReadFile { path, content } in self.inbox.take() {
+            match content {
+                Ok(content) => self.open_text(&String::from_utf8_lossy(&content), &path),
+                Err(error) => {
+                    self.notices.complain(format!("cannot read {}: {error}", path.display()));
+                }
+            }
+        }
+    }
+
+    /// Opens the text of a file.
+    fn open_text(&mut self, text: &str, path: &Path) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if path.extension().is_some_and(|ending| ending == "txt") {
+            let name = name.trim_end_matches(".txt");
+            match Maze::from_text(text, name) {
+                Ok(maze) => self.play(maze),
+                Err(error) => self.notices.complain(format!("{}: {error}", path.display())),
+            }
+            return;
+        }
+        match Scene::from_toml(text, &name) {
+            Ok(scene) => self.open(scene, Source::File(path.to_owned())),
+            Err(error) => self.notices.complain(error),
+        }
+    }
+
+    /// Reads a scene file anew that was changed on the disk.
+    pub(super) fn reload_changed(&mut self) {
+        let now = self.context.input(|input| input.time);
+        let Screen::Watching(watching) = &mut self.screen else { return };
+        if let Some(seconds) = self.host.seconds_to_look() {
+            self.context.request_repaint_after_secs(seconds as f32);
+        }
+        let Some(path) = self.host.changed_file(now) else { return };
+        let reloaded = Scene::from_file(&path, &[]).and_then(|scene| watching.reload(scene));
+        match reloaded {
+            Ok(()) => {
+                self.notices.clear();
+                self.notices.tell(format!("{} was changed, and read anew", path.display()));
+            }
+            Err(error) => self.notices.complain(error),
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! What the interface saves: pictures, films, scenes.
+
+use super::{App, Screen};
+use crate::exports::Outlet;
+use crate::snapshot::Snapshot;
+
+/// Smallest picture that is saved \[pixels\].
+const SMALLEST_PICTURE: [u32; 2] = [1280, 720];
+
+impl App {
+    fn snapshot(&mut self, size: [u32; 2]) -> Option<Snapshot> {
+        let manner = self.manner();
+        let drawn = match &mut self.screen {
+            Screen::Watching(watching) => watching.snapshot(&mut self.studio, manner, size),
+            Screen::Maze(screen) => screen.snapshot(&mut self.studio, size),
+            Screen::Empty => return None,
+        };
+        drawn.map_err(|error| self.notices.complain(error)).ok()
+    }
+
+    /// Saves a picture with the simulation time on it, of the size of the window at least.
+    pub(super) fn screenshot(&mut self) {
+        let Some((name, time)) = self.shown() else { return };
+        let window = self.context.content_rect().size() * self.context.pixels_per_point();
+        let [width, height] = SMALLEST_PICTURE;
+        let size = [width.max(window.x as u32), height.max(window.y as u32)];
+        if let Some(snapshot) = self.snapshot(size) {
+            self.exports.save_picture(snapshot, name, time);
+        }
+    }
+
+    /// Saves the present state as a scene file.
+    pub(super) fn save(&mut self) {
+        let Screen::Watching(watching) = &self.screen else {
+            self.notices.complain("a game cannot be saved as a scene");
+            return;
+        };
+        let view = watching.view();
+        let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
+        outlet.save_scene(&view.scene_now(), view.time);
+    }
+
+    /// Begins to record a film, or ends it.
+    pub(super) fn record(&mut self) {
+        if self.exports.is_recording() {
+            self.exports.end_film();
+            return;
+        }
+        let Some((name, _)) = self.shown() else { return };
+        let time = self.film_clock();
+        let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
+        self.exports.begin_film(&name, time, &mut outlet);
+    }
+
+    /// The time by which films go on \[s\].
+    fn film_clock(&self) -> f64 {
+        match &self.screen {
+            Screen::Watching(watching) => watching.view().time,
+            Screen::Maze(screen) => screen.clock(),
+            Screen::Empty => 0.0,
+        }
+    }
+
+    /// Adds the frames of the film that are due, and saves what has been drawn.
+    pub(super) fn export(&mut self) {
+        if let Some((size, frames)) = self.exports.film_due(self.film_clock())
+            && let Some(snapshot) = self.snapshot(size)
+        {
+            self.exports.add_to_film(snapshot, frames);
+        }
+        let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
+        if self.exports.collect(&self.studio, &mut outlet) {
+            self.context.request_repaint();
+        }
+    }
+}
