@@ -39,10 +39,9 @@ Usage: cargo xtask COMMAND
             tests it in a browser; `web --package` makes the package alone, `web --test-package`
             tests it in Node.js
   python    make the wheel of the Python package; `python --test` also installs and tests it
-  documents refuse words that say little, links and names that lead nowhere; run the commands
-            that README.md and docs/ show, except those that draw
-  circles   refuse modules that use each other in a circle
-  sizes     refuse files and functions that are too long
+  lint      the checks that need no build: format, words, links and names in documents, modules that
+            use each other in a circle, files and functions that are too long
+  documents run the commands that README.md and docs/ show, except those that draw
   schema    write scenes/scene.schema.json anew from the scene types
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
             pictures and of the interface, `bench web` the JavaScript package against the native
@@ -64,11 +63,8 @@ fn main() -> ExitCode {
         ["web", "--test-package"] => js_package::test(),
         ["python"] => python::build().map(drop),
         ["python", "--test"] => python::test(),
-        ["documents"] => {
-            words::check().and_then(|()| documents::check()).and_then(|()| commands::check_plain())
-        }
-        ["circles"] => circles::check(),
-        ["sizes"] => sizes::check(),
+        ["lint"] => test::lint(),
+        ["documents"] => commands::check_plain(),
         ["schema"] => schema::write(),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "web"] => js_package::bench(),

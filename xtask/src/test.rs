@@ -1,67 +1,134 @@
 //! Every check, in the order in which they fail fastest.
 
+use std::time::{Duration, Instant};
+
 use crate::commands::{self, Programs};
 use crate::shell::{Outcome, cargo, cargo_with, target_folder};
-use crate::{architecture, documents, js_package, python, setup, stages, web, words};
+use crate::{
+    architecture, circles, documents, js_package, python, setup, sizes, stages, web, words,
+};
+
+/// A part of the checks, for which one time is printed.
+struct Part {
+    name: &'static str,
+    run: fn() -> Outcome,
+}
+
+impl Part {
+    const fn new(name: &'static str, run: fn() -> Outcome) -> Self {
+        Self { name, run }
+    }
+}
+
+/// All parts; the last ones end with the summary of a test runner.
+const PARTS: [Part; 11] = [
+    Part::new("set-up", set_up),
+    Part::new("lint", lint),
+    Part::new("clippy and rustdoc", clippy_and_rustdoc),
+    Part::new("builds with fewer features", small_builds),
+    Part::new("tests", tests),
+    Part::new("claims", claims),
+    Part::new("commands of the documents", commands_of_documents),
+    Part::new("hashes of optimised builds and threads", hashes),
+    Part::new("JavaScript package", js_package::test),
+    Part::new("Python package", python::test),
+    Part::new("page in a browser", web::test),
+];
+
+/// Arguments that name the command line without pictures.
+const PLAIN: [&str; 4] = ["--package", "carom-cli", "--no-default-features", "--quiet"];
+/// Arguments that test a package, optimised.
+const OPTIMISED: [&str; 4] = ["test", "--release", "--quiet", "--package"];
+
+/// Runs every check but the tests that take minutes, and prints how long each part takes.
+pub fn test() -> Outcome {
+    let mut before: Option<(&str, Instant)> = None;
+    for part in &PARTS {
+        if let Some((name, start)) = before {
+            eprintln!("\n-- {name}: {}", minutes(start.elapsed()));
+        }
+        before = Some((part.name, Instant::now()));
+        (part.run)()?;
+    }
+    Ok(())
+}
 
 /// Runs the tests of the physics that take minutes, optimised.
 pub fn long_tests() -> Outcome {
-    let heaps = ["--test", "heaps", "--", "--ignored"];
     for package in ["carom", "carom-scene"] {
-        let test = ["test", "--release", "--quiet", "--package", package];
-        cargo(&[&test[..], &heaps[..]].concat())?;
+        let heaps = [package, "--test", "heaps", "--", "--ignored"];
+        cargo(&[&OPTIMISED[..], &heaps].concat())?;
     }
-    let verify = ["run", "--release", "--package", "carom-cli", "--no-default-features", "--quiet"];
-    cargo(&[&verify[..], &["--", "verify", "--full"]].concat())
+    cargo(&[&["run", "--release"], &PLAIN[..], &["--", "verify", "--full"]].concat())
 }
 
-/// Runs every check but these.
-pub fn test() -> Outcome {
-    setup::toolchain()?;
-    setup::graphics()?;
-    setup::film_tests()?;
+/// Checks what needs no build: formats, words, names in documents, the order of modules.
+pub fn lint() -> Outcome {
     cargo(&["fmt", "--all", "--check"])?;
     architecture::check()?;
     words::check()?;
+    circles::check()?;
+    sizes::check()?;
     stages::check()?;
-    documents::check()?;
+    documents::check()
+}
+
+fn set_up() -> Outcome {
+    setup::toolchain()?;
+    setup::graphics()?;
+    setup::film_tests()
+}
+
+fn clippy_and_rustdoc() -> Outcome {
     cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "--deny", "warnings"])?;
     let documents = ["doc", "--workspace", "--no-deps", "--document-private-items", "--quiet"];
-    cargo_with(&documents, &[("RUSTDOCFLAGS", "--deny warnings")])?;
+    cargo_with(&documents, &[("RUSTDOCFLAGS", "--deny warnings")])
+}
+
+fn small_builds() -> Outcome {
     // The scene files can be read without the crates that only recordings need.
     cargo(&["check", "--package", "carom-scene", "--no-default-features", "--quiet"])?;
     // The command line is built without pictures, too, by those who work on the physics; the
     // Python package, by those who have no C++ compiler.
-    let plain = ["--package", "carom-cli", "--no-default-features", "--quiet"];
-    cargo(&[&["check"], &plain[..]].concat())?;
+    cargo(&[&["check"], &PLAIN[..]].concat())?;
     cargo(&["check", "--package", "carom-py", "--no-default-features", "--quiet"])?;
     // The crate of the physics can be published: it builds from what its package holds.
-    cargo(&["package", "--package", "carom", "--allow-dirty", "--offline", "--quiet"])?;
+    cargo(&["package", "--package", "carom", "--allow-dirty", "--offline", "--quiet"])
+}
+
+fn tests() -> Outcome {
     // Graphics libraries ask for this folder, and complain aloud where a system names none.
     let folder = std::env::var("XDG_RUNTIME_DIR").unwrap_or_else(|_| "/tmp".to_owned());
     let graphics = [("XDG_RUNTIME_DIR", folder.as_str())];
-    cargo_with(&["test", "--workspace", "--quiet"], &graphics)?;
-    // What the physics is held against.
-    cargo(&[&["run", "--release"], &plain[..], &["--", "verify"]].concat())?;
+    cargo_with(&["test", "--workspace", "--quiet"], &graphics)
+}
+
+/// What the physics is held against.
+fn claims() -> Outcome {
+    cargo(&[&["run", "--release"], &PLAIN[..], &["--", "verify"]].concat())
+}
+
+fn commands_of_documents() -> Outcome {
     // The tests of the command line have left a program with pictures, the claims one without.
     let [plain, drawing] = ["release", "debug"].map(|folder| target_folder().join(folder));
-    commands::check(&Programs { plain, drawing: Some(drawing) })?;
-    // The same bits in every build: the tests that pin hashes, optimised.
-    let optimised = ["test", "--release", "--quiet", "--package"];
-    cargo(&[&optimised[..], &["carom", "--test", "world", "--test", "exact"]].concat())?;
-    cargo(&[&optimised[..], &["carom-scene", "--test", "scenes"]].concat())?;
-    // And on any number of threads.
+    commands::check(&Programs { plain, drawing: Some(drawing) })
+}
+
+/// The same bits in every build, and on any number of threads.
+fn hashes() -> Outcome {
+    cargo(&[&OPTIMISED[..], &["carom", "--test", "world", "--test", "exact"]].concat())?;
+    cargo(&[&OPTIMISED[..], &["carom-scene", "--test", "scenes"]].concat())?;
     for threads in ["1", "2"] {
         let threads = [("RAYON_NUM_THREADS", threads)];
-        let test = |package: &str, test: &str| {
+        for (package, test) in [("carom", "exact"), ("carom-scene", "scenes")] {
             let threaded = [package, "--features", "rayon", "--test", test];
-            cargo_with(&[&optimised[..], &threaded].concat(), &threads)
-        };
-        test("carom", "exact")?;
-        test("carom-scene", "scenes")?;
+            cargo_with(&[&OPTIMISED[..], &threaded].concat(), &threads)?;
+        }
     }
-    // And in other languages and places.
-    js_package::test()?;
-    python::test()?;
-    web::test()
+    Ok(())
+}
+
+fn minutes(time: Duration) -> String {
+    let seconds = time.as_secs();
+    format!("{} min {:02} s", seconds / 60, seconds % 60)
 }
