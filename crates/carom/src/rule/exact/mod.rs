@@ -76,7 +76,7 @@ pub(crate) enum Until {
     NextImpact,
 }
 
-/// Advances all spheres over a span, and gives the time that they come to \[s\] (`docs/physics.md`, rule `exact`).
+/// Advances all spheres over a span, and gives the time that they come to \[s\] (`docs/physics/exact.md`).
 pub(crate) fn advance(
     system: &System,
     timeline: &mut Timeline,
