@@ -53,7 +53,7 @@ impl Comparison {
         self.second.set_memory(bytes / 2);
     }
 
-    /// Has steps of both end early once a request is made; see [`World::set_stop_request`].
+    /// Has steps of both end early once a request is made; see [`carom::World::set_stop_request`].
     pub fn set_stop_request(&mut self, request: Option<StopRequest>) {
         self.first.set_stop_request(request.clone());
         self.second.set_stop_request(request);
