@@ -76,6 +76,8 @@ pub struct Arrow {
     pub width: f64,
     /// Whether it ends in a head.
     pub head: bool,
+    /// Whether balls and surfaces before it leave it in sight.
+    pub in_front: bool,
 }
 
 /// Sun, sky, and what the ground sends back.

@@ -108,7 +108,7 @@ fn packed_arrow(arrow: &Arrow, eye: DVec3) -> PackedArrow {
     joined(&[
         four(arrow.start - eye, arrow.width),
         four(arrow.end - eye, if arrow.head { 1.0 } else { 0.0 }),
-        color(arrow.color, 1.0),
+        color(arrow.color, if arrow.in_front { 1.0 } else { 0.0 }),
     ])
 }
 

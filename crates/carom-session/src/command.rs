@@ -35,6 +35,8 @@ pub enum Command {
     Pick(Option<SphereId>),
     /// Whether views have the state as a number, which takes time to make.
     ShowStateHash(bool),
+    /// Whether views have the persistent contacts with their forces, which take time to solve for.
+    ShowContacts(bool),
     /// Open another scene; time goes on there, if it did.
     Open(Box<Scene>),
     /// Open a scene, the one of a link, and go where the link leads, changing on the way what was
@@ -51,7 +53,8 @@ impl Command {
             Self::Restart | Self::Seek(_) | Self::StopSeeking => true,
             Self::Open(_) | Self::Replay(..) | Self::Compare(..) => true,
             Self::Play | Self::Pause | Self::Step | Self::StepBack | Self::Speed(_) => false,
-            Self::Edit(_) | Self::Pick(_) | Self::ShowStateHash(_) => false,
+            Self::Edit(_) | Self::Pick(_) => false,
+            Self::ShowStateHash(_) | Self::ShowContacts(_) => false,
         }
     }
 
@@ -69,7 +72,8 @@ impl Command {
             | (Self::Restart | Self::Seek(_), Self::Restart | Self::Seek(_))
             | (Self::Speed(_), Self::Speed(_))
             | (Self::Pick(_), Self::Pick(_))
-            | (Self::ShowStateHash(_), Self::ShowStateHash(_)) => Some(later.clone()),
+            | (Self::ShowStateHash(_), Self::ShowStateHash(_))
+            | (Self::ShowContacts(_), Self::ShowContacts(_)) => Some(later.clone()),
             _ => None,
         }
     }

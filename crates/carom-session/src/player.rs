@@ -20,6 +20,7 @@ pub(crate) struct Player {
     pace: Pace,
     pub queue: Queue,
     shows_state_hash: bool,
+    shows_contacts: bool,
     /// Ends a frame at work early.
     stop_request: Option<StopRequest>,
     error: Option<Arc<SessionError>>,
@@ -34,6 +35,7 @@ impl Player {
             pace: Pace::new(),
             queue: Queue::default(),
             shows_state_hash: false,
+            shows_contacts: false,
             stop_request: None,
             error: None,
             has_news: true,
@@ -88,6 +90,7 @@ impl Player {
             Command::Speed(speed) => self.pace.set_speed(speed),
             Command::Pick(sphere) => self.watched.pick(sphere),
             Command::ShowStateHash(shows) => self.shows_state_hash = shows,
+            Command::ShowContacts(shows) => self.shows_contacts = shows,
             Command::Step => {
                 self.play(false);
                 let stepped = self.watched.step();
@@ -198,6 +201,7 @@ impl Player {
     pub fn fill(&mut self, view: &mut View) {
         self.has_news = false;
         self.watched.fill(view);
+        self.watched.fill_contacts(view, self.shows_contacts);
         view.playback = self.playback();
         let hashes = self.shows_state_hash.then(|| self.watched.state_hashes());
         view.playback.state_hash = hashes.map(|(hash, _)| hash);

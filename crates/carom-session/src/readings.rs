@@ -1,6 +1,6 @@
 //! What is measured while a scene runs.
 
-use carom::{DVec3, SphereId, World};
+use carom::{DVec3, SphereId, StageCounts, World};
 
 use crate::impacts::{LastImpacts, ListedImpact};
 use crate::series::Series;
@@ -24,6 +24,8 @@ pub struct Reading {
     pub impacts: u64,
     /// Impacts per second, over the last [`RATE_WINDOW`] or since the last reading before it.
     pub impact_rate: f64,
+    /// Work of the frame that led here, by stage.
+    pub work: StageCounts,
 }
 
 impl Reading {
@@ -55,6 +57,8 @@ pub(crate) struct Readings {
     last_impacts: LastImpacts,
     /// Since the beginning.
     pub impacts: u64,
+    /// Work of the frame that led to the present.
+    work: StageCounts,
 }
 
 impl Readings {
@@ -62,6 +66,7 @@ impl Readings {
     pub fn note(&mut self, frame: u64, start: f64, world: &World) {
         let report = world.report();
         self.impacts += report.impacts.len() as u64;
+        self.work = report.work;
         self.last_impacts.note(report, frame, start, world);
         self.measure(frame, world);
     }
@@ -86,6 +91,7 @@ impl Readings {
             momentum: world.momentum(),
             impacts,
             impact_rate: self.rate(frame, time),
+            work: self.work,
         }
     }
 
@@ -121,6 +127,9 @@ impl Readings {
     /// Goes back (or on) to a frame after `impacts`.
     pub fn go_to(&mut self, frame: u64, impacts: u64) {
         self.impacts = impacts;
+        // A world that was put back has no report: what was measured then counts.
+        let measured = self.all.until(frame).last();
+        self.work = measured.map(|(_, reading)| reading.work).unwrap_or_default();
         self.picked_series.cut(frame);
         self.last_impacts.cut(frame);
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom::{DVec3, Pose, SphereId, StateHash};
+use carom::{DVec3, PersistentContact, Pose, SphereId, StateHash};
 use carom_scene::scene::{Color, Scene, Sphere};
 
 use crate::change::PastChange;
@@ -48,6 +48,11 @@ pub struct View {
     pub picked_readings: Vec<PickedReading>,
     /// The last impacts, oldest first.
     pub impacts: Vec<ListedImpact>,
+    /// The contacts that persist, with their forces, where [`Command::ShowContacts`] asks for them;
+    /// see [`carom::World::contacts`].
+    ///
+    /// [`Command::ShowContacts`]: crate::Command::ShowContacts
+    pub contacts: Vec<PersistentContact>,
     /// How it is played.
     pub playback: Playback,
     /// The same scene under the other rule, where two are compared.
@@ -135,6 +140,7 @@ impl Default for View {
             picked: None,
             picked_readings: Vec::new(),
             impacts: Vec::new(),
+            contacts: Vec::new(),
             playback: Playback::default(),
             other: None,
             distances: Vec::new(),

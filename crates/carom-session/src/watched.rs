@@ -129,6 +129,17 @@ impl Watched {
         }
     }
 
+    /// Copies the persistent contacts, where they are shown; otherwise the view has none.
+    pub(crate) fn fill_contacts(&self, view: &mut View, are_shown: bool) {
+        let contacts = |session: &Session| {
+            if are_shown { session.world().contacts() } else { Vec::new() }
+        };
+        view.contacts = contacts(self.session());
+        if let (Self::Two(comparison), Some(other)) = (self, &mut view.other) {
+            other.contacts = contacts(comparison.second());
+        }
+    }
+
     /// States as numbers: of the session, or of both.
     pub fn state_hashes(&self) -> (StateHash, Option<StateHash>) {
         match self {

@@ -26,6 +26,7 @@ pub enum Action {
     Impacts,
     Velocities,
     Contacts,
+    Forces,
     Compare,
     Theme,
     Help,
@@ -94,6 +95,7 @@ shortcuts! {
     Impacts: [key(Key::L)], "show or hide the list of impacts";
     Velocities: [key(Key::V)], "show or hide velocities";
     Contacts: [key(Key::K)], "show or hide contacts";
+    Forces: [key(Key::C)], "show or hide contact forces";
     Compare: [key(Key::X)], "the same scene under two rules, side by side";
     Theme: [key(Key::T)], "light or dark";
     Help: [key(Key::F1), key(Key::Questionmark)], "this list";

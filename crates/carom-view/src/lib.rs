@@ -10,6 +10,7 @@ mod action;
 mod address;
 mod app;
 mod chooser;
+mod contact_forces;
 #[cfg(not(target_arch = "wasm32"))]
 mod desktop;
 mod exports;

@@ -6,6 +6,8 @@ use carom_scene::Palette;
 use carom_scene::scene::{self, Color};
 use carom_session::View;
 
+use crate::contact_forces;
+
 /// What is drawn besides spheres and surfaces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Marks {
@@ -13,13 +15,15 @@ pub struct Marks {
     pub velocities: bool,
     /// Contacts of the last moments with their normals.
     pub contacts: bool,
+    /// Forces of persistent contacts as arrows.
+    pub forces: bool,
     /// Simulated time that an arrow is long \[s\].
     pub velocity_scale: f64,
 }
 
 impl Default for Marks {
     fn default() -> Self {
-        Self { velocities: false, contacts: false, velocity_scale: 0.2 }
+        Self { velocities: false, contacts: false, forces: false, velocity_scale: 0.2 }
     }
 }
 
@@ -52,6 +56,9 @@ pub fn draw(view: &View, look: &Look, drawing: &mut Drawing) {
     add_spheres(view, look, drawing);
     if look.marks.contacts {
         add_contacts(view, drawing);
+    }
+    if look.marks.forces {
+        drawing.arrows.extend(contact_forces::arrows(view, look.blend));
     }
 }
 
@@ -114,6 +121,7 @@ fn add_spheres(view: &View, look: &Look, drawing: &mut Drawing) {
                 color: VELOCITY,
                 width: 2.5,
                 head: true,
+                in_front: false,
             });
         }
     }
@@ -124,7 +132,14 @@ fn add_contacts(view: &View, drawing: &mut Drawing) {
         let radius = radius_of(view, impact.between);
         let (point, normal) = (impact.point, impact.normal);
         let end = point + normal * NORMAL_LENGTH * radius;
-        drawing.arrows.push(Arrow { start: point, end, color: CONTACT, width: 2.0, head: true });
+        drawing.arrows.push(Arrow {
+            start: point,
+            end,
+            color: CONTACT,
+            width: 2.0,
+            head: true,
+            in_front: false,
+        });
         drawing.balls.push(Ball {
             center: point,
             radius: 0.12 * radius,

@@ -1,5 +1,6 @@
 //! Plots of what is measured.
 
+use carom::StageCounts;
 use carom_session::View;
 use egui::{Color32, ScrollArea, Ui};
 use egui_plot::{AxisHints, Legend, Line, Plot, PlotPoint, PlotPoints, VLine};
@@ -15,11 +16,13 @@ pub struct Shown {
     pub impacts: bool,
     /// Height and speed of the picked ball.
     pub picked: bool,
+    /// Work of each frame, by stage.
+    pub work: bool,
 }
 
 impl Default for Shown {
     fn default() -> Self {
-        Self { energy: true, momentum: true, impacts: true, picked: true }
+        Self { energy: true, momentum: true, impacts: true, picked: true, work: false }
     }
 }
 
@@ -43,6 +46,7 @@ pub fn show(ui: &mut Ui, view: &View, shown: &mut Shown) {
         ui.checkbox(&mut shown.momentum, "Momentum");
         ui.checkbox(&mut shown.impacts, "Impacts");
         ui.checkbox(&mut shown.picked, "Picked ball");
+        ui.checkbox(&mut shown.work, "Work");
     });
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         if view.other.is_some() {
@@ -59,6 +63,9 @@ pub fn show(ui: &mut Ui, view: &View, shown: &mut Shown) {
         }
         if shown.picked {
             picked(ui, view);
+        }
+        if shown.work {
+            work(ui, view);
         }
     });
 }
@@ -136,6 +143,20 @@ fn picked(ui: &mut Ui, view: &View) {
     plot(ui, &format!("Height of ball {id}, m"), view.time, height);
     let speed = vec![curve("speed", RED, readings, |it| (it.time, it.speed))];
     plot(ui, &format!("Speed of ball {id}, m/s"), view.time, speed);
+}
+
+/// Work of each frame by stage, a plot for each: the numbers differ by orders of magnitude.
+fn work(ui: &mut Ui, view: &View) {
+    let count = |name, color, count: fn(&StageCounts) -> u64| {
+        curve(name, color, &view.readings, |it| (it.time, count(&it.work) as f64))
+    };
+    for (title, color, of) in [
+        ("Pair tests per frame", BLUE, (|it| it.pair_tests) as fn(&StageCounts) -> u64),
+        ("Events per frame", GREEN, |it| it.events),
+        ("Solver iterations per frame", RED, |it| it.solver_iterations),
+    ] {
+        plot(ui, title, view.time, vec![count("all", color, of)]);
+    }
 }
 
 fn distances(ui: &mut Ui, view: &View) {

@@ -5,6 +5,7 @@ struct Instance {
     @location(0) start: vec4<f32>,
     // w: 1 with a head, 0 without.
     @location(1) end: vec4<f32>,
+    // w: 1 in front of everything, 0 where it is.
     @location(2) color: vec4<f32>,
 }
 
@@ -54,7 +55,9 @@ fn vertex(@builtin(vertex_index) index: u32, arrow: Instance) -> Varying {
     }
     let base = mix(start, end, at_end);
     let place = mix(from_px, to_px, at_end) + offset;
-    out.clip = vec4<f32>(place / half_picture * base.w, base.z, base.w);
+    // The nearest depth is 1.
+    let depth = mix(base.z, base.w, arrow.color.w);
+    out.clip = vec4<f32>(place / half_picture * base.w, depth, base.w);
     return out;
 }
 

@@ -3,6 +3,7 @@
 //! order, in place and on its thread.
 
 mod comparison;
+mod contacts;
 mod driver;
 mod edits;
 mod link;

@@ -1,6 +1,6 @@
 //! What is measured.
 
-use carom::{BodyPair, DVec3};
+use carom::{BodyPair, DVec3, StageCounts};
 use carom_scene::scene::{Rule, Scene, Sphere};
 use carom_session::{Edit, MARKED, MAX_POINTS, REMEMBERED, Session, SphereChange, View};
 
@@ -70,6 +70,24 @@ fn readings_end_at_the_present_and_begin_at_the_beginning() {
         session.advance_seek(u64::MAX).unwrap();
         assert_eq!(view(&session).readings, there[..=frame], "frame {frame}");
     }
+}
+
+#[test]
+fn each_reading_has_the_work_of_the_frame_that_led_to_it() {
+    let mut session = busy();
+    assert_eq!(view(&session).now.work, StageCounts::default());
+    let mut expected = vec![StageCounts::default()];
+    for _ in 0..40 {
+        session.step().unwrap();
+        expected.push(session.world().report().work);
+    }
+    let measured: Vec<StageCounts> = view(&session).readings.iter().map(|it| it.work).collect();
+    assert_eq!(measured, expected);
+    assert!(expected.iter().any(|work| work.pair_tests > 0 && work.events > 0));
+    // The world that is put back has no report; the reading stays.
+    session.jump(0.25).unwrap();
+    let now = view(&session).now;
+    assert_eq!(now.work, expected[15]);
 }
 
 #[test]

@@ -202,6 +202,10 @@ impl Watching {
             Action::Impacts => self.panels.impacts ^= true,
             Action::Velocities => self.marks.velocities ^= true,
             Action::Contacts => self.marks.contacts ^= true,
+            Action::Forces => {
+                self.marks.forces ^= true;
+                self.commands.push(Command::ShowContacts(self.marks.forces));
+            }
             Action::Compare => self.compare(),
             _ => {}
         }
@@ -280,13 +284,14 @@ impl Watching {
     pub fn switches(&self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         let Panels { inspector, plots, impacts } = self.panels;
-        let Marks { velocities, contacts, .. } = self.marks;
+        let Marks { velocities, contacts, forces, .. } = self.marks;
         let switches = [
             ("Inspector", inspector, Action::Inspector),
             ("Plots", plots, Action::Plots),
             ("Impacts", impacts, Action::Impacts),
             ("Velocities", velocities, Action::Velocities),
             ("Contacts", contacts, Action::Contacts),
+            ("Contact forces", forces, Action::Forces),
             ("Two rules", self.view().other.is_some(), Action::Compare),
             ("Follow", self.followed.is_some(), Action::Follow),
         ];

@@ -2,6 +2,7 @@
 //! what becomes of it. Drawn by the software driver; physics in place, so that nothing depends on a
 //! thread's timing.
 
+mod contact_forces;
 mod desk;
 mod files;
 mod links;
