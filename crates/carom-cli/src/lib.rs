@@ -19,6 +19,7 @@ pub mod pictures;
 mod progress;
 mod run;
 mod scenes;
+mod stage_work;
 mod summary;
 mod table;
 mod verify;

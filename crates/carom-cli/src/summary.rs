@@ -3,10 +3,12 @@
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-use carom::{DVec3, World};
+use carom::{DVec3, StageCounts, World};
 use carom_scene::scene::{ImpactLaw, Integrator, Rule, WindBack};
 use carom_session::{Replay, SessionError};
 use serde::Serialize;
+
+use crate::stage_work::StageWork;
 
 /// Watches a run.
 pub struct Observer {
@@ -20,6 +22,7 @@ pub struct Observer {
     emitted: u64,
     retired: u64,
     unfinished_islands: u64,
+    work: StageCounts,
     largest_overlap: f64,
     /// In any group of impacts, under rules that keep a ledger.
     largest_momentum_error: f64,
@@ -39,6 +42,7 @@ impl Observer {
             emitted: 0,
             retired: 0,
             unfinished_islands: 0,
+            work: StageCounts::default(),
             largest_overlap: 0.0,
             largest_momentum_error: 0.0,
             largest_energy_error: 0.0,
@@ -57,6 +61,7 @@ impl Observer {
         self.emitted += report.emitted.len() as u64;
         self.retired += report.retired.len() as u64;
         self.unfinished_islands += u64::from(report.unfinished_islands);
+        self.work += report.work;
         for group in &report.groups {
             self.largest_momentum_error = self.largest_momentum_error.max(group.momentum_error());
             self.largest_energy_error = self.largest_energy_error.max(group.energy_error());
@@ -90,6 +95,8 @@ pub struct Summary {
     /// Spheres in triggers, summed over all frames.
     trigger_contacts: u64,
     unfinished_islands: u64,
+    /// Summed over all frames.
+    work: StageWork<u64>,
     energy_at_start: f64,
     energy_at_end: f64,
     momentum_at_start: [f64; 3],
@@ -131,6 +138,7 @@ impl Summary {
             impacts: observer.impacts,
             trigger_contacts: observer.trigger_contacts,
             unfinished_islands: observer.unfinished_islands,
+            work: observer.work.into(),
             energy_at_start: observer.energy_at_start,
             energy_at_end: world.total_energy(),
             momentum_at_start: observer.momentum_at_start.to_array(),

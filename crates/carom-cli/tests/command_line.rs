@@ -86,6 +86,27 @@ fn a_run_prints_its_table() {
 }
 
 #[test]
+fn the_summary_has_the_work_of_all_frames_by_stage() {
+    let work = |rule: &str, frames: &str| {
+        let run = ["run", "tutorial3", "--rule", rule, "--frames", frames];
+        summary(&run)["work"].clone()
+    };
+    let count = |work: &Value, stage: &str| work[stage].as_u64().unwrap();
+    let (part, whole) = (work("exact", "100"), work("exact", "200"));
+    assert_eq!(whole, work("exact", "200"), "the same run does the same work");
+    for stage in ["predictions", "pair_tests", "events"] {
+        assert!(count(&part, stage) > 0, "{stage}: {part}");
+        assert!(count(&whole, stage) >= count(&part, stage), "{stage}: {whole}");
+    }
+    assert!(count(&whole, "groups") > 0, "{whole}");
+    let discrete = work("discrete", "200");
+    assert!(count(&discrete, "pair_tests") > 0, "{discrete}");
+    for stage in ["predictions", "events", "cell_crossings", "groups", "solver_iterations"] {
+        assert_eq!(count(&discrete, stage), 0, "{stage}: {discrete}");
+    }
+}
+
+#[test]
 fn frames_seconds_rule_and_overrides_do_what_they_say() {
     let frames = |arguments: &[&str]| summary(arguments)["frames"].as_u64().unwrap();
     assert_eq!(frames(&["run", "simtest1", "--frames", "7"]), 7);

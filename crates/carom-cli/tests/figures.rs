@@ -126,6 +126,22 @@ fn bench_measures_a_gas_of_any_number_and_packing_fraction() {
     assert_eq!(row["runs"].as_array().unwrap().len(), 3);
     assert!(row["impacts_per_second"].as_f64().unwrap() > 0.0);
     assert!(figures["scenes"].as_array().unwrap().is_empty());
+    let work = &row["work_per_impact"];
+    let of = |stage: &str| work[stage].as_f64().unwrap();
+    // Both spheres of an impact are predicted anew, each against its neighbours.
+    assert!(of("predictions") >= 2.0 && of("pair_tests") > of("predictions"), "{work}");
+    assert!(of("events") >= 1.0 + of("cell_crossings"), "{work}");
+    assert!(work["groups"].is_number() && work["solver_iterations"].is_number(), "{work}");
+}
+
+#[test]
+fn the_table_of_bench_tells_the_work_of_an_impact() {
+    let gas =
+        ["bench", "--n", "50", "--packing-fraction", "0.3", "--impacts", "500", "--runs", "1"];
+    let table = String::from_utf8(run(&gas).stdout).unwrap();
+    for stage in ["predictions", "pair tests", "cell crossings"] {
+        assert!(table.contains(&format!("{stage}/impact")), "{table}");
+    }
 }
 
 #[test]

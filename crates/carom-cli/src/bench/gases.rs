@@ -3,14 +3,16 @@
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use carom::{Rule, World};
+use carom::{Rule, StageCounts, World};
 use serde::{Deserialize, Serialize};
 
 use super::median::median;
+use super::work_columns;
 use crate::args::Bench;
 use crate::failure::Failure;
 use crate::gas::{self, COLLISIONS_TO_EQUILIBRIUM, Filling, Speeds};
 use crate::machine;
+use crate::stage_work::StageWork;
 use crate::table::{Side, Table};
 
 /// A gas whose speed is published.
@@ -67,6 +69,8 @@ pub struct GasRow {
     ratio: Option<f64>,
     /// Growth of the largest memory held, where the system tells it.
     bytes_per_sphere: Option<f64>,
+    /// Over all runs.
+    work_per_impact: Option<StageWork<f64>>,
 }
 
 /// Measures the gases of the set, each in a process of its own: so that each has its own largest
@@ -121,8 +125,9 @@ pub fn measure(filling: Filling, args: &Bench) -> Result<GasRow, Failure> {
     let mut world = gas::gas(filling, Speeds::Equilibrium, Rule::default(), 1)?;
     gas::run_collisions(&mut world, h, COLLISIONS_TO_EQUILIBRIUM)?;
     let impacts = args.impacts.unwrap_or(FEWEST_IMPACTS.max(2 * filling.count as u64));
+    let mut counted = Counted::default();
     let runs: Result<Vec<f64>, carom::Error> =
-        (0..args.runs).map(|_| rate(&mut world, h, impacts)).collect();
+        (0..args.runs).map(|_| rate(&mut world, h, impacts, &mut counted)).collect();
     let runs = runs?;
     let growth = memory_before.zip(machine::peak_memory()).map(|(before, after)| after - before);
     Ok(GasRow {
@@ -134,39 +139,58 @@ pub fn measure(filling: Filling, args: &Bench) -> Result<GasRow, Failure> {
         published: None,
         ratio: None,
         bytes_per_sphere: growth.map(|bytes| bytes as f64 / filling.count as f64),
+        work_per_impact: StageWork::per_impact(counted.work, counted.impacts),
     })
 }
 
+/// What happened in all runs.
+#[derive(Default)]
+struct Counted {
+    impacts: u64,
+    work: StageCounts,
+}
+
 /// Impacts per second over at least this many.
-fn rate(world: &mut World, h: f64, impacts: u64) -> Result<f64, carom::Error> {
+fn rate(
+    world: &mut World,
+    h: f64,
+    impacts: u64,
+    counted: &mut Counted,
+) -> Result<f64, carom::Error> {
     let (mut done, began) = (0, Instant::now());
     while done < impacts {
-        done += world.step(h)?.impacts.len() as u64;
+        let report = world.step(h)?;
+        done += report.impacts.len() as u64;
+        counted.work += report.work;
     }
+    counted.impacts += done;
     Ok(done as f64 / began.elapsed().as_secs_f64())
 }
 
 pub fn table(rows: &[GasRow]) -> Table {
     let right = Side::Right;
-    let mut table = Table::new(&[
+    let columns = [
         ("gas of spheres", right),
         ("packing fraction", right),
         ("impacts/s", right),
         ("published", right),
         ("ratio", right),
         ("bytes/sphere", right),
-    ]);
+    ];
+    let mut table = Table::new(&[&columns[..], &work_columns::NAMES].concat());
     let millions = |rate: f64| format!("{:.3} M", 1e-6 * rate);
     let or_none = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
     for row in rows {
-        table.push(vec![
+        let mut texts = vec![
             row.spheres.to_string(),
             format!("{:.2}", row.packing_fraction),
             millions(row.impacts_per_second),
             or_none(row.published.map(millions)),
             or_none(row.ratio.map(|ratio| format!("{ratio:.2}"))),
             or_none(row.bytes_per_sphere.map(|bytes| format!("{bytes:.0}"))),
-        ]);
+        ];
+        texts.extend(work_columns::texts(row.work_per_impact));
+        table.push(texts);
     }
     table
 }

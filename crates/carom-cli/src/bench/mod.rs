@@ -3,6 +3,7 @@
 mod gases;
 mod median;
 mod scenes;
+mod work_columns;
 
 use std::io::{self, Write};
 

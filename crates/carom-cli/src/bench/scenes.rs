@@ -2,11 +2,14 @@
 
 use std::time::{Duration, Instant};
 
+use carom::StageCounts;
 use carom_scene::{Library, Override, Scene};
 use serde::Serialize;
 
 use super::median::median;
+use super::work_columns;
 use crate::failure::Failure;
+use crate::stage_work::StageWork;
 use crate::table::{Side, Table};
 
 const SET: [&str; 8] = [
@@ -30,6 +33,8 @@ pub struct SceneRow {
     title: String,
     frames: u64,
     impacts: u64,
+    /// `None` without impacts.
+    work_per_impact: Option<StageWork<f64>>,
     /// The rate of each run \[1/s\].
     runs: Vec<f64>,
     /// Their median \[1/s\].
@@ -46,7 +51,7 @@ fn measure(name: &str, runs: u32) -> Result<SceneRow, Failure> {
     let scene = Library::new().find(name, &[exact])?.0;
     let passages: Result<Vec<Passage>, Failure> = (0..runs).map(|_| passage(&scene)).collect();
     let passages = passages?;
-    let (frames, impacts) = passages.first().map_or((0, 0), |it| (it.frames, it.impacts));
+    let Passage { frames, impacts, work, .. } = passages.first().copied().unwrap_or_default();
     let runs: Vec<f64> = passages.iter().map(|it| it.rate).collect();
     let sphere_frames_per_second = median(runs.clone());
     Ok(SceneRow {
@@ -54,16 +59,19 @@ fn measure(name: &str, runs: u32) -> Result<SceneRow, Failure> {
         title: scene.title,
         frames,
         impacts,
+        work_per_impact: StageWork::per_impact(work, impacts),
         runs,
         sphere_frames_per_second,
     })
 }
 
 /// A scene, run once or more often.
+#[derive(Clone, Copy, Default)]
 struct Passage {
     /// Of the scene once.
     frames: u64,
     impacts: u64,
+    work: StageCounts,
     /// Sphere-frames per second of all.
     rate: f64,
 }
@@ -73,38 +81,43 @@ fn passage(scene: &Scene) -> Result<Passage, Failure> {
     let (mut sphere_frames, mut stepping) = (0, Duration::ZERO);
     loop {
         let mut world = scene.world()?;
-        let (mut frames, mut impacts) = (0, 0);
+        let (mut frames, mut impacts, mut work) = (0, 0, StageCounts::default());
         let began = Instant::now();
         while world.time() < scene.simulation.duration {
-            impacts += world.step(h)?.impacts.len() as u64;
+            let report = world.step(h)?;
+            impacts += report.impacts.len() as u64;
+            work += report.work;
             sphere_frames += world.spheres().len();
             frames += 1;
         }
         stepping += began.elapsed();
         if stepping >= SHORTEST {
             let rate = sphere_frames as f64 / stepping.as_secs_f64();
-            return Ok(Passage { frames, impacts, rate });
+            return Ok(Passage { frames, impacts, work, rate });
         }
     }
 }
 
 pub fn table(rows: &[SceneRow]) -> Table {
     let (left, right) = (Side::Left, Side::Right);
-    let mut table = Table::new(&[
+    let columns = [
         ("scene", left),
         ("title", left),
         ("frames", right),
         ("impacts", right),
         ("sphere-frames/s", right),
-    ]);
+    ];
+    let mut table = Table::new(&[&columns[..], &work_columns::NAMES].concat());
     for row in rows {
-        table.push(vec![
+        let mut texts = vec![
             row.scene.clone(),
             row.title.clone(),
             row.frames.to_string(),
             row.impacts.to_string(),
             format!("{:.2} M", 1e-6 * row.sphere_frames_per_second),
-        ]);
+        ];
+        texts.extend(work_columns::texts(row.work_per_impact));
+        table.push(texts);
     }
     table
 }
