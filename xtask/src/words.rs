@@ -10,8 +10,8 @@ use crate::shell::{Outcome, root};
 const WORDS: [&str; 5] = ["whoever", "nobody", "reckoned", "vicinity", "outlook"];
 /// Openings that send a reader elsewhere.
 const OPENINGS: [&str; 3] = ["Likewise", "As there.", "The same."];
-/// Phrases of documents in which nothing acts, or that have a word of the field.
-const PHRASES_OF_DOCUMENTS: [&str; 10] = [
+/// Phrases in which nothing acts, or that have a word of the field.
+const PHRASES: [&str; 12] = [
     "are asked",
     "are told",
     "be told",
@@ -19,9 +19,11 @@ const PHRASES_OF_DOCUMENTS: [&str; 10] = [
     "is told",
     "lasting contact",
     "lasting contacts",
+    "told apart",
     "told to",
     "unless told",
     "who is near",
+    "whom",
 ];
 
 /// What is read: folders, and the documents beside them.
@@ -31,7 +33,7 @@ const ENDINGS: [&str; 7] = ["rs", "py", "pyi", "md", "ts", "mjs", "js"];
 /// Folders of what others wrote, or programs made.
 const FOREIGN: [&str; 5] = ["node_modules", "target", "dist", "module", "test-results"];
 
-/// Refuses such words and openings in sources and documents.
+/// Refuses such words, openings and phrases in sources and documents.
 pub fn check() -> Outcome {
     let mut faults = Vec::new();
     for place in PLACES {
@@ -57,8 +59,7 @@ fn check_place(path: &Path, faults: &mut Vec<String>) -> std::io::Result<()> {
     }
     let text = fs::read_to_string(path)?;
     for (number, line) in (1..).zip(text.lines()) {
-        let of_document = || phrase_of_document(line).filter(|_| ending == "md");
-        if let Some(fault) = fault_of(line).or_else(of_document) {
+        if let Some(fault) = fault_of(line).or_else(|| phrase_of(line)) {
             let place = path.strip_prefix(root()).unwrap_or(path).display();
             faults.push(format!("{place}:{number}: \"{fault}\" in: {}", line.trim()));
         }
@@ -78,10 +79,12 @@ fn fault_of(line: &str) -> Option<&'static str> {
     OPENINGS.into_iter().find(|opening| text.starts_with(opening))
 }
 
-/// The phrase of a line that documents do without, if there is one.
-fn phrase_of_document(line: &str) -> Option<&'static str> {
-    let is_within_a_word = |letter: Option<char>| letter.is_some_and(char::is_alphanumeric);
-    PHRASES_OF_DOCUMENTS.into_iter().find(|phrase| {
+/// The phrase of a line that is refused, small or at the beginning of a sentence, if there is one.
+fn phrase_of(line: &str) -> Option<&'static str> {
+    let line = line.to_ascii_lowercase();
+    let is_within_a_word =
+        |letter: Option<char>| letter.is_some_and(|it| it.is_alphanumeric() || it == '_');
+    PHRASES.into_iter().find(|phrase| {
         line.match_indices(phrase).any(|(at, _)| {
             let (before, after) = (&line[..at], &line[at + phrase.len()..]);
             !is_within_a_word(before.chars().next_back()) && !is_within_a_word(after.chars().next())
@@ -98,7 +101,7 @@ fn is_word(word: &str, found: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{fault_of, phrase_of_document};
+    use super::{fault_of, phrase_of};
 
     #[test]
     fn refused_words_and_openings_are_found() {
@@ -110,10 +113,21 @@ mod tests {
 
     #[test]
     fn phrases_are_found_as_whole_words() {
-        assert_eq!(phrase_of_document("Forces in lasting contact."), Some("lasting contact"));
-        assert_eq!(phrase_of_document("a solver is told where"), Some("is told"));
+        assert_eq!(phrase_of("Forces in lasting contact."), Some("lasting contact"));
+        assert_eq!(phrase_of("a solver is told where"), Some("is told"));
         for line in ["an everlasting contact", "this tolerance", "told tomorrow"] {
-            assert_eq!(phrase_of_document(line), None, "{line}");
+            assert_eq!(phrase_of(line), None, "{line}");
+        }
+    }
+
+    #[test]
+    fn phrases_are_found_in_sources() {
+        assert_eq!(phrase_of("/// What the driver is told."), Some("is told"));
+        assert_eq!(phrase_of("//! Lasting contact: rest on a floor."), Some("lasting contact"));
+        assert_eq!(phrase_of("// Emitters, told apart by place."), Some("told apart"));
+        assert_eq!(phrase_of("test(\"tries again when told to\", async () => {"), Some("told to"));
+        for line in ["let is_told = told.is_some();", "for told in told_apart {"] {
+            assert_eq!(phrase_of(line), None, "{line}");
         }
     }
 
