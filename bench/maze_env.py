@@ -26,7 +26,7 @@ import carom.gym
 
 TILT_SPEEDS = {"at once": math.inf, "followed": 60.0}
 NUM_ENVS = (1, 16, 256, 1024, 4096)
-# As many different actions as keep them from being foreseen, in a block of memory that caches hold.
+# So many different actions that nothing predicts them, in a block of memory that caches hold.
 ACTIONS = 64
 # Long enough for balls to have left their start, short enough that some start anew all the time.
 MAX_EPISODE_STEPS = 1000

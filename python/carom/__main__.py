@@ -10,7 +10,7 @@ from carom.errors import CaromError
 
 
 def main() -> int:
-    """Does what the command line asks for, and returns the code to end with."""
+    """Does what the command line says, and returns the code to end with."""
     try:
         return run_command(["carom", *sys.argv[1:]], registered_texts())
     except CaromError as error:

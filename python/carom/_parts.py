@@ -348,7 +348,7 @@ class Simulation(Part):
     Attributes:
         rule: The step rule.
         frame_time: Length of a frame [s], > 0.
-        duration: Time worth watching [s], > 0: what a run takes unless told.
+        duration: Time worth watching [s], > 0: what a run takes by default.
         spheres_collide: Whether spheres collide with one another; with colliders they always do.
         combine_rule: Restitution of a contact from that of its two bodies.
         allow_overlap: Whether spheres may overlap each other or colliders at the start.

@@ -36,7 +36,7 @@ Quality: TypeAlias = Literal["fine", "good", "draft"]
 _PLACES = ("scene", "fit", "front", "top")
 
 SIZE = (1280, 720)
-"""Of pictures and films, unless asked for another."""
+"""Of pictures and films, by default."""
 _NOTEBOOK_SIZE = (640, 360)
 """Of pictures in notebooks: of the proportions for which scenes are made."""
 

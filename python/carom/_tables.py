@@ -63,8 +63,8 @@ LEDGER = np.dtype(
 TRIGGER = np.dtype(
     [("collider", "i8"), ("sphere", "i8"), ("point", "f8", (3,)), ("normal", "f8", (3,))]
 )
-"""A sphere inside a trigger at the end of a frame: who, the nearest point of its surface [m], and
-the unit normal there."""
+"""A sphere inside a trigger at the end of a frame: both ids, the nearest point of its surface [m],
+and the unit normal there."""
 
 
 def records(words: NDArray[np.uint64], kind: np.dtype[np.void]) -> NDArray[np.void]:

@@ -98,7 +98,7 @@ _CHOICES: dict[str, tuple[type[parts.Part], ...]] = {
     "generators": (parts.Row, parts.Lattice, parts.RandomFill),
     "shape": (parts.Ball, parts.Rectangle, parts.HalfSpace, parts.Box),
 }
-"""What may be described under a name, told apart by tags."""
+"""What may be described under a name; tags distinguish the variants."""
 
 
 def read_part(key: str, text: str) -> Any:

@@ -1,4 +1,4 @@
-"""Sweeps: the runs that were asked for, each once, whatever is performed where and killed when."""
+"""Sweeps: all runs of the plan, each once, whatever is performed where and killed when."""
 
 import os
 import signal
@@ -272,7 +272,7 @@ def test_arrays_of_different_shapes_make_no_table() -> None:
 
 
 def is_alive(process: int) -> bool:
-    """Whether it runs; what is dead and only waits to be asked after does not."""
+    """Whether it runs; a dead process that only waits for its parent does not."""
     try:
         return Path(f"/proc/{process}/stat").read_text().rsplit(")")[1].split()[0] != "Z"
     except FileNotFoundError:
@@ -302,7 +302,7 @@ def test_killed_workers_lose_nothing_and_repeat_nothing(client: Client, tmp_path
     assert kept == count
     performed = [int(line) for line in log.read_text().split()]
     assert {*performed} == {*range(count)}
-    # What is at work on a worker, and not yet told, dies with it: at most two batches, each time.
+    # What a worker is at, and has not yet reported, dies with it: at most two batches, each time.
     assert len(performed) - count < 2 * 2 * 50
 
 

@@ -34,7 +34,7 @@ function write() {
 }
 
 /**
- * Tells when somebody else changes it: a link, or typing into the address bar.
+ * Tells when something else changes it: a link, or typing into the address bar.
  *
  * @param {(fragment: string) => void} tell
  */

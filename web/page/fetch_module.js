@@ -8,7 +8,7 @@ import { Trouble } from "./trouble.js";
  * Its address and its size are in the page's head, where `bundle.js` wrote them: a server that
  * compresses does not tell the size that arrives here.
  *
- * @param {(arrived: number, all: number) => void} progress is told how many bytes have arrived
+ * @param {(arrived: number, all: number) => void} progress gets how many bytes have arrived
  * @returns {Promise<WebAssembly.Module>}
  */
 export async function fetchModule(progress) {
@@ -25,7 +25,7 @@ export async function fetchModule(progress) {
       },
     }),
   );
-  // Compilers ask for this type, whatever the server says.
+  // Compilers demand this type, whatever the server says.
   const headers = { "Content-Type": "application/wasm" };
   try {
     return await WebAssembly.compileStreaming(new Response(counted, { headers }));

@@ -1,4 +1,4 @@
-// Whether there is anything to draw with, asked before megabytes are fetched.
+// Whether there is anything to draw with; the page checks it before it fetches megabytes.
 
 /** Whether the browser offers WebGL 2 or WebGPU. */
 export async function canDraw() {

@@ -64,7 +64,7 @@ export function tilt() {
   return [part(right), part(down)];
 }
 
-/** Some browsers ask for permission, and do so only in answer to a touch. */
+/** Some browsers ask the user for permission, and do so only in answer to a touch. */
 async function askForLeave() {
   const { requestPermission } = /** @type {{ requestPermission?: () => Promise<string> }} */ (
     /** @type {unknown} */ (DeviceOrientationEvent)

@@ -1,4 +1,4 @@
-// What goes wrong, told to people.
+// What goes wrong, in words for people.
 
 /** Its message is a sentence or two for people; `cause` may say more. */
 export class Trouble extends Error {}

@@ -8,7 +8,7 @@ import { chromium } from "playwright-core";
 /** Pictures that tests leave, to be looked at after a change of the page. */
 const RESULTS = fileURLToPath(new URL("../test-results/", import.meta.url));
 
-/** What a browser would ask of the network by itself. */
+/** What a browser would request from the network by itself. */
 const QUIET = [
   "--disable-background-networking",
   "--disable-component-update",

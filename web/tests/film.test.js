@@ -154,7 +154,7 @@ test("a browser that cannot make films says so", async () => {
   await page.close();
 });
 
-test("an encoder that fails is told of when the next frame comes, or the film ends", async () => {
+test("an encoder that fails is an error when the next frame comes, or the film ends", async () => {
   const { page } = await open();
   const said = await page.evaluate(async () => {
     VideoEncoder.prototype.encode = () => {

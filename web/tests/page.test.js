@@ -70,7 +70,7 @@ describe("the page", () => {
     await context.close();
   });
 
-  test("asks no other server for anything", async () => {
+  test("requests nothing from other servers", async () => {
     /** @type {string[]} */
     const asked = [];
     const { close } = await open("", async (page) =>
@@ -95,7 +95,7 @@ describe("the page", () => {
     });
   }
 
-  test("says that the network is not there, and tries again when told to", async () => {
+  test("says that the network is not there, and tries again at a click", async () => {
     const { page, close } = await open("", (page) =>
       page.route(isModule, (route) => route.abort()),
     );

@@ -38,7 +38,7 @@ after(async () => {
 });
 
 /**
- * Asks for a path as it stands, without the tidying that `fetch` does.
+ * Requests a path as it stands, without the tidying that `fetch` does.
  *
  * @param {string} path
  * @param {Record<string, string>} [headers]
@@ -61,7 +61,7 @@ test("the folder itself is its page", async () => {
   assert.equal(headers["cache-control"], "no-cache");
 });
 
-test("who takes gzip gets it, others do not", async () => {
+test("the server compresses for clients that accept gzip, and for no others", async () => {
   const compressed = await get("/a-12345678.wasm", { "accept-encoding": "br, gzip" });
   assert.equal(compressed.headers["content-encoding"], "gzip");
   assert.equal(compressed.headers["content-type"], "application/wasm");

@@ -9,7 +9,7 @@ import { complaints, keepPicture, launch } from "./browser.js";
 /** The page as `cargo xtask web` made it. */
 const DIST = process.env.CAROM_DIST ?? fileURLToPath(new URL("../dist/", import.meta.url));
 
-/** How long the slowest machine may take for what is asked [ms]: it draws in software. */
+/** How long the slowest machine may take for an action [ms]: it draws in software. */
 const PATIENCE = 60_000;
 
 /**
@@ -164,7 +164,7 @@ export class Viewer {
   }
 
   /**
-   * Clicks on a part of the interface, in its middle unless told otherwise.
+   * Clicks on a part of the interface, by default in its middle.
    *
    * @param {string} label
    * @param {{ role?: string, part?: number }} [where] part of its width

@@ -20,7 +20,7 @@ pub fn check() -> Outcome {
     Err(format!("modules that use each other in a circle:\n{}", faults.join("\n")))
 }
 
-/// The groups of modules of a crate that use each other, each told with one way round.
+/// The groups of modules of a crate that use each other, each with one way round.
 fn circles(sources: &[Source]) -> Vec<String> {
     let imports = imports(sources);
     let tell = |group: Vec<usize>| {

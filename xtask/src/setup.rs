@@ -123,7 +123,7 @@ fn install(needs: &[Need]) -> Outcome {
         run(program, &all)
     };
     with(&["update", "-qq"])?;
-    // Rather fail than remove what somebody uses.
+    // Rather fail than remove what another program uses.
     let install = ["install", "-y", "-qq", "--no-install-recommends", "--no-remove"];
     with(&[&install[..], &missing].concat())
 }

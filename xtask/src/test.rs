@@ -97,7 +97,7 @@ fn small_builds() -> Outcome {
 }
 
 fn tests() -> Outcome {
-    // Graphics libraries ask for this folder, and complain aloud where a system names none.
+    // Graphics libraries need this folder, and complain aloud where a system names none.
     let folder = std::env::var("XDG_RUNTIME_DIR").unwrap_or_else(|_| "/tmp".to_owned());
     let graphics = [("XDG_RUNTIME_DIR", folder.as_str())];
     cargo_with(&["test", "--workspace", "--quiet"], &graphics)

@@ -8,7 +8,7 @@ use crate::shell::{Outcome, cargo, finish, target_folder};
 use crate::web_tools::{folder, node, npm_packages, wasm_bindgen};
 use crate::{setup, wasm};
 
-/// Where the page is served unless told otherwise.
+/// The default port of the page's server.
 pub const PORT: &str = "8042";
 
 /// What a browser fetches at most to show the page, compressed \[bytes\].

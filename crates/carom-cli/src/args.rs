@@ -27,14 +27,14 @@ pub struct Args {
     #[cfg(not(feature = "view"))]
     #[command(subcommand)]
     command: Command,
-    /// What to do; `view`, which lets you choose a scene, unless something is asked for.
+    /// What to do; by default `view`, which lets you choose a scene.
     #[cfg(feature = "view")]
     #[command(subcommand)]
     command: Option<Command>,
 }
 
 impl Args {
-    /// Who looks for scenes where, and what to do.
+    /// The folders with scenes, and what to do.
     pub fn split(self) -> (Folders, Command) {
         #[cfg(not(feature = "view"))]
         let command = self.command;
@@ -83,7 +83,7 @@ pub enum Command {
     /// Print a link that opens a run of a scene in a browser; `carom run --link` runs it here.
     Link(Link),
     /// Check this build against exact results and published values of physics. Ends with code 1 if
-    /// it misses one, whichever rule it was asked to use.
+    /// it misses one, whichever rule `--rule` names.
     Verify(Verify),
     /// Run a scene under several rules and print how far they come apart.
     Compare(Box<Compare>),

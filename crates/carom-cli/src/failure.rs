@@ -9,7 +9,7 @@ use carom_session::{LinkError, SessionError};
 /// Why a command stops before its end.
 #[derive(Debug)]
 pub enum Failure {
-    /// The command line asks for something that does not exist or makes no sense: code 2.
+    /// The command line names something that does not exist or makes no sense: code 2.
     Usage(String),
     /// Something went wrong on the way: code 1.
     Fault(String),
@@ -19,7 +19,7 @@ pub enum Failure {
     Interrupted,
 }
 
-/// The code of a command line that asks for what does not exist or makes no sense.
+/// The code of a command line that names what does not exist or makes no sense.
 pub const USAGE: u8 = 2;
 
 impl Failure {

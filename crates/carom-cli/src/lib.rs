@@ -34,7 +34,7 @@ use clap::Parser;
 use args::{Args, Command};
 use failure::Failure;
 
-/// Does what `arguments` ask for, the name of the program first, and says with which code the
+/// Does what `arguments` say, the name of the program first, and returns with which code the
 /// program is to end. `registered` are scenes that are found by name besides those on the disk.
 pub fn main(arguments: impl IntoIterator<Item = OsString>, registered: Vec<Scene>) -> u8 {
     let result = match Args::try_parse_from(arguments) {

@@ -79,7 +79,7 @@ fn page(args: &Link) -> Result<String, Failure> {
     Ok(page)
 }
 
-/// The page that opens links unless another is asked for.
+/// The page that opens links by default.
 pub fn usual_page() -> String {
     let from_environment = std::env::var("CAROM_PAGE").ok().filter(|page| !page.is_empty());
     from_environment.unwrap_or_else(|| LOCAL_PAGE.to_owned())

@@ -4,7 +4,7 @@
 
 use std::process::ExitCode;
 
-/// Asks Linux for large pages, which many systems give only to who asks: a world of many spheres
+/// Requests large pages, which many Linux systems give only on request: a world of many spheres
 /// then waits less for addresses to be translated.
 #[cfg(target_os = "linux")]
 #[global_allocator]

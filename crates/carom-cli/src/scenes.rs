@@ -51,7 +51,7 @@ fn as_json(entry: &Entry) -> serde_json::Value {
     }
 }
 
-/// Checks scene files; every broken one is told about before the command fails.
+/// Checks scene files; reports every broken one before the command fails.
 pub fn check(files: &[PathBuf]) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let mut broken = 0;

@@ -1,4 +1,4 @@
-//! Who is in a world, and in which colours.
+//! The spheres in a world, and their colours.
 
 use carom::{SphereId, Spheres};
 use carom_scene::Palette;

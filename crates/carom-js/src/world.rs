@@ -17,7 +17,7 @@ use crate::snapshot::{Description, Snapshot};
 pub struct World {
     pub(crate) world: carom::World,
     pub(crate) description: Description,
-    /// The impacts of the last frame, once somebody has asked for them.
+    /// The impacts of the last frame, once a script has read them.
     impacts: Option<Vec<f64>>,
 }
 

@@ -50,9 +50,9 @@ pub enum MazeError {
     /// A random maze of no size, or too large to be played.
     #[error("a random maze has 2 to {most} columns and rows, not {columns} x {rows}")]
     Size {
-        /// Columns asked for.
+        /// Columns requested.
         columns: usize,
-        /// Rows asked for.
+        /// Rows requested.
         rows: usize,
         /// The most of each.
         most: usize,
@@ -129,7 +129,7 @@ pub enum EpisodeError {
     /// A ball that is not there.
     #[error("there is no ball {ball}: there are {balls}, counted from 0")]
     NoBall {
-        /// Which was asked for.
+        /// The number requested.
         ball: usize,
         /// How many there are.
         balls: usize,
@@ -168,7 +168,7 @@ pub enum PlanError {
     /// Fewer collectibles can be reached than are wanted.
     #[error("{wanted} collectibles are wanted, but the ball can get to {reachable} only")]
     TooFewCollectibles {
-        /// How many were asked for.
+        /// How many the player wants.
         wanted: usize,
         /// How many there are within reach.
         reachable: usize,

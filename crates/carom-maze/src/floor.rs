@@ -11,7 +11,7 @@ use crate::route;
 const CELLS_PER_RADIUS: f64 = 6.0;
 /// Cells along a side, at most; a larger ground gets coarser cells.
 const MOST_CELLS: f64 = 1000.0;
-/// How far above its place on the ground, and how much smaller, the ball is when it is asked what
+/// How far above its place on the ground, and how much smaller, the ball is in a search for what
 /// it meets: more than rounding, less than the room under a ceiling \[radii\].
 const LIFT: f64 = 0.01;
 const SMALLER: f64 = 0.008;

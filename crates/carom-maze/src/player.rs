@@ -28,7 +28,7 @@ enum Goal {
     EndWall,
 }
 
-/// A player who knows the maze.
+/// A player that knows the maze.
 ///
 /// It goes to the nearest collectible until it has as many as it wants, and then to an end wall. To
 /// each goal it knows the cost of the way from everywhere, so wherever the ball gets to, it goes on
@@ -46,7 +46,7 @@ pub struct Player {
 }
 
 impl Player {
-    /// A player who wants this many collectibles before it wins.
+    /// A player that wants this many collectibles before it wins.
     ///
     /// # Errors
     /// [`PlanError`] if the ball cannot get to as many, or to no end wall.

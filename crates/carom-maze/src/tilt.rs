@@ -6,7 +6,7 @@ use crate::error::GameError;
 use crate::options::Options;
 
 /// The maze is not turned by less than that in a frame \[rad\]: it cannot be seen, and a floor that
-/// hardly turns cannot be told from one at rest.
+/// hardly turns looks like one at rest.
 const FINEST_TURN: f64 = 2e-5;
 
 /// What the player does in a frame.

@@ -1,4 +1,4 @@
-//! Every transition of the game: what the ball touches, how it falls, who wins, what time says.
+//! Every transition of the game: what the ball touches, how it falls, when it wins, when time ends.
 
 mod common;
 

@@ -1,10 +1,10 @@
 //! Arrays of spheres, as NumPy sees them.
 //!
-//! The memory belongs to Python: an array that somebody holds can be read for as long as it is
-//! held, whatever becomes of the world. To read costs nothing; for that, an array that was asked
-//! for once is written anew after every frame, as long as the same spheres are there. When spheres
-//! come or go, the world lets go of its arrays and makes others when they are next asked for; the
-//! old ones keep the last values of their spheres.
+//! The memory belongs to Python: a script can read an array for as long as it holds it, whatever
+//! becomes of the world. To read costs nothing; for that, the world writes an array anew after
+//! every frame once a script has read it, as long as the same spheres are there. When spheres come
+//! or go, the world lets go of its arrays and makes others at the next read; the old ones keep the
+//! last values of their spheres.
 
 use carom::{DVec3, SphereId, Spheres};
 use numpy::{PyArray, PyArray1, PyArrayDyn, PyArrayMethods};
@@ -66,7 +66,7 @@ impl Quantity {
             Self::Positions => spheres.positions(),
             Self::Velocities => spheres.velocities(),
             Self::AppliedForces => match spheres.applied_forces() {
-                // There are none on anyone.
+                // No sphere has one.
                 [] => return place.fill(0.0),
                 forces => forces,
             },
@@ -89,7 +89,7 @@ pub fn flat(vectors: &[DVec3]) -> Vec<f64> {
     vectors.iter().flat_map(|vector| vector.to_array()).collect()
 }
 
-/// The arrays of a world that were asked for.
+/// The arrays of a world that a script has read.
 #[derive(Debug, Default)]
 pub struct Arrays {
     /// Whose rows they have.
@@ -98,7 +98,7 @@ pub struct Arrays {
     ids: Option<Py<PyArray1<u64>>>,
 }
 
-/// Arrays of quantities that were asked for, by [`Quantity`].
+/// Arrays of quantities that a script has read, by [`Quantity`].
 #[derive(Debug, Default)]
 pub struct Quantities([Option<Shown>; Quantity::ALL.len()]);
 
@@ -159,8 +159,8 @@ impl Shown {
         self.view.clone_ref(py)
     }
 
-    /// Writes into the array; `false` if somebody in another language is reading it: theirs stays
-    /// as it is.
+    /// Writes into the array; `false` if code in another language is reading it: then it stays as
+    /// it is.
     fn write(&self, py: Python<'_>, write: impl FnOnce(&mut [f64])) -> bool {
         let array = self.own.bind(py);
         let mut borrowed = array.try_readwrite();

@@ -275,8 +275,8 @@ fn emitter_of(part: &Scene) -> Result<Emitter, Failure> {
     only(&emitters).copied()
 }
 
-/// The id of a force, and its place in the order. Asked first: to remove what is not there would
-/// let all flights begin anew.
+/// The id of a force, and its place in the order. Looked up first: to remove what is not there
+/// would let all flights begin anew.
 fn find_force(world: &World, number: u64) -> Result<(ForceId, usize), Failure> {
     let place = world.forces().position(|(id, _)| id.number() == number);
     let found = place.map(|place| (ForceId::from_number(number), place));

@@ -81,7 +81,7 @@ impl Inner {
         Ok(())
     }
 
-    /// The length of a frame \[s\]: as asked for, or the scene's own.
+    /// The length of a frame \[s\]: `dt`, or the scene's own.
     pub fn frame_time(&self, dt: Option<f64>) -> f64 {
         dt.unwrap_or(self.described.simulation.frame_time)
     }
@@ -205,8 +205,8 @@ fn step(inner: &mut Inner, dt: f64, frames: u64) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Arrays of spheres, in ascending order of id. Each is made when it is first asked for, and then
-/// the same object for as long as no sphere comes or goes: every frame writes into it. It cannot be
+/// Arrays of spheres, in ascending order of id. Each is made at its first read, and then the
+/// same object for as long as no sphere comes or goes: every frame writes into it. It cannot be
 /// written to; to set a quantity, assign to the attribute.
 #[pymethods]
 impl Engine {

@@ -16,7 +16,7 @@ use crate::graphics_failure::raised;
 use crate::look::{Sight, View};
 use crate::running::whole_frames;
 
-/// How long it is filmed before somebody is asked whether to stop.
+/// How long the film goes on between two looks at Python's signals.
 const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Films the scene that `text` describes in TOML, for `seconds` [s] or as long as the scene says, up

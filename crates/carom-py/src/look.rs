@@ -40,7 +40,7 @@ impl Sight {
         Ok(Self { look: Look { size, camera: viewpoint, no_stamp: !view.stamp, quality }, camera })
     }
 
-    /// Puts the camera that was asked for into a scene.
+    /// Puts the chosen camera into a scene.
     pub fn apply(&self, scene: &mut Scene) {
         if self.camera.is_some() {
             scene.camera.clone_from(&self.camera);

@@ -16,7 +16,7 @@ use crate::failure::Failure;
 use crate::recording::Recording;
 use crate::snapshot::Snapshot;
 
-/// How long a run goes on before it asks whether somebody wants to stop it.
+/// How long a run goes on between two looks at Python's signals.
 const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Time, ids, radii, masses, positions, velocities, and the impacts as words.

@@ -21,7 +21,7 @@ pub fn wanted(threads: Option<&Bound<'_, PyAny>>) -> PyResult<Option<usize>> {
     Ok(threads.map(|threads| threads as usize))
 }
 
-/// So many threads, as many as there are processors unless told, but no more than `most`; `None`
+/// So many threads, by default as many as there are processors, but no more than `most`; `None`
 /// where one does everything.
 ///
 /// # Errors

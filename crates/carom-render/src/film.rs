@@ -33,7 +33,7 @@ const QUANTIZATION: u8 = 18;
 /// Most bits per pixel and frame that a player should be prepared for; what is used follows from
 /// the quantization alone.
 const BITS_PER_PIXEL: f64 = 0.5;
-/// What the encoder can be told at least and at most \[bit/s\]: H.264 knows at most 240 Mbit/s.
+/// The least and the most that the encoder accepts \[bit/s\]: H.264 knows at most 240 Mbit/s.
 const BITS_PER_SECOND: [f64; 2] = [1e5, 2e8];
 
 /// Why a film failed.
@@ -57,7 +57,7 @@ pub enum FilmError {
          {TICKS_PER_SECOND} like 24, 25, 30, 50, 60 or 120, and at most {MOST_FRAMES_PER_SECOND}"
     )]
     Rate {
-        /// What was asked for.
+        /// The rate requested.
         frames_per_second: u32,
     },
     /// A picture is not of the film's size.

@@ -8,7 +8,7 @@ use crate::picture::Picture;
 /// Rows are copied from textures at multiples of this many bytes.
 const ALIGNMENT: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
 
-/// A picture that the device was told to draw, and that arrives when it has done so.
+/// A picture that the device draws, and that arrives when it has done so.
 #[derive(Debug)]
 pub struct Readback {
     buffer: wgpu::Buffer,
@@ -62,7 +62,7 @@ impl Readback {
 
     /// Whether [`Self::picture`] has an answer. Does not wait.
     pub fn arrived(&self, device: &wgpu::Device) -> bool {
-        // In a page with WebGL nothing else polls the device; a device that cannot be asked has an
+        // In a page with WebGL nothing else polls the device; a device that does not answer has an
         // error as its answer.
         let asked = device.poll(wgpu::PollType::Poll);
         self.answer.get().is_some() || asked.is_err()

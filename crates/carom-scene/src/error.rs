@@ -32,7 +32,7 @@ pub enum SceneError {
     /// No scene has this name or title.
     #[error("there is no scene \"{name}\"{}", did_you_mean(.nearest))]
     Unknown {
-        /// What was asked for.
+        /// The name requested.
         name: String,
         /// The name most like it.
         nearest: Option<String>,

@@ -176,7 +176,7 @@ impl Library {
     }
 }
 
-/// Whether a scene is asked for by its file and not by its name.
+/// Whether this is the file of a scene and not its name.
 fn is_path(name: &str) -> bool {
     name.ends_with(".toml") || name.contains(std::path::MAIN_SEPARATOR)
 }

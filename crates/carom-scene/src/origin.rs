@@ -107,7 +107,7 @@ fn count(generator: &Generator) -> u64 {
 /// The emitters of a scene at work, in a world that has nothing else.
 ///
 /// When an emitter emits depends on no sphere; so the order is that of the scene's own world,
-/// under any rule. Emitter i puts its spheres at x = i, by which they are told apart.
+/// under any rule. Emitter i puts its spheres at x = i, which distinguishes them.
 #[derive(Debug, Clone)]
 struct Emissions {
     world: World,
@@ -150,7 +150,7 @@ impl Emissions {
         self.world.emitters().nth(place).map(|(id, _)| id)
     }
 
-    /// An emitter that is told apart from all before.
+    /// An emitter that its place distinguishes from all before.
     fn next(&mut self, period: f64) -> carom::Emitter {
         let sphere = carom::Sphere::new(DVec3::new(self.known as f64, 0.0, 0.0), 1.0);
         self.known += 1;

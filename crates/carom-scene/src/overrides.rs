@@ -89,7 +89,7 @@ enum Place<'a> {
 }
 
 impl Place<'_> {
-    /// What lies at `name`; a missing table is made, unless an element of it is asked for `next`.
+    /// What lies at `name`; makes a missing table, unless `next` is an element of it.
     fn enter(self, name: &str, next: &str) -> Result<Self, String> {
         let value = match self {
             Self::Table(table) => {

@@ -9,7 +9,7 @@ use crate::origin::{Origin, Origins};
 use crate::scene::{Collider, Color, Colors, Emitter, Generator, Scene, Sphere};
 
 /// A density counts as listed if it differs by this part at most: mass / volume is off by a few
-/// roundings (1e-15), densities that somebody lists differ by far more.
+/// roundings (1e-15), densities in a list differ by far more.
 const SAME_DENSITY: f64 = 1e-9;
 
 /// The colours in which a scene is drawn, and a world that was made of it and changed since.
@@ -152,7 +152,7 @@ impl Palette {
         }
     }
 
-    /// Whether all emitters emit spheres of one colour, so that who emitted a sphere is no matter.
+    /// Whether all emitters emit spheres of one colour: then it does not matter which of them did.
     fn emitters_agree(&self) -> bool {
         self.emitters.windows(2).all(|pair| pair[0] == pair[1])
     }

@@ -1,5 +1,5 @@
-//! Scene files: what they can say, and that every mistake is told with its line, its field and
-//! the nearest known name.
+//! Scene files: what they can say, and that the error of every mistake names its line, its field
+//! and the nearest known name.
 
 use carom::Mass;
 use carom_scene::{Library, Override, Scene, SceneError};

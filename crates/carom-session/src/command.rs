@@ -1,4 +1,4 @@
-//! What a driver can be told.
+//! The commands of a driver.
 
 use carom::SphereId;
 use carom_scene::scene::{Rule, Scene};
@@ -6,7 +6,7 @@ use carom_scene::scene::{Rule, Scene};
 use crate::edit::Edit;
 use crate::link::Link;
 
-/// What a driver can be told. Commands are obeyed in the order in which they are sent; one that
+/// A command to a driver. The driver obeys commands in the order in which they arrive; one that
 /// fails says why in the next view, and changes nothing.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]

@@ -8,7 +8,7 @@ use crate::watched::Watched;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::worker::Worker;
 
-/// Moves a session at the pace of a clock, does what it is told by [`Command`]s, and publishes
+/// Moves a session at the pace of a clock, obeys [`Command`]s, and publishes
 /// [`View`]s. An interface owns one and calls [`Self::update`] before each picture.
 #[derive(Debug)]
 pub struct Driver {

@@ -31,13 +31,13 @@ pub enum SessionError {
     /// No frame is at this time.
     #[error("cannot go to {seconds} s: the time must be zero or positive, and finite")]
     Time {
-        /// What was asked for \[s\].
+        /// The time requested \[s\].
         seconds: f64,
     },
     /// The frame at this time cannot be named.
     #[error("cannot go to {seconds} s: so many frames cannot be counted")]
     TooFar {
-        /// What was asked for \[s\].
+        /// The time requested \[s\].
         seconds: f64,
     },
     /// More waits to be done than could be done in seconds.

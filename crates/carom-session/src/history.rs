@@ -10,7 +10,7 @@ use crate::looks::Looks;
 use crate::setup::Setup;
 use crate::timetable::Timetable;
 
-/// Memory that the moments kept may take, unless told otherwise \[bytes\].
+/// Memory that the moments kept may take by default \[bytes\].
 pub const DEFAULT_MEMORY: usize = 256 << 20;
 
 /// Most moments kept: so many that none between two of them is far, so few that to look through
@@ -21,7 +21,7 @@ const MOST_MOMENTS: usize = 1024;
 const BYTES_PER_SPHERE: usize = 112;
 
 /// Memory per sphere for its flight and predictions under the rule `exact` \[bytes\]: 250 were
-/// measured in dense gases; the rest is for lasting contacts.
+/// measured in dense gases; the rest is for persistent contacts.
 const BYTES_PER_FLIGHT: usize = 400;
 
 /// Memory per collider with its surfaces \[bytes\]; a box, which has most, measured.

@@ -14,7 +14,7 @@ pub struct ListedImpact {
     pub frame: u64,
     /// When, since the beginning \[s\].
     pub time: f64,
-    /// Who.
+    /// The two bodies.
     pub between: BodyPair,
     /// Where \[m\].
     pub point: DVec3,

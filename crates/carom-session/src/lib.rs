@@ -2,7 +2,7 @@
 //!
 //! A [`Session`] takes a scene from frame to frame, goes back and forth in time, and is edited on
 //! the way. A [`Comparison`] is two of them in lockstep. A [`Driver`] moves either at the pace of
-//! a clock, in place or on a thread of its own, told what to do by [`Command`]s, and publishes a
+//! a clock, in place or on a thread of its own, as [`Command`]s say, and publishes a
 //! [`View`] of it: all that an interface shows.
 //!
 //! Nothing here draws, and only the thread of a driver reads a clock.

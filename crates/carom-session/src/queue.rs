@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use crate::command::Command;
 use crate::error::SessionError;
 
-/// Most commands that wait: far more than anyone sends on purpose while a frame is taken, far less
+/// Most commands that wait: far more than a user sends on purpose while a frame is taken, far less
 /// than would be felt in memory.
 pub(crate) const MOST_WAITING: usize = 256;
 

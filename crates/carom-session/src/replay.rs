@@ -16,7 +16,7 @@ use crate::timetable::Timetable;
 
 /// A world that goes forwards, with the changes of a link made at their frames: what a
 /// [`Session`](crate::Session) of the same link is at each frame, to the bit, without a past and
-/// whatever else only those need who watch.
+/// whatever else only an interface needs.
 #[derive(Debug)]
 pub struct Replay {
     scene: Scene,

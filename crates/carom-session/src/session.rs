@@ -217,8 +217,8 @@ impl Session {
         self.readings.measure(self.frame, &self.world);
     }
 
-    /// Bounds the memory that the past may take \[bytes\]: the rest of it is calculated again when
-    /// it is asked for. The beginning is always kept.
+    /// Bounds the memory that the past may take \[bytes\]: the session computes the rest again when
+    /// it goes back there, and always keeps the beginning.
     pub fn set_memory(&mut self, bytes: usize) {
         self.history.set_memory(bytes, self.frame);
     }

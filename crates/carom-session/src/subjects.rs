@@ -137,7 +137,7 @@ fn remove_force(
     world: &mut World,
     setup: &mut Arc<Setup>,
 ) -> Result<(), SessionError> {
-    // Asked first: a world that does not know the force would let all flights begin anew.
+    // Looked up first: a world that does not know the force would let all flights begin anew.
     if !setup.forces.iter().any(|it| it.0 == id) {
         return Err(Error::Unknown(Subject::Force(id)).into());
     }

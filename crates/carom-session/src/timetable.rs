@@ -42,7 +42,7 @@ impl Timetable {
         }
     }
 
-    /// Foresees what changes to come, ascending by frame, make of it; their times are then
+    /// Predicts what changes to come, ascending by frame, make of it; their times are then
     /// products instead of sums, and may be off by rounding.
     pub fn extend(&mut self, changes: &[PastChange]) {
         for PastChange { frame, change } in changes {

@@ -102,7 +102,7 @@ pub struct Playback {
     pub blend_rate: f64,
     /// What went wrong last; gone with the next thing that goes well.
     pub error: Option<Arc<SessionError>>,
-    /// The state as one number, where it was asked for.
+    /// The state as one number, where a command requested it.
     pub state_hash: Option<StateHash>,
 }
 

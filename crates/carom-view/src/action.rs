@@ -1,4 +1,4 @@
-//! What can be asked for by a key, and by which.
+//! The actions of the interface, and their keys.
 
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
 

@@ -1,4 +1,4 @@
-//! Links to what is shown, told to the host.
+//! Links to what is shown, for the host.
 
 use std::sync::Arc;
 
@@ -8,17 +8,17 @@ use egui::Context;
 
 use crate::host::Host;
 
-/// Least time between two links that are told to the host \[s\].
+/// Least time between two links that the host gets \[s\].
 const INTERVAL: f64 = 1.0;
 
-/// A scene file of more bytes is not told to the host as it goes on: no address bar takes it.
+/// The host gets no link to a scene file of more bytes as it goes on: no address bar takes it.
 const LARGEST_FILE: usize = 100_000;
 
 /// Which link is shown.
 #[derive(Default)]
 pub struct Address {
     told: Option<Moment>,
-    /// When it was told, by the clock of the interface \[s\].
+    /// When the host got it, by the clock of the interface \[s\].
     told_at: f64,
 }
 
@@ -45,7 +45,7 @@ impl Moment {
 }
 
 impl Address {
-    /// Tells the host a link to what is shown, if it has changed and the last was not told just now.
+    /// Gives the host a link to what is shown, if it has changed and the last is not of just now.
     pub fn tell(&mut self, view: &View, base: &Link, host: &mut dyn Host, context: &Context) {
         let is_large =
             matches!(base.source(), LinkSource::File { text, .. } if text.len() > LARGEST_FILE);

@@ -20,7 +20,7 @@ pub struct Desktop {
     gamepad: crate::gamepad::Gamepad,
 }
 
-/// The folder for pictures unless another is asked for: `Pictures/carom` in the user's own folder,
+/// The default folder for pictures: `Pictures/carom` in the user's own folder,
 /// the present folder without one.
 pub fn default_folder() -> PathBuf {
     let home = std::env::var_os("HOME").or_else(|| std::env::var_os("USERPROFILE"));

@@ -101,7 +101,7 @@ impl Exports {
     }
 }
 
-/// Where it all goes, and who is told.
+/// Where it all goes: files to the host, messages to the notices.
 pub struct Outlet<'a> {
     pub host: &'a mut dyn Host,
     pub notices: &'a mut Notices,

@@ -6,7 +6,7 @@ use gilrs::{Axis, Gilrs};
 /// The gamepads there are; none where the system has no support for them.
 #[derive(Default)]
 pub struct Gamepad {
-    /// Asked for when first needed.
+    /// Opened when first needed.
     gilrs: Option<Option<Gilrs>>,
 }
 

@@ -1,4 +1,4 @@
-//! What the interface asks of the program that it runs in: a window of the desktop, a page, a test.
+//! What the interface needs of the program it runs in: a window of the desktop, a page, a test.
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
@@ -47,7 +47,7 @@ pub trait Host {
     /// Watches the file that a scene comes from, if it does come from one, instead of the last.
     fn watch(&mut self, _source: &Source) {}
 
-    /// The watched file, once, if it was changed since this was asked last; `now` by any clock
+    /// The watched file, once, if it was changed since the last call; `now` by any clock
     /// \[s\].
     fn changed_file(&mut self, _now: f64) -> Option<PathBuf> {
         None
@@ -58,7 +58,7 @@ pub trait Host {
         None
     }
 
-    /// What went wrong after it was said to be done: each is told once.
+    /// What went wrong after it was said to be done: returns each once.
     fn trouble(&mut self) -> Option<String> {
         None
     }
@@ -68,7 +68,7 @@ pub trait Host {
         None
     }
 
-    /// Whether the user can be asked to tilt the device itself.
+    /// Whether the user can tilt the device itself.
     fn offers_tilt(&self) -> bool {
         false
     }

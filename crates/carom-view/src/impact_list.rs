@@ -12,7 +12,7 @@ pub fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     ui.weak("Energy is that of all impacts at the same instant, where the rule keeps account.");
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         Grid::new("impacts").num_columns(5).striped(true).spacing([14.0, 3.0]).show(ui, |ui| {
-            for title in ["Time, s", "Who", "Approach, m/s", "Impulse, N s", "Energy, J"] {
+            for title in ["Time, s", "Bodies", "Approach, m/s", "Impulse, N s", "Energy, J"] {
                 ui.strong(title);
             }
             ui.end_row();

@@ -2,7 +2,7 @@
 //!
 //! [`App`] is the interface: hosted by a window ([`window::open`]), a page or a test. It shows a
 //! scene being watched - whose physics is in [`carom_session`] - or a maze being played. A key or a
-//! button asks for an [`Action`]; every panel reads the session's view and answers with commands.
+//! button yields an [`Action`]; every panel reads the session's view and answers with commands.
 
 #![warn(clippy::unwrap_used)]
 

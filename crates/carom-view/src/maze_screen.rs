@@ -130,7 +130,7 @@ impl MazeScreen {
         self.message = Some((text, now + 2.0));
     }
 
-    /// The tilt that keys, mouse or gamepad ask for.
+    /// The tilt that keys, mouse or gamepad give.
     pub fn steering(&self, ui: &Ui) -> Steering {
         let most = self.game.options().max_tilt_degrees.to_radians();
         let towards =

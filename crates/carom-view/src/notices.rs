@@ -40,7 +40,7 @@ impl Notices {
         self.list.iter().any(|notice| notice.is_error)
     }
 
-    /// What is told now, oldest first.
+    /// The texts on show now, oldest first.
     pub fn texts(&self) -> impl Iterator<Item = &str> {
         self.list.iter().map(|notice| notice.text.as_str())
     }

@@ -84,7 +84,7 @@ impl Orbit {
 /// pixels, desktops as a line, of which the interface makes 40.
 const SCROLL: f64 = if cfg!(target_arch = "wasm32") { 750.0 } else { 300.0 };
 
-/// How many times nearer wheel and fingers ask to come.
+/// How many times nearer wheel and fingers bring the camera.
 pub fn zoom_asked(ui: &Ui) -> f64 {
     let (scrolled, pinched) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
     f64::from(pinched) * (f64::from(scrolled) / SCROLL).exp()

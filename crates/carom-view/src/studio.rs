@@ -14,7 +14,7 @@ pub struct Studio {
     renderer: Renderer,
     /// For pictures that are saved; made when first needed.
     offscreen: Option<Offscreen>,
-    /// What went wrong on the device since it was asked.
+    /// What went wrong on the device since the last [`Studio::failure`].
     failure: Arc<Mutex<Option<String>>>,
     dropped: Dropped,
 }
@@ -91,7 +91,7 @@ impl Studio {
         &self.state.device
     }
 
-    /// What went wrong on the device since this was asked last: lost, or out of memory.
+    /// What went wrong on the device since the last call: lost, or out of memory.
     pub fn failure(&self) -> Option<String> {
         self.failure.lock().ok()?.take()
     }

@@ -9,7 +9,7 @@ use crate::layout::is_narrow;
 /// Speeds that the keys go through.
 const SPEEDS: [f64; 9] = [SLOWEST, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, FASTEST];
 
-/// The bar below the picture. Returns what was asked for by a button.
+/// The bar below the picture. Returns the action of the button pressed.
 pub fn show(
     ui: &mut Ui,
     view: &View,
@@ -121,7 +121,7 @@ fn pace(ui: &mut Ui, view: &View) {
     let playback = &view.playback;
     if playback.playing && !playback.keeps_up {
         let reached = playback.realtime_factor.unwrap_or_default();
-        let text = format!("slower than asked: {reached:.2}x");
+        let text = format!("slower than chosen: {reached:.2}x");
         ui.colored_label(ui.visuals().warn_fg_color, text)
             .on_hover_text("This machine cannot keep up. Nothing is left out: time goes slower.");
     }

@@ -35,7 +35,7 @@ pub struct Page {
     app: Rc<RefCell<App>>,
     context: Context,
     graphics: &'static str,
-    /// Names of all scenes that can be chosen, once they were asked for.
+    /// Names of all scenes that can be chosen, once a script has read them.
     scenes: OnceCell<Vec<String>>,
     /// Keeps the interface going.
     _runner: WebRunner,
@@ -99,7 +99,7 @@ impl Page {
     }
 
     /// Every labelled part of the interface as it was shown last: role, label, value, and its place
-    /// in CSS pixels. Empty when asked for the first time; from then on the next picture tells.
+    /// in CSS pixels. Empty at the first call; from then on the next picture tells.
     pub fn widgets(&self) -> JsValue {
         parsed(serde_json::to_string(&Widgets::shown(&self.context)))
     }

@@ -14,11 +14,11 @@ export interface Services {
     tilt(): [number, number] | null;
     /** Whether the device can tell its tilt. */
     offersTilt(): boolean;
-    /** Begins or ends to listen to the tilt; the user may be asked. */
+    /** Begins or ends to listen to the tilt; the browser may ask the user for permission. */
     useTilt(on: boolean): void;
     /** Shows the run in the address bar. */
     showFragment(fragment: string): void;
-    /** What went wrong since this was asked last, for people. */
+    /** What went wrong since the last call, for people. */
     trouble(): string | null;
 }
 

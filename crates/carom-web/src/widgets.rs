@@ -1,4 +1,4 @@
-//! Where the parts of the interface are, as assistive technology is told it.
+//! Where the parts of the interface are, as assistive technology learns it.
 
 use egui::accesskit::{Node, Toggled};
 use egui::{Context, FullOutput, Plugin};
@@ -28,7 +28,7 @@ pub struct Widget {
 }
 
 impl Widgets {
-    /// What was shown last; begins to listen when asked for the first time.
+    /// What was shown last; begins to listen at the first call.
     pub fn shown(context: &Context) -> Vec<Widget> {
         let shown = context.with_plugin(|widgets: &mut Self| widgets.shown.clone());
         if shown.is_none() {

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Units of work between two looks at a stop request: some milliseconds.
 const UNITS_PER_LOOK: u64 = 50_000;
 
-/// Asks a step to end before it is done: a signal was caught, a window is closing, time is up.
+/// Requests that a step end before it is done: a signal came, a window is closing, time is up.
 ///
 /// A step looks at it every few milliseconds, and ends with [`Error::Stopped`](crate::Error::Stopped)
 /// once it says yes. The world is then as it was before the step.

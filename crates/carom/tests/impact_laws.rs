@@ -1,5 +1,5 @@
 //! Impact laws and contact forces for groups of bodies that touch at one instant, against closed
-//! forms and against the properties that Smith et al. (2012) ask of an impact operator.
+//! forms and against the properties that Smith et al. (2012) demand of an impact operator.
 //!
 //! Geometry is made here, so these say nothing about detection.
 

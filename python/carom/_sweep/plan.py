@@ -58,7 +58,7 @@ def make_plan(
     repeats: int | None,
     seed: int,
 ) -> Plan:
-    """Reads what a sweep is asked to go through.
+    """Reads what a sweep goes through.
 
     Raises:
         TypeError, CaromError: With the name of the argument that makes no sense.
@@ -101,7 +101,7 @@ def canonical_text(parameters: Mapping[str, Any]) -> str:
 def seed_of_run(seed: int, parameters: Mapping[str, Any], repeat: int) -> int:
     """The seed of a run, in [0, 2^32): of the parameters and the number of the repeat alone.
 
-    What `numpy.random.SeedSequence.spawn` would give a child whose place is told by the
+    What `numpy.random.SeedSequence.spawn` would give a child whose place follows from the
     parameters: independent of that of every other run, and the same in a sweep over other values.
     """
     digest = hashlib.sha256(canonical_text(parameters).encode()).digest()

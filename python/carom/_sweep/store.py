@@ -41,7 +41,7 @@ CREATE TABLE IF NOT EXISTS runs (
 
 
 class Key(NamedTuple):
-    """What a finished run is found by, and what is told of it to people."""
+    """What finds a finished run, and what describes it to people."""
 
     digest: str
     parameters: str

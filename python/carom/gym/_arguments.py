@@ -81,7 +81,7 @@ METADATA: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 50}
 
 
 class Episodes:
-    """Episodes of balls, as they were asked for, and the spaces of one of them."""
+    """Episodes of balls, as the arguments say, and the spaces of one of them."""
 
     def __init__(
         self,

@@ -122,7 +122,7 @@ export class World {
 
   get impactTable() {
     const world = this.#world;
-    // First the place: the table is made when it is asked for, and the memory may grow with it.
+    // First the place: the call makes the table, and the memory may grow with it.
     const place = world.impacts;
     const length = IMPACT_COLUMNS.count * world.impactCount;
     return this.#views.at("impacts", Float64Array, place, length);

@@ -24,7 +24,7 @@ function world() {
   return world;
 }
 
-test("a wrong scene is told with its field and line, and with what was probably meant", () => {
+test("the error of a wrong scene names its field and line, and what was probably meant", () => {
   const text = 'name = "mine"\n\n[[spheres]]\nradus = 0.5\n';
   const error = thrown(() => World.fromScene(text));
   assert.ok(error instanceof SceneError && error instanceof CaromError && error instanceof Error);
@@ -32,7 +32,7 @@ test("a wrong scene is told with its field and line, and with what was probably 
   assert.match(error.message, /scene:4: .*`radus`.*did you mean "radius"\?/);
 });
 
-test("a name that is nearly that of a scene is told its neighbour", () => {
+test("the error of a name that is nearly that of a scene names that scene", () => {
   assert.match(thrown(() => World.fromScene("simtst1")).message, /did you mean "simtest1"\?/);
 });
 

@@ -63,7 +63,7 @@ test("a world written down later has its spheres where they are", () => {
   assert.deepEqual(again.colors, world.colors.slice());
 });
 
-test("what is described in code is told back", () => {
+test("a world gives back what code describes", () => {
   const world = new World({ frameTime: 0.01, exact: { contactDuration: 1e-9 } });
   assert.equal(world.simulation.exact.contactDuration, 1e-9);
   const shape = { rectangle: { sizeX: 2, sizeZ: 3 } };
@@ -95,7 +95,7 @@ test("what is described in code is told back", () => {
   assert.equal(world.frameTime, 0.01, "what was not named stays");
 });
 
-test("a collider that moves is told where it is", () => {
+test("a world says where a collider that moves is", () => {
   const world = new World({ frameTime: 0.5 });
   world.addCollider({ shape: { sphere: { radius: 1 } }, velocity: [2, 0, 0] });
   step(world, 2);

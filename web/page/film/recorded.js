@@ -43,7 +43,7 @@ export class Recorded {
     canvas.height = format.height;
     const context = canvas.getContext("2d", { alpha: false });
     this.#context = /** @type {CanvasRenderingContext2D} */ (context);
-    // No frames but those that are asked for.
+    // No frames but those that `requestFrame` takes.
     const stream = canvas.captureStream(0);
     this.#track = /** @type {CanvasCaptureMediaStreamTrack} */ (stream.getVideoTracks()[0]);
     this.#recorder = new MediaRecorder(stream, { mimeType, videoBitsPerSecond: BITS_PER_SECOND });

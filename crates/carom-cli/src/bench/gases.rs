@@ -22,7 +22,7 @@ struct Published {
     /// Millions of impacts per second: Smallenburg, "Efficient event-driven simulations of hard
     /// spheres", Eur. Phys. J. E 45, 22 (2022).
     rate: f64,
-    /// Whether it is left out unless everything is asked for.
+    /// Whether only a benchmark of everything measures it.
     is_large: bool,
 }
 

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 const FRAMES_PER_SECOND: u32 = 60;
 /// How long the end is seen \[s\].
 const AFTER_THE_END: f64 = 3.0;
-/// A player who has not won by then has lost the way \[s\].
+/// A player that has not won by then has lost the way \[s\].
 const PATIENCE: f64 = 600.0;
 
 /// A game that is played while it is filmed.

@@ -48,7 +48,7 @@ impl Running {
         Ok(Self { world, frame_time: scene.simulation.frame_time, before })
     }
 
-    /// The world in the frame of the time that was asked for last, or the first one after it.
+    /// The world in the frame of the last time requested, or the first one after it.
     pub fn world(&self) -> &World {
         &self.world
     }

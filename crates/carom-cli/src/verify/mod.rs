@@ -66,7 +66,7 @@ fn claims() -> Vec<Claim> {
     topics.iter().flat_map(|claims| claims()).collect()
 }
 
-/// A rule with the parameters it has unless told.
+/// A rule with its default parameters.
 fn rule_named(name: &str) -> Rule {
     match name {
         "discrete" => Rule::Discrete(Discrete::default()),

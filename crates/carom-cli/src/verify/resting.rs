@@ -1,4 +1,4 @@
-//! Lasting contact: rest on a floor, and sliding on a fixed sphere until the ball leaves it.
+//! Persistent contact: rest on a floor, and sliding on a fixed sphere until the ball leaves it.
 
 use carom::{Collider, DVec3, Gravity, Pose, Rule, Shape, Sphere};
 

@@ -1,7 +1,7 @@
 //! Several impacts at once: rows, symmetric hits, and groups at random.
 //!
-//! The five properties are those that Smith, Kaufman, Vouga, Tamstorf and Grinspun ask of an impact
-//! operator: "Reflections on Simultaneous Impact", ACM TOG 31(4), 2012.
+//! The five properties are those that Smith, Kaufman, Vouga, Tamstorf and Grinspun demand of an
+//! impact operator: "Reflections on Simultaneous Impact", ACM TOG 31(4), 2012.
 
 use carom::{BodyPair, DVec3, Error, Impact, Rule, Sphere, World};
 

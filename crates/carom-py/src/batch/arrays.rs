@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use super::members::Members;
 use crate::arrays::{Quantities, Quantity};
 
-/// The arrays that were asked for. Worlds of a batch keep their spheres, so each stays the same.
+/// The arrays that a script has read. Worlds of a batch keep their spheres, so each stays the same.
 #[derive(Debug, Default)]
 pub struct BatchArrays(Quantities);
 

@@ -11,7 +11,7 @@ use crate::engine::{self, Inner};
 use crate::failure::Failure;
 use crate::snapshot::Snapshot;
 
-/// Spheres that a thread steps without asking for more work: below it, to share costs more.
+/// Spheres that a thread steps before it takes more work: below it, to share costs more.
 const SPHERES_PER_TASK: usize = 64;
 
 /// Worlds with the same number of spheres. No result depends on how many threads there are.
@@ -94,7 +94,7 @@ impl Members {
     }
 
     /// Takes frames of `dt` \[s\], or of each world's own length, in every world. One that refuses a
-    /// frame stays as it was before that, and is told with the reason.
+    /// frame stays as it was before that; returns the numbers of such worlds, with the reasons.
     pub fn step(&mut self, dt: Option<f64>, frames: u64) -> Vec<(usize, Failure)> {
         let step = |(number, member): (usize, &mut Member)| {
             let length = member.now.frame_time(dt);

@@ -194,8 +194,8 @@ impl BatchEngine {
 }
 
 /// Arrays of all spheres of all worlds, n worlds of s spheres in ascending order of id. Each is made
-/// when it is first asked for, and stays the same object: every frame writes into it. It cannot be
-/// written to; to set a quantity, assign to the attribute.
+/// at its first read, and stays the same object: every frame writes into it. It cannot be written
+/// to; to set a quantity, assign to the attribute.
 #[pymethods]
 impl BatchEngine {
     /// Centres [m], shape (n, s, 3).

@@ -56,7 +56,7 @@ impl ImpactTable {
     }
 }
 
-/// Who met, when and where: the first columns of a row, as in [`HEADER`].
+/// The bodies of an impact, when and where: the first columns of a row, as in [`HEADER`].
 pub(super) fn impact_fields(start: f64, impact: &Impact) -> Vec<String> {
     let (kind, body1, ball2) = match impact.between {
         BodyPair::Spheres(first, second) => ("sphere", first.number(), second.number()),

@@ -26,7 +26,7 @@ const SAME_TIME: f64 = 1e-9;
 pub struct Playback {
     replay: Replay,
     boundary: Boundary,
-    /// Not after the time that was asked for last.
+    /// Not after the last time requested.
     before: Option<ReplayFrame>,
     /// After it.
     after: Option<ReplayFrame>,
@@ -46,7 +46,7 @@ impl Playback {
         Ok(Self { replay, boundary, before, after })
     }
 
-    /// The balls at this time \[s\], or at the last frame before the time asked for last if that is
+    /// The balls at this time \[s\], or at the last frame before the last time requested if that is
     /// later; `None` once the recording is over.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ pub struct Simulation {
     /// Length of a frame, in s, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub frame_time: f64,
-    /// Time worth watching, in s, > 0: what `carom run` takes unless told.
+    /// Time worth watching, in s, > 0: what `carom run` takes by default.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub duration: f64,
     /// Whether spheres collide with one another; with colliders they always do.

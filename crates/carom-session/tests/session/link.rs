@@ -347,7 +347,7 @@ fn changes_after_the_time_of_a_link_come_when_it_goes_on() {
     let link = session.link().with_time(0.0).unwrap();
     let mut again = replayed(&link);
     assert_eq!((again.frame(), again.changes().len()), (0, session.changes().len()));
-    // To where the lengths of frames to come have to be foreseen.
+    // To where the session has to predict the lengths of frames to come.
     again.jump(session.time()).unwrap();
     assert_eq!((again.frame(), again.state_hash()), (session.frame(), session.state_hash()));
 }

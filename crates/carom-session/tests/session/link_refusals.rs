@@ -1,4 +1,4 @@
-//! What is no link is refused in words, and nothing that anyone can write makes it panic.
+//! A text that is no link yields an error in words, and no text makes the parser panic.
 
 use std::io::Write;
 

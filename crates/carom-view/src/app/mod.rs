@@ -66,7 +66,7 @@ pub struct App {
     help: bool,
     /// Time of the processor for the last picture of the interface \[s\].
     cpu_seconds: Option<f32>,
-    /// What went wrong in the physics and was told.
+    /// What went wrong in the physics and stands in a notice.
     told: Option<Arc<SessionError>>,
     /// Whether mazes are tilted by tilting the device.
     tilts_device: bool,
@@ -249,7 +249,7 @@ impl App {
         }
     }
 
-    /// Does what was asked for by a key or button.
+    /// Does what a key or button means.
     pub fn act(&mut self, action: Action) {
         match action {
             Action::Choose => self.open_chooser(),
@@ -327,7 +327,7 @@ impl App {
             self.notices.complain(error);
         }
         let error = watching.view().playback.error.clone();
-        // Each is told once: it stays in the view until something goes well.
+        // Each gets one notice: it stays in the view until something goes well.
         let is_told = match (&error, &self.told) {
             (Some(error), Some(told)) => Arc::ptr_eq(error, told),
             _ => false,

@@ -44,7 +44,7 @@ pub struct Watching {
     drawing: Drawing,
     drawn: [Option<Drawn>; 2],
     news: u64,
-    /// Why a command was not taken, until it is told.
+    /// Why a command was not taken, until a notice says so.
     pub refused: Option<SessionError>,
 }
 
@@ -174,7 +174,7 @@ impl Watching {
         }
     }
 
-    /// Does what was asked for by a key or button, if it is about this scene.
+    /// Does what a key or button means, if it is about this scene.
     pub fn act(&mut self, action: Action) {
         let view = self.driver.view();
         let speed = view.playback.speed;
@@ -246,7 +246,7 @@ impl Watching {
         Some(look::place(view, index, self.driver.blend()))
     }
 
-    /// The panels around the picture. Returns what their buttons ask for.
+    /// The panels around the picture. Returns the actions of their buttons.
     pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
         if self.drawn[0].is_none() && is_narrow(ui) {
             self.panels.inspector = false;
@@ -382,7 +382,7 @@ impl Watching {
         }
     }
 
-    /// Sends what was asked for since the last picture.
+    /// Sends the commands since the last picture.
     fn send(&mut self) {
         for command in self.commands.drain(..) {
             if let Err(error) = self.driver.send(command) {

@@ -1,4 +1,4 @@
-//! Links from the interface, and into it; what its host is told and asked for.
+//! Links from the interface, and into it; what its host gets and gives.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -12,7 +12,7 @@ use egui_kittest::kittest::Queryable;
 
 use crate::desk::{Desk, desk, go_to, press, scene, setup, watching};
 
-/// What a host was told.
+/// What a host got.
 #[derive(Default)]
 struct Told {
     links: Vec<String>,
@@ -147,7 +147,7 @@ fn the_address_follows_what_is_shown_but_not_every_frame() {
         Some(true)
     );
     desk.run_steps(12);
-    assert_eq!(told.borrow().links.len(), links.len(), "nothing changes, nothing is told");
+    assert_eq!(told.borrow().links.len(), links.len(), "nothing changes, the host gets nothing");
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn a_key_that_is_held_plays_or_pauses_once() {
     assert!(scene(&desk).view().playback.playing);
 }
 
-/// Asks for what is refused.
+/// Sends an edit that the session refuses.
 fn ask_for_negative_frames(desk: &mut Desk) {
     let mut simulation = scene(desk).view().setup.simulation.clone();
     simulation.frame_time = -1.0;

@@ -23,7 +23,7 @@ impl Bounds {
 
     #[inline]
     pub fn overlap(&self, other: &Self) -> bool {
-        // All comparisons at once: which of them fails cannot be foreseen.
+        // All comparisons at once: the processor cannot predict which one fails.
         let along =
             |axis: usize| (self.min[axis] <= other.max[axis]) & (other.min[axis] <= self.max[axis]);
         along(0) & along(1) & along(2)
