@@ -1,4 +1,4 @@
-//! Persistent contacts in views: there while they are asked for and known. The forces are those of the
+//! Persistent contacts in views: there while they are wanted and known. The forces are those of the
 //! world, whose own tests check them.
 
 use carom::DVec3;
