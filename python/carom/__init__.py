@@ -40,8 +40,9 @@ from carom._parts import (
 )
 from carom._pictures import Renderer, Viewpoint
 from carom._scene import Scene
+from carom._stage_counts import StageCounts
 from carom._sweep import Failure, Runs, sweep
-from carom._tables import IMPACT, LEDGER, TRIGGER
+from carom._tables import CONTACT, IMPACT, LEDGER, TRIGGER
 from carom._trajectory import Trajectory
 from carom._world import World
 from carom.errors import (
@@ -54,6 +55,7 @@ from carom.errors import (
 )
 
 __all__ = [
+    "CONTACT",
     "IMPACT",
     "LEDGER",
     "TRIGGER",
@@ -91,6 +93,7 @@ __all__ = [
     "Simulation",
     "Snapshot",
     "Sphere",
+    "StageCounts",
     "StepError",
     "Sun",
     "Trajectory",

@@ -67,6 +67,31 @@ TRIGGER = np.dtype(
 and the unit normal there."""
 
 
+CONTACT = np.dtype(
+    [
+        ("collider", "i8"),
+        ("sphere_1", "i8"),
+        ("sphere_2", "i8"),
+        ("point", "f8", (3,)),
+        ("normal", "f8", (3,)),
+        ("gap", "f8"),
+        ("normal_force", "f8"),
+    ]
+)
+"""A contact that persists, in the order of ids, pairs of spheres first.
+
+============================ ===============================================================
+``collider``                 id of body 1 if it is a collider, else -1
+``sphere_1``                 id of body 1 if it is a sphere, else -1
+``sphere_2``                 id of body 2
+``point``                    where on the surface of body 1 [m]
+``normal``                   unit normal from body 1 to body 2
+``gap``                      distance of the two surfaces [m], zero but for rounding
+``normal_force``             on body 2 along the normal, and against it on body 1 [N], >= 0
+============================ ===============================================================
+"""
+
+
 def records(words: NDArray[np.uint64], kind: np.dtype[np.void]) -> NDArray[np.void]:
     """The words that the engine wrote as records; nothing is copied."""
     return words.view(kind)

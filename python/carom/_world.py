@@ -13,6 +13,7 @@ from carom import _parts as parts
 from carom import _pictures as pictures
 from carom import _tables as tables
 from carom._carom import Engine
+from carom._stage_counts import StageCounts
 from carom._text import read_part, read_parts, toml_of, toml_value
 from carom._trajectory import Trajectory
 
@@ -146,6 +147,22 @@ class World(Engine):
     def triggers(self) -> NDArray[np.void]:
         """The spheres inside triggers at the end of the last frame, records of `carom.TRIGGER`."""
         return tables.records(self._trigger_words(), tables.TRIGGER)
+
+    @property
+    def work(self) -> StageCounts:
+        """The work of the last frame, counted by stage."""
+        return StageCounts(*self._work())
+
+    # What holds now
+
+    @property
+    def contacts(self) -> NDArray[np.void]:
+        """The contacts that persist, with their forces: records of `carom.CONTACT`. A copy.
+
+        Known under the rule ``exact`` after a step; none where something was changed since, or
+        under other rules. To ask for them solves for the forces.
+        """
+        return tables.records(self._contact_words(), tables.CONTACT)
 
     # Spheres
 

@@ -419,6 +419,30 @@ impl Engine {
         Ok(PyArray1::from_vec(py, table.into_words()))
     }
 
+    /// The persistent contacts, as words.
+    #[pyo3(name = "_contact_words")]
+    fn contact_words<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        let inner = &*self.lock(py)?;
+        let mut table = Table::default();
+        table.push_contacts(&py.detach(|| inner.world.contacts()));
+        Ok(PyArray1::from_vec(py, table.into_words()))
+    }
+
+    /// The work by stage: predictions, pair tests, events, cell crossings, groups, iterations of
+    /// solvers.
+    #[pyo3(name = "_work")]
+    fn work(&self, py: Python<'_>) -> PyResult<[u64; 6]> {
+        let work = self.lock(py)?.world.report().work;
+        Ok([
+            work.predictions,
+            work.pair_tests,
+            work.events,
+            work.cell_crossings,
+            work.groups,
+            work.solver_iterations,
+        ])
+    }
+
     /// Ids of the spheres that emitters put into the world in the last frame, ascending.
     #[getter]
     fn emitted<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {

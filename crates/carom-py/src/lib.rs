@@ -29,6 +29,7 @@ mod graphics_failure;
 #[cfg(feature = "pictures")]
 mod look;
 mod maze;
+mod next_event;
 #[cfg(feature = "pictures")]
 mod painter;
 mod part;

@@ -3,7 +3,7 @@
 //! NumPy sees the words as records; their fields stand in `python/carom/_tables.py`, in the order in
 //! which they are written here.
 
-use carom::{BodyPair, Impact, LedgerEntry, StepReport, TriggerContact};
+use carom::{BodyPair, Impact, LedgerEntry, PersistentContact, StepReport, TriggerContact};
 
 /// Rows of words, numbers as their bits.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -41,16 +41,31 @@ impl Table {
         }
     }
 
+    /// Appends contacts that persist.
+    pub fn push_contacts(&mut self, contacts: &[PersistentContact]) {
+        for contact in contacts {
+            self.push_bodies(contact.between);
+            self.numbers(contact.point.to_array());
+            self.numbers(contact.normal.to_array());
+            self.numbers([contact.gap, contact.normal_force]);
+        }
+    }
+
     fn push_impact(&mut self, start: f64, impact: &Impact) {
-        let (collider, sphere_1, sphere_2) = match impact.between {
-            BodyPair::Spheres(first, second) => (NOBODY, first.number() as i64, second),
-            BodyPair::Collider { collider, sphere } => (collider.number() as i64, NOBODY, sphere),
-        };
         self.numbers([start + impact.time]);
-        self.integers([collider, sphere_1, sphere_2.number() as i64]);
+        self.push_bodies(impact.between);
         self.numbers(impact.point.to_array());
         self.numbers(impact.normal.to_array());
         self.numbers([impact.approach_speed, impact.separation_speed, impact.impulse]);
+    }
+
+    /// Appends the ids of two bodies: of a collider or a sphere, body 1, and of a sphere, body 2.
+    fn push_bodies(&mut self, between: BodyPair) {
+        let (collider, sphere_1, sphere_2) = match between {
+            BodyPair::Spheres(first, second) => (NOBODY, first.number() as i64, second),
+            BodyPair::Collider { collider, sphere } => (collider.number() as i64, NOBODY, sphere),
+        };
+        self.integers([collider, sphere_1, sphere_2.number() as i64]);
     }
 
     fn integers<const N: usize>(&mut self, values: [i64; N]) {
