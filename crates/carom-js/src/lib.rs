@@ -13,12 +13,14 @@
 
 #![warn(clippy::unwrap_used)]
 
+mod contact_table;
 mod description;
 mod editing;
 mod failure;
 mod find;
 mod impact_table;
 mod members;
+mod next_event;
 mod snapshot;
 mod world;
 

@@ -6,6 +6,7 @@ use carom::SphereId;
 use carom_scene::{Library, Override, Palette, Scene, SceneError};
 use wasm_bindgen::prelude::wasm_bindgen;
 
+use crate::contact_table;
 use crate::failure::Failure;
 use crate::impact_table;
 use crate::members::Members;
@@ -67,6 +68,23 @@ impl World {
     }
 }
 
+impl World {
+    /// Takes a step, and has description and tables follow it.
+    pub(crate) fn take_step(
+        &mut self,
+        step: impl FnOnce(&mut carom::World) -> Result<(), carom::Error>,
+    ) -> Result<(), Failure> {
+        self.impacts = None;
+        step(&mut self.world)?;
+        if !self.world.report().emitted.is_empty() {
+            let Description { palette, members, .. } = &mut self.description;
+            palette.follow(self.world.time());
+            members.follow(self.world.spheres(), palette);
+        }
+        Ok(())
+    }
+}
+
 fn parsed(overrides: &[String]) -> Result<Vec<Override>, SceneError> {
     overrides.iter().map(|text| text.parse()).collect()
 }
@@ -79,14 +97,7 @@ impl World {
     /// # Errors
     /// [`Failure`] as [`carom::World::step`]; the state before the step is kept.
     pub fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        self.impacts = None;
-        let report = self.world.step(dt)?;
-        if !report.emitted.is_empty() {
-            let Description { palette, members, .. } = &mut self.description;
-            palette.follow(self.world.time());
-            members.follow(self.world.spheres(), palette);
-        }
-        Ok(())
+        self.take_step(|world| world.step(dt).map(drop))
     }
 
     /// Time since the beginning \[s\].
@@ -186,6 +197,22 @@ impl World {
     pub fn impacts(&mut self) -> usize {
         let impacts = &self.world.report().impacts;
         place(self.impacts.get_or_insert_with(|| impact_table::of(impacts)))
+    }
+
+    /// The work, counted by stage: predictions, pair tests, events, cell crossings, groups, iterations
+    /// of solvers.
+    #[wasm_bindgen(getter)]
+    pub fn work(&self) -> Vec<f64> {
+        let work = self.world.report().work;
+        let of_events = [work.predictions, work.pair_tests, work.events, work.cell_crossings];
+        let of_groups = [work.groups, work.solver_iterations];
+        of_events.iter().chain(&of_groups).map(|&count| count as f64).collect()
+    }
+
+    /// The table of the contacts that persist now, a row for each.
+    #[wasm_bindgen(getter)]
+    pub fn contacts(&self) -> Vec<f64> {
+        contact_table::of(&self.world.contacts())
     }
 
     /// Ids of the spheres that emitters put into the world.

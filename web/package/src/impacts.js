@@ -1,5 +1,7 @@
 // Impacts, from the rows of numbers that the engine makes of them.
 
+import { between } from "./bodies.js";
+
 /** Where what stands in a row of the table of impacts. */
 export const IMPACT_COLUMNS = Object.freeze({
   time: 0,
@@ -28,9 +30,7 @@ function impact(row) {
   const [first, second] = [row[at.first], row[at.second]];
   return {
     time: row[at.time],
-    between: row[at.isCollider]
-      ? { collider: first, sphere: second }
-      : { spheres: [first, second] },
+    between: between(row[at.isCollider], first, second),
     point: vector(at.point),
     normal: vector(at.normal),
     approachSpeed: row[at.approachSpeed],

@@ -222,6 +222,36 @@ export interface Impact {
   impulse: number;
 }
 
+/** Two bodies that stay in contact, and the force between them. */
+export interface PersistentContact {
+  /** Ids: of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */
+  between: { spheres: [number, number] } | { collider: number; sphere: number };
+  /** Where on the surface of body 1 [m]. */
+  point: [number, number, number];
+  /** Unit normal from body 1 to body 2. */
+  normal: [number, number, number];
+  /** Distance of the two surfaces [m]: zero but for rounding, negative where they overlap. */
+  gap: number;
+  /** On body 2 along the normal, on body 1 against it [N], >= 0. */
+  normalForce: number;
+}
+
+/** The work of a frame by stage: counts that depend on the world alone, not on the machine. */
+export interface StageCounts {
+  /** How often the next events of a sphere were predicted, by `exact`. */
+  predictions: number;
+  /** Pairs of spheres that were tested for a meeting; by other rules, for a contact. */
+  pairTests: number;
+  /** Events taken from the queue, void ones among them, by `exact`. */
+  events: number;
+  /** How many of these events were cell crossings. */
+  cellCrossings: number;
+  /** Groups of touching bodies that were answered as a whole, by `exact`. */
+  groups: number;
+  /** Iterations of the solvers of these groups, each counted once for every contact. */
+  solverIterations: number;
+}
+
 /** Where what stands in a row of `World.impactTable`; vectors take three places. */
 export const IMPACT_COLUMNS: Readonly<{
   time: 0;
@@ -289,6 +319,12 @@ export class World {
 
   /** Advances the world by `dt` [s], a frame of the scene unless given. @throws {CaromError} */
   step(dt?: number): void;
+  /** The time of the next impact [s], if one comes within so many seconds. Costs as much as a copy of
+   *  the world and the step to that impact. @throws {CaromError} by other rules than `exact` */
+  nextEventTime(within: number): number | undefined;
+  /** Advances the world to its next impact, and answers it with all others at that instant; by
+   *  `within` [s] if none comes before. @throws {CaromError} by other rules than `exact` */
+  stepToNextEvent(within: number): void;
   /** Since the beginning [s]: the sum of all steps. */
   readonly time: number;
   /** Length of a frame of the scene [s]. */
@@ -333,6 +369,13 @@ export class World {
   readonly retired: number[];
   /** Spheres inside triggers at the end of the last frame. */
   readonly triggers: { collider: number; sphere: number }[];
+  /** The work of the last frame. */
+  readonly work: StageCounts;
+
+  /** The contacts that persist, in the order of ids, pairs of spheres first: what a ball that lies on
+   *  the floor is in. Known by `exact` after a step; none where something was changed since, or by
+   *  other rules. Reading them solves for the forces. */
+  readonly contacts: PersistentContact[];
 
   /** [J] */
   kineticEnergy(): number;

@@ -2,6 +2,7 @@
 // `index.d.ts`, where editors look for it.
 
 import * as engine from "./engine.js";
+import { contacts } from "./contacts.js";
 import { attempt, attemptPart, CaromError } from "./errors.js";
 import { IMPACT_COLUMNS, impacts } from "./impacts.js";
 import { writeMatrices } from "./matrices.js";
@@ -49,6 +50,16 @@ export class World {
   step(dt = this.frameTime) {
     const world = this.#world;
     attempt(() => world.step(dt));
+  }
+
+  nextEventTime(within) {
+    const world = this.#world;
+    return attempt(() => world.nextEventTime(within));
+  }
+
+  stepToNextEvent(within) {
+    const world = this.#world;
+    attempt(() => world.stepToNextEvent(within));
   }
 
   get time() {
@@ -142,6 +153,18 @@ export class World {
       collider: pairs[2 * i],
       sphere: pairs[2 * i + 1],
     }));
+  }
+
+  get work() {
+    const [predictions, pairTests, events, cellCrossings, groups, solverIterations] =
+      this.#world.work;
+    return { predictions, pairTests, events, cellCrossings, groups, solverIterations };
+  }
+
+  // What holds now.
+
+  get contacts() {
+    return contacts(this.#world.contacts);
   }
 
   // Sums over all spheres.

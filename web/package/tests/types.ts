@@ -41,6 +41,13 @@ const text = (impact: Impact): string =>
 const told: string[] = world.impacts.map(text);
 const firstTime: number | undefined = world.impactTable[IMPACT_COLUMNS.time];
 
+const force: number | undefined = world.contacts[0]?.normalForce;
+const work: number = world.work.pairTests;
+const next: number | undefined = world.nextEventTime(1);
+world.stepToNextEvent(1);
+// @ts-expect-error: a bound on the time has to be given
+world.stepToNextEvent();
+
 const size = (shape: Shape): number => {
   if (shape === "half-space") return Infinity;
   if ("sphere" in shape) return 2 * shape.sphere.radius;
@@ -63,5 +70,5 @@ try {
   else if (error instanceof CaromError) console.log(error.message);
 }
 
-console.log(titles, colors, told, firstTime, largest, x, z, own.stateHash(), own.toToml());
+console.log(force, work, next, titles, colors, told, firstTime, largest, x, z, own.stateHash(), own.toToml());
 own.free();
