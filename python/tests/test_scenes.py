@@ -46,9 +46,7 @@ def test_every_kind_of_part_survives_text() -> None:
         origin="here",
         simulation=carom.Simulation(
             boundary=carom.Periodic((50, float("inf"), 50)),
-            exact=carom.Exact(
-                impact_law="sequential", contact_duration=1e-9, max_impacts=1000
-            ),
+            exact=carom.Exact(impact_law="sequential", contact_duration=1e-9, max_impacts=1000),
             bisect=carom.Bisect(
                 integrator="runge-kutta-4",
                 tolerance=1e-6,
