@@ -131,10 +131,7 @@ export type Force =
 
 /** How spheres move under forces, by `bisect` and `discrete`; `exact` needs none. */
 export type Integrator =
-  | "semi-implicit-euler"
-  | "explicit-euler"
-  | "velocity-verlet"
-  | "runge-kutta-4";
+  "semi-implicit-euler" | "explicit-euler" | "velocity-verlet" | "runge-kutta-4";
 
 /** How a world is stepped. */
 export interface Simulation {

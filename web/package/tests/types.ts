@@ -70,5 +70,18 @@ try {
   else if (error instanceof CaromError) console.log(error.message);
 }
 
-console.log(force, work, next, titles, colors, told, firstTime, largest, x, z, own.stateHash(), own.toToml());
+console.log(
+  force,
+  work,
+  next,
+  titles,
+  colors,
+  told,
+  firstTime,
+  largest,
+  x,
+  z,
+  own.stateHash(),
+  own.toToml(),
+);
 own.free();
