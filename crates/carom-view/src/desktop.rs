@@ -33,7 +33,7 @@ impl Desktop {
         Self { folder, ..Self::default() }
     }
 
-    /// The same, with this address of the page that opens links.
+    /// This host, with this address of the page that opens links.
     pub fn with_page(self, page: String) -> Self {
         Self { page: Some(page), ..self }
     }

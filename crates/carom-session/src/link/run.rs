@@ -66,13 +66,13 @@ impl Link {
         Self { source, overrides: Vec::new(), changes: Arc::default(), time: None }
     }
 
-    /// The same with these values different in the scene, after those that were.
+    /// This run with these values different in the scene, after those that were.
     pub fn with_overrides(mut self, overrides: impl IntoIterator<Item = Override>) -> Self {
         self.overrides.extend(overrides);
         self
     }
 
-    /// The same, come to another time \[s\].
+    /// This run, come to another time \[s\].
     ///
     /// # Errors
     /// [`LinkError::Time`] for a time that is negative or not finite.
@@ -81,7 +81,7 @@ impl Link {
         Ok(self)
     }
 
-    /// The same, come to a frame, where each lasts for `frame_time` \[s\].
+    /// This run, come to a frame, where each lasts for `frame_time` \[s\].
     ///
     /// # Errors
     /// [`LinkError::Time`] if the time of that frame is none.

@@ -12,7 +12,7 @@ use super::roundoff::{ACCELERATION_ROUNDOFF, Gap, Magnitudes, Phase, Zero};
 /// passes at the distance of a rounding error some fifty.
 const EXACT_STEPS: u32 = 128;
 
-/// The same within an overlap, where the bound can be weak: a path along the surface turns its
+/// Exact steps within an overlap, where the bound can be weak: a path along the surface turns its
 /// normal, and a step gains only a part of what is left.
 const EXACT_STEPS_INSIDE: u32 = 4096;
 

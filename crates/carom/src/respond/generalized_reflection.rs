@@ -152,7 +152,7 @@ fn reflect_once(
     outcome
 }
 
-/// The same where not all contacts are elastic.
+/// One reflection of a group in which not all contacts are elastic.
 fn restitute_once(
     group: &Group,
     closing: &[bool],

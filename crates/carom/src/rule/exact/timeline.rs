@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::clearance::{Clearance, Obstacle};
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
-use super::flights::{Flights, Species, Support};
+use super::flights::{Flights, Species};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
 use crate::settings::Exact;
@@ -90,11 +90,6 @@ impl Timeline {
         if self.flights.set_free(slot) {
             self.drop_clearance(slot);
         }
-    }
-
-    /// Makes spheres that are free a cluster.
-    pub(super) fn set_supported(&mut self, support: Support) {
-        self.flights.set_supported(support);
     }
 
     /// Puts the sphere at an index of the world's arrays elsewhere at `time` \[s\]. What was predicted

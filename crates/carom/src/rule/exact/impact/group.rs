@@ -249,5 +249,5 @@ fn begin_flights(
     for index in struck.iter().flat_map(|bodies| bodies.spheres()) {
         timeline.flights.bodies[timeline.flights.slot_of[index as usize] as usize].strike();
     }
-    supports.into_iter().for_each(|support| timeline.set_supported(support));
+    supports.into_iter().for_each(|support| timeline.flights.set_supported(support));
 }

@@ -54,7 +54,7 @@ pub(crate) fn of_sphere(
         let contacts = lasting.map(|surface| Bodies::Surface { sphere, surface }).collect();
         let support =
             Support { members: vec![(slot, acceleration)], contacts, renewal: time + valid_for };
-        timeline.set_supported(support);
+        timeline.flights.set_supported(support);
     }
     predict::predict(timeline, context, slot, time);
     let is_answered = |timeline: &Timeline, surface: u32| {
