@@ -4,22 +4,17 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { after, before, test } from "node:test";
 
-import { complaints, launch } from "./browser.js";
-import { serveStandIn } from "./stood_in.js";
+import { complaints } from "./browser.js";
+import { StandIn } from "./stood_in.js";
 
-/** @type {import("playwright-core").Browser} */
-let browser;
-/** @type {Awaited<ReturnType<typeof serveStandIn>>} */
-let site;
+/** @type {StandIn} */
+let standIn;
 
 before(async () => {
-  [browser, site] = await Promise.all([launch("webgl2"), serveStandIn()]);
+  standIn = await StandIn.set();
 });
 
-after(async () => {
-  await browser?.close();
-  await site?.close();
-});
+after(() => standIn?.clear());
 
 /**
  * A page, without those of the browser's abilities that are named.
@@ -27,14 +22,14 @@ after(async () => {
  * @param {string[]} without
  */
 async function open(without = []) {
-  const page = await browser.newPage();
+  const page = await standIn.browser.newPage();
   const heard = complaints(page);
   await page.addInitScript((names) => {
     for (const name of names) {
       Reflect.deleteProperty(globalThis, name);
     }
   }, without);
-  await page.goto(site.url);
+  await page.goto(standIn.site.url);
   await page.waitForSelector("#loading.done", { state: "attached" });
   return { page, heard };
 }

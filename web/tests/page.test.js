@@ -4,21 +4,16 @@ import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 
 import { complaints, keepPicture, launch } from "./browser.js";
-import { serveStandIn } from "./stood_in.js";
+import { StandIn } from "./stood_in.js";
 
-/** @type {import("playwright-core").Browser} */
-let browser;
-/** @type {Awaited<ReturnType<typeof serveStandIn>>} */
-let site;
+/** @type {StandIn} */
+let standIn;
 
 before(async () => {
-  [browser, site] = await Promise.all([launch("webgl2"), serveStandIn()]);
+  standIn = await StandIn.set();
 });
 
-after(async () => {
-  await browser?.close();
-  await site?.close();
-});
+after(() => standIn?.clear());
 
 /**
  * A page with this preparation that has been opened and has come to rest.
@@ -28,11 +23,12 @@ after(async () => {
  * @param {import("playwright-core").BrowserContextOptions} [options]
  */
 async function open(fragment, prepare, options) {
-  const context = await browser.newContext({ viewport: { width: 900, height: 600 }, ...options });
+  const viewport = { width: 900, height: 600 };
+  const context = await standIn.browser.newContext({ viewport, ...options });
   const page = await context.newPage();
   const heard = complaints(page);
   await prepare?.(page);
-  await page.goto(`${site.url}${fragment}`);
+  await page.goto(`${standIn.site.url}${fragment}`);
   await page.waitForSelector("#loading.done, #loading.trouble", { state: "attached" });
   return { page, heard, close: () => context.close() };
 }
@@ -44,7 +40,7 @@ const isModule = (/** @type {URL} */ url) => url.pathname.endsWith(".wasm");
 
 describe("the page", () => {
   test("shows how much has arrived, then makes way", async () => {
-    const context = await browser.newContext();
+    const context = await standIn.browser.newContext();
     const page = await context.newPage();
     const heard = complaints(page);
     const client = await context.newCDPSession(page);
@@ -57,7 +53,7 @@ describe("the page", () => {
       downloadThroughput: throughput,
       uploadThroughput: throughput,
     });
-    await page.goto(site.url, { waitUntil: "commit" });
+    await page.goto(standIn.site.url, { waitUntil: "commit" });
     await page.waitForFunction(() => {
       const bar = document.querySelector("progress");
       return bar !== null && bar.value > 0.2 && bar.value < 0.9;
@@ -76,7 +72,7 @@ describe("the page", () => {
     const { close } = await open("", async (page) =>
       page.on("request", (it) => asked.push(it.url())),
     );
-    const elsewhere = asked.filter((url) => !url.startsWith(site.url));
+    const elsewhere = asked.filter((url) => !url.startsWith(standIn.site.url));
     assert.deepEqual(elsewhere, []);
     await close();
   });
@@ -134,7 +130,7 @@ describe("the page", () => {
   test("says that there is nothing to draw with, before it fetches the module", async () => {
     const blind = await launch("none");
     const page = await blind.newPage({ viewport: { width: 390, height: 844 } });
-    await page.goto(site.url);
+    await page.goto(standIn.site.url);
     await page.waitForSelector("#loading.trouble");
     assert.match((await message(page)) ?? "", /WebGPU or WebGL 2/);
     await keepPicture(page, "page-no-graphics-phone");

@@ -8,12 +8,35 @@ import { fileURLToPath } from "node:url";
 
 import { bundle } from "../bundle.js";
 import { serve } from "../serve.js";
+import { launch } from "./browser.js";
 
 /** Size of the stand-in's module [bytes]: enough to arrive in several pieces. */
 const SIZE = 4_000_000;
 
+/** A browser and the page, for the tests of one file. */
+export class StandIn {
+  /**
+   * @param {import("playwright-core").Browser} browser
+   * @param {Awaited<ReturnType<typeof serveStandIn>>} site
+   */
+  constructor(browser, site) {
+    this.browser = browser;
+    this.site = site;
+  }
+
+  static async set() {
+    const [browser, site] = await Promise.all([launch("webgl2"), serveStandIn()]);
+    return new StandIn(browser, site);
+  }
+
+  async clear() {
+    await this.browser.close();
+    await this.site.close();
+  }
+}
+
 /** Serves it; `close` takes all of it away. */
-export async function serveStandIn() {
+async function serveStandIn() {
   const folder = await mkdtemp(join(tmpdir(), "carom-page-"));
   await copyFile(
     fileURLToPath(new URL("stand_in.js", import.meta.url)),

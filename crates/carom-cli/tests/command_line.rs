@@ -1,61 +1,21 @@
 //! The command `carom` as a user meets it: files, tables, exit codes, and one clear line for
 //! everything that goes wrong.
 
+mod command;
+
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+use command::{bad, bad_line, carom, good, path, run};
 use serde_json::Value;
-
-const CAROM: &str = env!("CARGO_BIN_EXE_carom");
-
-fn carom() -> Command {
-    let mut command = Command::new(CAROM);
-    command.env_remove("CAROM_SCENES");
-    command
-}
-
-fn run(arguments: &[&str]) -> Output {
-    carom().args(arguments).output().unwrap()
-}
 
 fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
 
-/// Runs successfully and gives the standard output.
-#[track_caller]
-fn good(arguments: &[&str]) -> String {
-    let output = run(arguments);
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments:?}: {errors}");
-    assert_eq!(errors, "", "a pipe sees no progress bar and no noise");
-    stdout(&output)
-}
-
-/// Fails with this code; gives the one line on the standard error stream.
-#[track_caller]
-fn bad(arguments: &[&str], code: i32) -> String {
-    let output = run(arguments);
-    let errors = String::from_utf8(output.stderr.clone()).unwrap();
-    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {errors}");
-    assert!(!errors.contains("panicked"), "{errors}");
-    errors
-}
-
-#[track_caller]
-fn bad_line(arguments: &[&str], code: i32) -> String {
-    let errors = bad(arguments, code);
-    assert_eq!(errors.lines().count(), 1, "{errors}");
-    errors
-}
-
 fn summary(arguments: &[&str]) -> Value {
     serde_json::from_str(&good(&[arguments, &["--json"]].concat())).unwrap()
-}
-
-fn path(folder: &tempfile::TempDir, name: &str) -> String {
-    folder.path().join(name).to_str().unwrap().to_owned()
 }
 
 fn rows(path: &str) -> (csv::StringRecord, Vec<Vec<String>>) {

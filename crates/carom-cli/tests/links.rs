@@ -1,6 +1,8 @@
 //! Links on the command line: what `carom link` prints, `carom run --link` runs to the same bits;
 //! and what is no link is refused with one line.
 
+mod command;
+
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
@@ -8,36 +10,10 @@ use carom::{DVec3, SphereId};
 use carom_scene::Library;
 use carom_scene::scene::Rule;
 use carom_session::{Edit, Link, Session, SphereChange};
+use command::{bad, carom, good, text_of};
 use serde_json::Value;
 
 const PAGE: &str = "http://127.0.0.1:8042/";
-
-fn carom(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_carom"));
-    command.env_remove("CAROM_SCENES").env_remove("CAROM_PAGE").args(arguments);
-    command
-}
-
-#[track_caller]
-fn text_of(output: Output) -> String {
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && errors.is_empty(), "{errors}");
-    String::from_utf8(output.stdout).unwrap()
-}
-
-#[track_caller]
-fn good(arguments: &[&str]) -> String {
-    text_of(carom(arguments).output().unwrap())
-}
-
-#[track_caller]
-fn bad(arguments: &[&str], code: i32) -> String {
-    let output = carom(arguments).output().unwrap();
-    let errors = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {errors}");
-    assert!(!errors.contains("panicked"), "{errors}");
-    errors
-}
 
 /// The link that is printed.
 #[track_caller]
@@ -105,7 +81,7 @@ fn the_page_is_the_one_asked_for() {
     let page = "https://example.org/carom/";
     assert_eq!(link(&["simtest1", "--page", page]), format!("{page}#scene=simtest1"));
     let by_environment = |value: &str| {
-        text_of(carom(&["link", "simtest1"]).env("CAROM_PAGE", value).output().unwrap())
+        text_of(carom().args(["link", "simtest1"]).env("CAROM_PAGE", value).output().unwrap())
     };
     assert_eq!(by_environment(page), format!("{page}#scene=simtest1\n"));
     assert_eq!(by_environment(""), format!("{PAGE}#scene=simtest1\n"));
@@ -170,7 +146,7 @@ fn a_run_of_a_link_is_written_like_any_other() {
 #[test]
 fn a_link_is_read_from_the_standard_input() {
     let link = link(&["tutorial1", "--seconds", "1"]);
-    let mut child = carom(&["run", "--link", "-", "--json"])
+    let mut child = carom().args(["run", "--link", "-", "--json"])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

@@ -4,55 +4,20 @@
 //! What this cannot tell: how they look.
 #![cfg(feature = "pictures")]
 
+mod command;
+
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use carom_render::Picture;
+use command::{bad, bad_line, carom, good, path};
 use tempfile::TempDir;
 
 /// Small and cheap, so that drivers in software are quick.
 const SMALL: [&str; 4] = ["--size", "320x180", "--quality", "draft"];
 const WIDTH: usize = 320;
 const HEIGHT: usize = 180;
-
-fn carom() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_carom"));
-    // Wayland's library complains aloud where this is missing.
-    command.env_remove("CAROM_SCENES").env("XDG_RUNTIME_DIR", std::env::temp_dir());
-    command
-}
-
-/// Runs successfully and gives the standard output.
-#[track_caller]
-fn good(arguments: &[&str]) -> String {
-    let output = carom().args(arguments).output().unwrap();
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments:?}: {errors}");
-    String::from_utf8(output.stdout).unwrap()
-}
-
-/// Fails with this code; gives the standard error stream.
-#[track_caller]
-fn bad(arguments: &[&str], code: i32) -> String {
-    let output = carom().args(arguments).output().unwrap();
-    let errors = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {errors}");
-    assert!(!errors.contains("panicked"), "{errors}");
-    errors
-}
-
-/// Runs the command, which must fail and write one line to the standard error stream.
-#[track_caller]
-fn bad_line(arguments: &[&str], code: i32) -> String {
-    let errors = bad(arguments, code);
-    assert_eq!(errors.lines().count(), 1, "{errors}");
-    errors
-}
-
-fn path(folder: &TempDir, name: &str) -> String {
-    folder.path().join(name).to_str().unwrap().to_owned()
-}
 
 #[track_caller]
 fn picture(folder: &TempDir, arguments: &[&str]) -> Picture {

@@ -2,12 +2,13 @@
 
 use carom::Collider;
 use carom_scene::scene::{self, Force};
-use carom_scene::{Palette, part};
+use carom_scene::Palette;
+use carom_scene::part::{self, only};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::failure::Failure;
-use crate::find::{self, only};
+use crate::find;
 use crate::world::World;
 
 /// Ids of what was added.

@@ -27,11 +27,3 @@ pub fn force(world: &World, number: f64) -> Result<(ForceId, usize), Failure> {
 fn unknown(kind: &str, number: f64) -> Failure {
     Failure::new(format!("there is no {kind} {number} in this world"))
 }
-
-/// What a description is made for: exactly one thing.
-pub fn only<T>(list: &[T]) -> Result<&T, Failure> {
-    match list {
-        [one] => Ok(one),
-        _ => Err(Failure::new(format!("this takes one description, not {}", list.len()))),
-    }
-}

@@ -16,6 +16,7 @@ use crate::arguments;
 use crate::arrays::{self, Arrays, Quantity};
 
 use crate::failure::Failure;
+use crate::properties::sphere_properties;
 use crate::snapshot::Snapshot;
 use crate::stop;
 use crate::tables::Table;
@@ -205,78 +206,10 @@ fn step(inner: &mut Inner, dt: f64, frames: u64) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Arrays of spheres, in ascending order of id. Each is made at its first read, and then the
-/// same object for as long as no sphere comes or goes: every frame writes into it. It cannot be
-/// written to; to set a quantity, assign to the attribute.
+sphere_properties!(Engine, numbers "(n,)", vectors "(n, 3)");
+
 #[pymethods]
 impl Engine {
-    /// Centres [m], shape (n, 3).
-    #[getter]
-    fn positions(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::Positions)
-    }
-
-    #[setter]
-    fn set_positions(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::Positions, values)
-    }
-
-    /// Velocities [m/s], shape (n, 3).
-    #[getter]
-    fn velocities(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::Velocities)
-    }
-
-    #[setter]
-    fn set_velocities(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::Velocities, values)
-    }
-
-    /// Radii [m], shape (n,).
-    #[getter]
-    fn radii(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::Radii)
-    }
-
-    #[setter]
-    fn set_radii(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::Radii, values)
-    }
-
-    /// Masses [kg], shape (n,).
-    #[getter]
-    fn masses(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::Masses)
-    }
-
-    #[setter]
-    fn set_masses(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::Masses, values)
-    }
-
-    /// Coefficients of restitution in [0, 1], shape (n,).
-    #[getter]
-    fn restitutions(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::Restitutions)
-    }
-
-    #[setter]
-    fn set_restitutions(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::Restitutions, values)
-    }
-
-    /// Forces applied to single spheres [N], shape (n, 3), besides those that act on all; held until
-    /// they are set again. Spheres that come into the world have none.
-    #[getter]
-    fn applied_forces(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::AppliedForces)
-    }
-
-    #[setter]
-    fn set_applied_forces(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::AppliedForces, values)
-    }
-
     /// Ids, ascending, shape (n,), uint64. An id is never given twice in one world.
     #[getter]
     fn ids(&self, py: Python<'_>) -> PyResult<Py<PyArray1<u64>>> {

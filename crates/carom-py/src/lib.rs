@@ -33,6 +33,7 @@ mod next_event;
 #[cfg(feature = "pictures")]
 mod painter;
 mod part;
+mod properties;
 mod recording;
 mod running;
 mod scenes;

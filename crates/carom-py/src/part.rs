@@ -20,13 +20,10 @@ pub fn read_simulation(text: &str) -> Result<Scene, Failure> {
     Ok(part::read_simulation(text)?)
 }
 
-/// What a description is made for: exactly one thing.
+/// The one thing that a description is of: see [`part::only`].
 ///
 /// # Errors
 /// [`Failure`] for more or less.
 pub fn only<T>(list: &[T]) -> Result<&T, Failure> {
-    match list {
-        [one] => Ok(one),
-        _ => Err(Failure::value("part", format_args!("must be one thing, not {}", list.len()))),
-    }
+    Ok(part::only(list)?)
 }

@@ -49,6 +49,20 @@ pub fn read_simulation(text: &str) -> Result<Scene, PartError> {
     Ok(Scene::from_toml(&named(text), NAME)?)
 }
 
+/// The one thing that a description is of.
+///
+/// # Errors
+/// [`PartError`] where it is of more things, or of none.
+pub fn only<T>(list: &[T]) -> Result<&T, PartError> {
+    match list {
+        [one] => Ok(one),
+        _ => Err(PartError {
+            message: format!("this takes one description, not {}", list.len()),
+            field: String::new(),
+        }),
+    }
+}
+
 /// What a part is called where an error has no field to name.
 const NAME: &str = "part";
 

@@ -17,6 +17,7 @@ use pyo3::sync::MutexExt;
 use crate::arguments;
 use crate::arrays::Quantity;
 use crate::failure::Failure;
+use crate::properties::sphere_properties;
 use crate::snapshot::Snapshot;
 use crate::tables::Table;
 use crate::threads;
@@ -193,74 +194,4 @@ impl BatchEngine {
     }
 }
 
-/// Arrays of all spheres of all worlds, n worlds of s spheres in ascending order of id. Each is made
-/// at its first read, and stays the same object: every frame writes into it. It cannot be written
-/// to; to set a quantity, assign to the attribute.
-#[pymethods]
-impl BatchEngine {
-    /// Centres [m], shape (n, s, 3).
-    #[getter]
-    fn positions(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::Positions)
-    }
-
-    #[setter]
-    fn set_positions(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::Positions, values)
-    }
-
-    /// Velocities [m/s], shape (n, s, 3).
-    #[getter]
-    fn velocities(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::Velocities)
-    }
-
-    #[setter]
-    fn set_velocities(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::Velocities, values)
-    }
-
-    /// Radii [m], shape (n, s).
-    #[getter]
-    fn radii(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::Radii)
-    }
-
-    #[setter]
-    fn set_radii(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::Radii, values)
-    }
-
-    /// Masses [kg], shape (n, s).
-    #[getter]
-    fn masses(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::Masses)
-    }
-
-    #[setter]
-    fn set_masses(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::Masses, values)
-    }
-
-    /// Coefficients of restitution in [0, 1], shape (n, s).
-    #[getter]
-    fn restitutions(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::Restitutions)
-    }
-
-    #[setter]
-    fn set_restitutions(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::Restitutions, values)
-    }
-
-    /// Forces applied to single spheres [N], shape (n, s, 3); held until they are set again.
-    #[getter]
-    fn applied_forces(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        self.quantity(py, Quantity::AppliedForces)
-    }
-
-    #[setter]
-    fn set_applied_forces(&self, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.set_quantity(Quantity::AppliedForces, values)
-    }
-}
+sphere_properties!(BatchEngine, numbers "(n, s)", vectors "(n, s, 3)");

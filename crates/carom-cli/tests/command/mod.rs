@@ -1,0 +1,58 @@
+//! The command `carom`, run as a user runs it.
+#![allow(dead_code, reason = "each file of tests uses some of it")]
+
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+/// The command, in an environment that says nothing of scenes and pages.
+pub fn carom() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_carom"));
+    command.env_remove("CAROM_SCENES").env_remove("CAROM_PAGE");
+    // Wayland's library complains aloud where this is missing.
+    command.env("XDG_RUNTIME_DIR", std::env::temp_dir());
+    command
+}
+
+/// What becomes of the command with these arguments.
+pub fn run(arguments: &[&str]) -> Output {
+    carom().args(arguments).output().unwrap()
+}
+
+/// The standard output of a run that succeeded without a word on the standard error stream.
+#[track_caller]
+pub fn text_of(output: Output) -> String {
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    assert_eq!(errors, "", "a pipe sees no progress bar and no noise");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Runs successfully; gives the standard output.
+#[track_caller]
+pub fn good(arguments: &[&str]) -> String {
+    text_of(run(arguments))
+}
+
+/// Fails with this code; gives the standard error stream.
+#[track_caller]
+pub fn bad(arguments: &[&str], code: i32) -> String {
+    let output = run(arguments);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {errors}");
+    assert!(!errors.contains("panicked"), "{errors}");
+    errors
+}
+
+/// Fails with this code and one line on the standard error stream; gives it.
+#[track_caller]
+pub fn bad_line(arguments: &[&str], code: i32) -> String {
+    let errors = bad(arguments, code);
+    assert_eq!(errors.lines().count(), 1, "{errors}");
+    errors
+}
+
+/// The path of a file in a folder, as an argument.
+pub fn path(folder: &TempDir, name: &str) -> String {
+    folder.path().join(name).to_str().unwrap().to_owned()
+}
