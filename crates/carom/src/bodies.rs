@@ -2,11 +2,18 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use crate::error::InvalidValue;
+use crate::friction::Friction;
 use crate::id::SphereId;
+use crate::rotation;
 use crate::validate;
+
+/// Moment of inertia of a solid ball, divided by m r².
+pub const SOLID_BALL: f64 = 2.0 / 5.0;
+/// Moment of inertia of a thin spherical shell, divided by m r².
+pub const THIN_SHELL: f64 = 2.0 / 3.0;
 
 /// Mass, or the density to compute it from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,10 +55,20 @@ pub struct Sphere {
     pub mass: Mass,
     /// Coefficient of restitution in \[0, 1\].
     pub restitution: f64,
+    /// Friction at its surface; it says nothing unless given.
+    pub friction: Friction,
+    /// How it is turned, from its own coordinate system to the world's; any length but zero.
+    pub orientation: DQuat,
+    /// Angular velocity, along the axis of rotation \[rad/s\].
+    pub angular_velocity: DVec3,
+    /// Moment of inertia about any axis through the centre, divided by m r², > 0: [`SOLID_BALL`]
+    /// unless given, [`THIN_SHELL`] for a hollow one.
+    pub inertia_factor: f64,
 }
 
 impl Sphere {
-    /// A sphere at rest, of 1 kg, that leaves the restitution to what it meets (its own is 1).
+    /// A solid ball at rest, of 1 kg, that leaves restitution (its own is 1) and friction to what it
+    /// meets.
     pub fn new(position: DVec3, radius: f64) -> Self {
         Self {
             position,
@@ -59,6 +76,10 @@ impl Sphere {
             radius,
             mass: Mass::Kilograms(1.0),
             restitution: 1.0,
+            friction: Friction::default(),
+            orientation: DQuat::IDENTITY,
+            angular_velocity: DVec3::ZERO,
+            inertia_factor: SOLID_BALL,
         }
     }
 
@@ -92,6 +113,26 @@ impl Sphere {
         Self { restitution, ..self }
     }
 
+    /// The same sphere with this friction: a coefficient, or a [`Friction`].
+    pub fn with_friction(self, friction: impl Into<Friction>) -> Self {
+        Self { friction: friction.into(), ..self }
+    }
+
+    /// The same sphere, turned.
+    pub fn with_orientation(self, orientation: DQuat) -> Self {
+        Self { orientation, ..self }
+    }
+
+    /// The same sphere with this angular velocity \[rad/s\].
+    pub fn with_angular_velocity(self, angular_velocity: DVec3) -> Self {
+        Self { angular_velocity, ..self }
+    }
+
+    /// The same sphere with this moment of inertia, divided by m r².
+    pub fn with_inertia_factor(self, inertia_factor: f64) -> Self {
+        Self { inertia_factor, ..self }
+    }
+
     /// Mass \[kg\], however it was given.
     pub fn kilograms(&self) -> f64 {
         match self.mass {
@@ -112,7 +153,11 @@ impl Sphere {
                 validate::positive("density times volume", self.kilograms())?;
             }
         }
-        validate::unit_interval("restitution", self.restitution)
+        validate::unit_interval("restitution", self.restitution)?;
+        self.friction.validate()?;
+        validate::rotation("orientation", self.orientation)?;
+        validate::finite("angular_velocity", self.angular_velocity)?;
+        validate::positive("inertia_factor", self.inertia_factor)
     }
 }
 
@@ -128,6 +173,17 @@ pub(crate) struct Motion {
     pub position: Vec<DVec3>,
     /// Velocities \[m/s\].
     pub velocity: Vec<DVec3>,
+    /// How they turn.
+    pub spin: Spin,
+}
+
+/// How spheres are turned, and how they turn. Both arrays are empty while no sphere was ever turned.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Spin {
+    /// From the coordinate system of each sphere to the world's, of length 1.
+    pub orientation: Vec<DQuat>,
+    /// \[rad/s\]
+    pub angular_velocity: Vec<DVec3>,
 }
 
 impl Motion {
@@ -135,12 +191,58 @@ impl Motion {
     pub fn copy_all(&mut self, from: &Self) {
         self.position.clone_from(&from.position);
         self.velocity.clone_from(&from.velocity);
+        self.spin.orientation.clone_from(&from.spin.orientation);
+        self.spin.angular_velocity.clone_from(&from.spin.angular_velocity);
     }
 
-    /// Takes over the state of one sphere.
+    /// Takes over place and velocity of one sphere.
     pub fn copy(&mut self, from: &Self, index: usize) {
         self.position[index] = from.position[index];
         self.velocity[index] = from.velocity[index];
+    }
+}
+
+impl Spin {
+    /// Makes place for the spin of so many spheres: none is turned, if there was none.
+    pub fn make_room(&mut self, count: usize) {
+        self.orientation.resize(count, DQuat::IDENTITY);
+        self.angular_velocity.resize(count, DVec3::ZERO);
+    }
+
+    /// Whether a sphere is turned, or turns.
+    pub fn is_any(&self) -> bool {
+        self.orientation.iter().any(|&it| it != DQuat::IDENTITY)
+            || self.angular_velocity.iter().any(|&it| it != DVec3::ZERO)
+    }
+
+    /// Turns all spheres on for `h` \[s\]: no torque acts in free flight.
+    pub fn advance(&mut self, h: f64) {
+        for (orientation, &angular_velocity) in
+            self.orientation.iter_mut().zip(&self.angular_velocity)
+        {
+            *orientation = rotation::turned(*orientation, angular_velocity, h);
+        }
+    }
+
+    /// Appends how a sphere is turned and turns, as number `count`.
+    fn push(&mut self, count: usize, sphere: &Sphere) {
+        push(&mut self.orientation, count, sphere.orientation.normalize(), DQuat::IDENTITY);
+        push(&mut self.angular_velocity, count, sphere.angular_velocity, DVec3::ZERO);
+        self.make_whole(count + 1);
+    }
+
+    /// Overwrites how one of `count` spheres is turned and turns.
+    fn set(&mut self, count: usize, index: usize, sphere: &Sphere) {
+        set(&mut self.orientation, count, index, sphere.orientation.normalize(), DQuat::IDENTITY);
+        set(&mut self.angular_velocity, count, index, sphere.angular_velocity, DVec3::ZERO);
+        self.make_whole(count);
+    }
+
+    /// Has both arrays where there is one.
+    fn make_whole(&mut self, count: usize) {
+        if self.orientation.len() != self.angular_velocity.len() {
+            self.make_room(count);
+        }
     }
 }
 
@@ -154,6 +256,10 @@ pub(crate) struct Properties {
     /// \[kg\]
     pub mass: Vec<f64>,
     pub restitution: Vec<f64>,
+    /// Empty while no sphere says anything of friction.
+    pub friction: Vec<Friction>,
+    /// Moments of inertia divided by m r²; empty while all spheres are solid balls.
+    pub inertia_factor: Vec<f64>,
     /// \[N\]; empty while no sphere is under a force of its own.
     pub applied_force: Vec<DVec3>,
 }
@@ -163,6 +269,16 @@ impl Properties {
     #[inline]
     pub fn applied_acceleration(&self, index: usize) -> Option<DVec3> {
         self.applied_force.get(index).map(|&force| force / self.mass[index])
+    }
+
+    /// What a sphere says of friction.
+    pub fn friction(&self, index: usize) -> Friction {
+        self.friction.get(index).copied().unwrap_or_default()
+    }
+
+    /// Moment of inertia of a sphere, divided by m r².
+    pub fn inertia_factor(&self, index: usize) -> f64 {
+        self.inertia_factor.get(index).copied().unwrap_or(SOLID_BALL)
     }
 }
 
@@ -214,10 +330,40 @@ impl Spheres {
         &self.properties.restitution
     }
 
+    /// Rotations from the coordinate system of each sphere to the world's; empty while no sphere was
+    /// ever turned.
+    pub fn orientations(&self) -> &[DQuat] {
+        &self.motion.spin.orientation
+    }
+
+    /// Angular velocities \[rad/s\]; empty while no sphere was ever turned.
+    pub fn angular_velocities(&self) -> &[DVec3] {
+        &self.motion.spin.angular_velocity
+    }
+
+    /// What each sphere says of friction; empty while none says anything.
+    pub fn frictions(&self) -> &[Friction] {
+        &self.properties.friction
+    }
+
+    /// Moments of inertia divided by m r²; empty while all spheres are solid balls.
+    pub fn inertia_factors(&self) -> &[f64] {
+        &self.properties.inertia_factor
+    }
+
     /// Forces \[N\] applied to single spheres; empty if there are none
     /// ([`World::set_applied_forces`](crate::World::set_applied_forces)).
     pub fn applied_forces(&self) -> &[DVec3] {
         &self.properties.applied_force
+    }
+
+    /// Moment of inertia of the sphere at an index \[kg m²\], about any axis through its centre.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn moment_of_inertia(&self, index: usize) -> f64 {
+        let radius = self.properties.radius[index];
+        self.properties.inertia_factor(index) * self.properties.mass[index] * radius * radius
     }
 
     /// Index of a sphere in the arrays; it changes when spheres are removed.
@@ -236,29 +382,41 @@ impl Spheres {
             radius: self.properties.radius[index],
             mass: Mass::Kilograms(self.properties.mass[index]),
             restitution: self.properties.restitution[index],
+            friction: self.properties.friction(index),
+            orientation: self.orientations().get(index).copied().unwrap_or_default(),
+            angular_velocity: self.angular_velocities().get(index).copied().unwrap_or_default(),
+            inertia_factor: self.properties.inertia_factor(index),
         }
     }
 
     /// Appends a sphere that passed [`Sphere::validate`]; its id must be the largest so far.
     pub(crate) fn push(&mut self, id: SphereId, sphere: &Sphere) {
-        self.properties.id.push(id);
-        self.properties.radius.push(sphere.radius);
-        self.properties.mass.push(sphere.kilograms());
-        self.properties.restitution.push(sphere.restitution);
-        if !self.properties.applied_force.is_empty() {
-            self.properties.applied_force.push(DVec3::ZERO);
-        }
-        self.motion.position.push(sphere.position);
-        self.motion.velocity.push(sphere.velocity);
+        let count = self.len();
+        let Self { properties, motion } = self;
+        properties.id.push(id);
+        properties.radius.push(sphere.radius);
+        properties.mass.push(sphere.kilograms());
+        properties.restitution.push(sphere.restitution);
+        push(&mut properties.friction, count, sphere.friction, Friction::default());
+        push(&mut properties.inertia_factor, count, sphere.inertia_factor, SOLID_BALL);
+        push(&mut properties.applied_force, count, DVec3::ZERO, DVec3::ZERO);
+        motion.position.push(sphere.position);
+        motion.velocity.push(sphere.velocity);
+        motion.spin.push(count, sphere);
     }
 
     /// Overwrites a sphere with one that passed [`Sphere::validate`]; the force applied to it stays.
     pub(crate) fn set(&mut self, index: usize, sphere: &Sphere) {
-        self.properties.radius[index] = sphere.radius;
-        self.properties.mass[index] = sphere.kilograms();
-        self.properties.restitution[index] = sphere.restitution;
-        self.motion.position[index] = sphere.position;
-        self.motion.velocity[index] = sphere.velocity;
+        let count = self.len();
+        let Self { properties, motion } = self;
+        properties.radius[index] = sphere.radius;
+        properties.mass[index] = sphere.kilograms();
+        properties.restitution[index] = sphere.restitution;
+        set(&mut properties.friction, count, index, sphere.friction, Friction::default());
+        set(&mut properties.inertia_factor, count, index, sphere.inertia_factor, SOLID_BALL);
+        motion.position[index] = sphere.position;
+        motion.velocity[index] = sphere.velocity;
+        motion.spin.set(count, index, sphere);
     }
 
     /// Takes spheres out; those after them move up, so that ids stay ascending.
@@ -272,9 +430,29 @@ impl Spheres {
         keep(&mut properties.radius, &stays);
         keep(&mut properties.mass, &stays);
         keep(&mut properties.restitution, &stays);
+        keep(&mut properties.friction, &stays);
+        keep(&mut properties.inertia_factor, &stays);
         keep(&mut properties.applied_force, &stays);
         keep(&mut motion.position, &stays);
         keep(&mut motion.velocity, &stays);
+        keep(&mut motion.spin.orientation, &stays);
+        keep(&mut motion.spin.angular_velocity, &stays);
+    }
+}
+
+/// Appends the value of sphere number `count` to an array that is empty while all values are usual.
+fn push<T: Copy + PartialEq>(values: &mut Vec<T>, count: usize, value: T, usual: T) {
+    if !values.is_empty() || value != usual {
+        values.resize(count, usual);
+        values.push(value);
+    }
+}
+
+/// Sets one of `count` values in an array that is empty while all values are usual.
+fn set<T: Copy + PartialEq>(values: &mut Vec<T>, count: usize, index: usize, value: T, usual: T) {
+    if !values.is_empty() || value != usual {
+        values.resize(count, usual);
+        values[index] = value;
     }
 }
 

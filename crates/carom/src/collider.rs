@@ -3,6 +3,8 @@
 use glam::{DQuat, DVec3};
 
 use crate::error::InvalidValue;
+use crate::friction::Friction;
+use crate::rotation;
 use crate::validate;
 
 /// Form of a collider in its own frame.
@@ -53,16 +55,7 @@ impl Pose {
 
     /// The pose after moving on for `h` \[s\].
     pub(crate) fn moved(self, velocity: DVec3, angular_velocity: DVec3, h: f64) -> Self {
-        let turn = angular_velocity * h;
-        let angle = turn.dot(turn).sqrt();
-        let rotation = if angle > 0.0 {
-            let (sine, cosine) = libm::sincos(0.5 * angle);
-            let axis = turn / angle;
-            DQuat::from_xyzw(axis.x * sine, axis.y * sine, axis.z * sine, cosine)
-                * self.rotation.normalize()
-        } else {
-            self.rotation
-        };
+        let rotation = rotation::turned(self.rotation, angular_velocity, h);
         Self { position: self.position + h * velocity, rotation }
     }
 
@@ -104,6 +97,8 @@ pub struct Collider {
     pub angular_velocity: DVec3,
     /// Coefficient of restitution in \[0, 1\].
     pub restitution: f64,
+    /// Friction at its surface; it says nothing unless given.
+    pub friction: Friction,
     /// A trigger reports contact and deflects nothing.
     pub trigger: bool,
 }
@@ -117,6 +112,7 @@ impl Collider {
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
             restitution: 1.0,
+            friction: Friction::default(),
             trigger: false,
         }
     }
@@ -142,6 +138,11 @@ impl Collider {
         Self { restitution, ..self }
     }
 
+    /// The same collider with this friction: a coefficient, or a [`Friction`].
+    pub fn with_friction(self, friction: impl Into<Friction>) -> Self {
+        Self { friction: friction.into(), ..self }
+    }
+
     /// The same collider as a trigger.
     pub fn as_trigger(self) -> Self {
         Self { trigger: true, ..self }
@@ -164,6 +165,7 @@ impl Collider {
         self.pose.validate()?;
         validate::finite("velocity", self.velocity)?;
         validate::finite("angular_velocity", self.angular_velocity)?;
-        validate::unit_interval("restitution", self.restitution)
+        validate::unit_interval("restitution", self.restitution)?;
+        self.friction.validate()
     }
 }

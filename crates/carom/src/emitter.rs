@@ -40,7 +40,8 @@ const MAX_PER_FRAME: f64 = 1e6;
 #[non_exhaustive]
 pub struct Emitter {
     /// What is emitted, in the emitter's frame: `position` \[m\] is an offset from the emitter's
-    /// origin, `velocity` \[m/s\] is turned into the world with it.
+    /// origin, `velocity` \[m/s\] and
+    /// `angular_velocity` \[rad/s\] are turned into the world with it.
     pub sphere: Sphere,
     /// Origin of the emitter's frame in the world \[m\].
     pub position: DVec3,
@@ -100,6 +101,7 @@ impl Emitter {
         Sphere {
             position: self.position + rotation * self.sphere.position,
             velocity: rotation * self.sphere.velocity,
+            angular_velocity: rotation * self.sphere.angular_velocity,
             ..self.sphere
         }
     }

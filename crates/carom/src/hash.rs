@@ -10,7 +10,8 @@ use crate::state::State;
 /// Hash of a world's state: XXH3 (64 bits) over the bits of what steps change.
 ///
 /// It covers the time; of every sphere id, position, velocity, radius, mass and restitution; the
-/// places of colliders; and what each emitter has emitted. Settings, forces, shapes and other
+/// places of colliders; what each emitter has emitted; and how spheres are turned and turn, if one
+/// does. Settings, forces, shapes and other
 /// parameters are not part of it: it compares worlds that were set up alike. Equal states have
 /// equal hashes on every platform; one changed bit changes the hash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -25,7 +26,8 @@ impl Display for StateHash {
 /// Hashes, in this order: the two parts of the clock's sum; the next id; the number of spheres; per
 /// sphere its id, position, velocity, radius, mass, restitution; the number of colliders; per
 /// collider its position and rotation; per emitter its start, the number of spheres emitted, and
-/// the number and ids of those that still count.
+/// the number and ids of those that still count; if a sphere is turned or turns, per sphere its
+/// orientation and angular velocity.
 pub(crate) fn of_state(state: &State) -> StateHash {
     let mut words = Words(Xxh3Default::new());
     state.clock.parts().into_iter().for_each(|part| words.number(part));
@@ -50,6 +52,13 @@ pub(crate) fn of_state(state: &State) -> StateHash {
         words.integer(emitter.emitted);
         words.integer(emitter.ring.len() as u64);
         emitter.ring.iter().for_each(|id| words.integer(id.number()));
+    }
+    let spin = &spheres.motion.spin;
+    if spin.is_any() {
+        for (orientation, &angular_velocity) in spin.orientation.iter().zip(&spin.angular_velocity) {
+            orientation.to_array().into_iter().for_each(|part| words.number(part));
+            words.vector(angular_velocity);
+        }
     }
     StateHash(words.0.digest())
 }

@@ -9,10 +9,21 @@ use crate::forces::{Force, SphereState};
 use crate::numbered::Numbered;
 use crate::sum::Sum;
 
-/// Kinetic energy \[J\], `Σ m v² / 2`.
+/// Kinetic energy \[J\], `Σ m v² / 2 + I w² / 2`.
 pub fn kinetic_energy(spheres: &Spheres) -> f64 {
     let terms = spheres.masses().iter().zip(spheres.velocities());
-    terms.map(|(m, v)| 0.5 * m * v.dot(*v)).collect::<Sum>().value()
+    let of_motion = terms.map(|(m, v)| 0.5 * m * v.dot(*v));
+    of_motion.chain(rotational(spheres)).collect::<Sum>().value()
+}
+
+/// Kinetic energy of rotation \[J\], `Σ I w² / 2`.
+pub fn rotational_energy(spheres: &Spheres) -> f64 {
+    rotational(spheres).collect::<Sum>().value()
+}
+
+fn rotational(spheres: &Spheres) -> impl Iterator<Item = f64> {
+    let velocities = spheres.angular_velocities().iter().enumerate();
+    velocities.map(|(i, w)| 0.5 * spheres.moment_of_inertia(i) * w.dot(*w))
 }
 
 /// Potential energy \[J\] of all spheres in all forces that have one, at `time` \[s\].
@@ -36,19 +47,29 @@ pub(crate) fn potential_energy(
 
 /// Momentum \[kg m/s\], `Σ m v`.
 pub fn momentum(spheres: &Spheres) -> DVec3 {
-    sum(spheres, |m, _, v| m * v)
+    sum(terms(spheres, |m, _, v| m * v))
 }
 
-/// Angular momentum about the origin \[kg m²/s\], `Σ m x × v`.
+/// Angular momentum about the origin \[kg m²/s\], `Σ m x × v + I w`.
 pub fn angular_momentum(spheres: &Spheres) -> DVec3 {
-    sum(spheres, |m, x, v| m * x.cross(v))
+    let velocities = spheres.angular_velocities().iter().enumerate();
+    let of_spin = velocities.map(|(i, &w)| spheres.moment_of_inertia(i) * w);
+    sum(terms(spheres, |m, x, v| m * x.cross(v)).chain(of_spin))
 }
 
-fn sum(spheres: &Spheres, term: impl Fn(f64, DVec3, DVec3) -> DVec3) -> DVec3 {
+/// The term of each sphere of mass m at x with velocity v.
+fn terms(
+    spheres: &Spheres,
+    term: impl Fn(f64, DVec3, DVec3) -> DVec3,
+) -> impl Iterator<Item = DVec3> {
+    let masses = spheres.masses().iter().enumerate();
+    masses.map(move |(i, &m)| term(m, spheres.positions()[i], spheres.velocities()[i]))
+}
+
+fn sum(terms: impl Iterator<Item = DVec3>) -> DVec3 {
     let mut sums = [Sum::default(); 3];
-    for (i, &m) in spheres.masses().iter().enumerate() {
-        let term = term(m, spheres.positions()[i], spheres.velocities()[i]).to_array();
-        sums.iter_mut().zip(term).for_each(|(sum, part)| sum.add(part));
+    for term in terms {
+        sums.iter_mut().zip(term.to_array()).for_each(|(sum, part)| sum.add(part));
     }
     DVec3::from_array(sums.map(|sum| sum.value()))
 }

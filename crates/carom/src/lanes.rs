@@ -38,6 +38,16 @@ impl<S: Simd> Lanes<S> {
         [Self(first), Self(second)]
     }
 
+    /// The columns of a square, of its rows.
+    #[inline(always)]
+    pub fn transposed(rows: [Self; LANES]) -> [Self; LANES] {
+        let [Self(a), Self(b), Self(c), Self(d)] = rows;
+        let ((ac_low, ac_high), (bd_low, bd_high)) = (a.interleave(c), b.interleave(d));
+        let ((first, second), (third, fourth)) =
+            (ac_low.interleave(bd_low), ac_high.interleave(bd_high));
+        [Self(first), Self(second), Self(third), Self(fourth)]
+    }
+
     #[inline(always)]
     pub fn abs(self) -> Self {
         Self(self.0.abs())
@@ -59,6 +69,12 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub fn rotated<const BY: usize>(self) -> Self {
         Self(self.0.rotate_elements_left::<BY>())
+    }
+
+    /// The largest of them, none of which is NaN, and at least 0.
+    #[inline(always)]
+    pub fn largest(self) -> f64 {
+        self.to_array().into_iter().fold(0.0, Real::max)
     }
 
     /// From lane 0 on.
@@ -265,6 +281,20 @@ mod tests {
                     assert!(found.into_iter().zip(*alone).all(are_same), "{level:?} {found:?}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn a_square_is_transposed() {
+        #[inline(always)]
+        fn transposed<S: Simd>(simd: S) -> [[f64; LANES]; LANES] {
+            let row = |row: u8| Lanes::each(simd, [0, 1, 2, 3].map(|it| f64::from(10 * row + it)));
+            Lanes::transposed([0, 1, 2, 3].map(row)).map(Lanes::to_array)
+        }
+        for level in levels() {
+            let columns = dispatch!(level, simd => transposed(simd));
+            let expected = [0, 1, 2, 3].map(|it: u8| [0, 10, 20, 30].map(|row| f64::from(row + it)));
+            assert_eq!(columns, expected, "{level:?}");
         }
     }
 

@@ -32,6 +32,7 @@ mod emitter;
 mod error;
 mod flight;
 mod forces;
+mod friction;
 mod hash;
 mod id;
 mod integrate;
@@ -45,6 +46,7 @@ mod persistent_contact;
 mod real;
 mod report;
 pub mod respond;
+mod rotation;
 mod rule;
 mod settings;
 mod state;
@@ -58,20 +60,21 @@ mod world;
 
 pub use glam::{DQuat, DVec3};
 
-pub use bodies::{Mass, Sphere, Spheres, volume};
+pub use bodies::{Mass, SOLID_BALL, Sphere, Spheres, THIN_SHELL, volume};
 pub use collider::{Collider, Pose, Shape};
 pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;
 pub use forces::{ConstantForce, Force, Gravity, LinearForce, SphereState, ViscousDrag};
+pub use friction::Friction;
 pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId};
 pub use persistent_contact::PersistentContact;
 pub use report::{
-    BodyPair, Impact, ImpactGroup, LedgerEntry, Overlap, StageCounts, StepReport, TriggerContact,
+    BodyPair, ContactAccount, Impact, ImpactGroup, LedgerEntry, Overlap, StageCounts, StepReport, TriggerContact,
 };
 pub use settings::{
-    Bisect, Boundary, CombineRule, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings, WindBack,
+    Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings, WindBack,
 };
 pub use work::StopRequest;
 pub use world::World;

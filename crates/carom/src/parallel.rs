@@ -45,3 +45,20 @@ pub(crate) fn fill<A: Send, B: Send>(
 ) {
     f(0, both);
 }
+
+/// Does tasks that do not depend on each other, side by side.
+#[cfg(feature = "rayon")]
+pub(crate) fn for_each<T: Send>(tasks: Vec<T>, f: impl Fn(T) + Sync + Send) {
+    use rayon::prelude::*;
+    if tasks.len() == 1 {
+        tasks.into_iter().for_each(f);
+    } else {
+        tasks.into_par_iter().for_each(f);
+    }
+}
+
+/// Does tasks in their order.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn for_each<T: Send>(tasks: Vec<T>, f: impl Fn(T) + Sync + Send) {
+    tasks.into_iter().for_each(f);
+}

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::id::SphereId;
 use crate::report::BodyPair;
 
 /// Two bodies that stay in contact, and the force between them.
@@ -18,4 +19,23 @@ pub struct PersistentContact {
     pub gap: f64,
     /// Force along the normal on body 2 \[N\], >= 0; body 1 feels the opposite one.
     pub normal_force: f64,
+    /// Force of friction on body 2 \[N\], across the normal; body 1 feels the opposite one. Zero under
+    /// rules without friction.
+    pub tangential_force: DVec3,
+    /// Whether the surfaces slide on each other, or would at the least touch: friction is as large as it
+    /// can be.
+    pub is_sliding: bool,
+}
+
+impl PersistentContact {
+    /// A contact without forces.
+    pub(crate) const NONE: Self = Self {
+        between: BodyPair::Spheres(SphereId(0), SphereId(0)),
+        point: DVec3::ZERO,
+        normal: DVec3::Y,
+        gap: 0.0,
+        normal_force: 0.0,
+        tangential_force: DVec3::ZERO,
+        is_sliding: true,
+    };
 }

@@ -44,6 +44,30 @@ pub struct StepReport {
     pub unfinished_islands: u32,
     /// The work of the step, by stage.
     pub work: StageCounts,
+    /// Under the rule `contact`, what became of kinetic energy, and how good the solution is.
+    pub contact_account: ContactAccount,
+}
+
+/// What became of kinetic energy in a step under the rule `contact`, and how good the solution is.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
+pub struct ContactAccount {
+    /// What the impulses of all contacts did to kinetic energy \[J\], <= 0 but for rounding: restitution
+    /// and friction only take. The work of moving surfaces is not part of it.
+    pub impulse_work: f64,
+    /// Work of moving colliders \[J\].
+    pub surface_work: f64,
+    /// What it took to lift spheres out of surfaces, against forces that are linear \[J\]: energy that
+    /// the correction of overlaps adds.
+    pub correction_work: f64,
+    /// Sub-steps in which less of all impulses was taken, for them not to add kinetic energy.
+    pub limited_sub_steps: u32,
+    /// Largest change of a normal impulse in the last sweep of a sub-step, as a part of the largest
+    /// impulse: how far the solution is from the one that more sweeps would come to.
+    pub residual: f64,
+    /// Largest overlap before it was corrected, beyond what is left as it is, as a part of the sum of
+    /// radii.
+    pub largest_overlap: f64,
 }
 
 /// The work of a step, counted by stage: integers that depend on the world alone, not on the machine
@@ -65,6 +89,12 @@ pub struct StageCounts {
     /// Impact: iterations of the solvers of these groups, for impulses and for the forces of persistent
     /// contacts, each counted once for every contact.
     pub solver_iterations: u64,
+    /// Search: how often neighbours were found anew, under the rule `contact`.
+    pub searches: u64,
+    /// Sweep: how often all contacts were gone through, under the rule `contact`.
+    pub sweeps: u64,
+    /// Contacts that a sweep goes through at the end of the step, under the rule `contact`.
+    pub contacts: u64,
 }
 
 impl AddAssign for StageCounts {
@@ -75,6 +105,9 @@ impl AddAssign for StageCounts {
         self.cell_crossings += other.cell_crossings;
         self.groups += other.groups;
         self.solver_iterations += other.solver_iterations;
+        self.searches += other.searches;
+        self.sweeps += other.sweeps;
+        self.contacts += other.contacts;
     }
 }
 
@@ -87,6 +120,7 @@ impl StepReport {
         self.retired.clear();
         self.unfinished_islands = 0;
         self.work = StageCounts::default();
+        self.contact_account = ContactAccount::default();
     }
 }
 

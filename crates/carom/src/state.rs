@@ -14,8 +14,9 @@ use crate::forces::Force;
 use crate::id::EmitterId;
 use crate::numbered::Numbered;
 use crate::persistent_contact::PersistentContact;
+use crate::rule::contact::{self, Solver};
 use crate::rule::exact::{self, Timeline};
-use crate::settings::Settings;
+use crate::settings::{Rule, Settings};
 use crate::system::System;
 
 /// Everything a world's future depends on.
@@ -33,14 +34,22 @@ pub(crate) struct State {
     /// Under the rule `exact`, the flights of the spheres; `None` where they have to begin anew,
     /// from the spheres as they are.
     pub timeline: Option<Timeline>,
+    /// Under the rule `contact`, neighbours and the impulses of contacts.
+    pub solver: Solver,
 }
 
 impl State {
     /// What a step reads, and what it moves.
     pub fn split(&mut self) -> (System<'_>, &mut Motion) {
-        let Self { settings, forces, colliders, spheres, .. } = self;
+        let (system, motion, _) = self.split_with_solver();
+        (system, motion)
+    }
+
+    /// What a step reads, what it moves, and what the rule `contact` keeps.
+    pub fn split_with_solver(&mut self) -> (System<'_>, &mut Motion, &mut Solver) {
+        let Self { settings, forces, colliders, spheres, solver, .. } = self;
         let Spheres { properties, motion } = spheres;
-        (System::new(settings, forces, colliders, properties), motion)
+        (System::new(settings, forces, colliders, properties), motion, solver)
     }
 
     /// All spheres as they are now.
@@ -55,12 +64,17 @@ impl State {
     pub fn persistent_contacts(&self) -> Vec<PersistentContact> {
         let Instant { system, time, .. } = self.now();
         let list = |timeline| exact::persistent_contacts(timeline, &system, time);
-        self.timeline.as_ref().map(list).unwrap_or_default()
+        match self.settings.rule {
+            Rule::Contact(_) => contact::persistent_contacts(&self.solver, &system),
+            _ => self.timeline.as_ref().map(list).unwrap_or_default(),
+        }
     }
 
-    /// The state, to be changed from outside: nothing that was predicted holds any more.
+    /// The state, to be changed from outside: nothing that was predicted holds any more, and neighbours
+    /// are others.
     pub fn changed(&mut self) -> &mut Self {
         self.timeline = None;
+        self.solver.set_stale();
         self
     }
 

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::collider::{Collider, Pose, Shape};
+use crate::friction::Friction;
 use crate::id::ColliderId;
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
@@ -11,6 +12,7 @@ pub(crate) struct Surface {
     pub form: Form,
     pub collider: ColliderId,
     pub restitution: f64,
+    pub friction: Friction,
     pub role: Role,
     pub motion: SurfaceMotion,
 }
@@ -121,14 +123,15 @@ pub(crate) struct Rectangle {
 /// Appends the surfaces of a collider. Those of a solid box are its volume and then its faces, in
 /// the order -x, +x, -y, +y, -z, +z.
 pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surface>) {
-    let Collider { shape, pose, velocity, angular_velocity, restitution, trigger } = *collider;
+    let Collider { shape, pose, velocity, angular_velocity, restitution, friction, trigger } =
+        *collider;
     let center = pose.position;
     let motion = SurfaceMotion { origin: center, velocity, angular_velocity };
     let rotation = pose.rotation.normalize();
     let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
     let mut add = |form, role| {
         let role = if trigger { Role::Reports } else { role };
-        surfaces.push(Surface { form, collider: id, restitution, role, motion });
+        surfaces.push(Surface { form, collider: id, restitution, friction, role, motion });
     };
     match shape {
         Shape::Sphere { radius } => add(Form::Sphere { center, radius }, Role::Deflects),

@@ -23,7 +23,7 @@ impl Instant<'_> {
     pub fn pair(&self, i: u32, j: u32, tolerance: f64) -> Contact {
         let (first, second) = (i.min(j), i.max(j));
         let (i, j) = (first as usize, second as usize);
-        let Motion { position, velocity } = self.motion;
+        let Motion { position, velocity, .. } = self.motion;
         let radii = [self.system.spheres.radius[i], self.system.spheres.radius[j]];
         let separation = sphere_sphere([position[i], position[j]], radii);
         let normal = separation.normal;

@@ -1,4 +1,4 @@
-/// Coefficient of restitution of a contact, from those of the two bodies.
+/// Coefficient of a contact, of restitution or friction, from those of the two bodies.
 ///
 /// ```
 /// use carom::CombineRule;
@@ -18,4 +18,6 @@ pub enum CombineRule {
     Maximum,
     /// `(e1 + e2) / 2`.
     Average,
+    /// `sqrt(e1 e2)`.
+    GeometricMean,
 }

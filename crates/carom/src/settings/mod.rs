@@ -4,6 +4,7 @@
 mod bisect;
 mod boundary;
 mod combine_rule;
+mod contact;
 mod discrete;
 mod exact;
 mod impact_law;
@@ -13,6 +14,7 @@ mod rule;
 pub use bisect::{Bisect, WindBack};
 pub use boundary::Boundary;
 pub use combine_rule::CombineRule;
+pub use contact::Contact;
 pub use discrete::Discrete;
 pub use exact::Exact;
 pub use impact_law::ImpactLaw;
@@ -45,6 +47,8 @@ pub struct Settings {
     pub rule: Rule,
     /// Restitution of a contact, from that of its two bodies.
     pub combine_rule: CombineRule,
+    /// Friction of a contact, from what both of its bodies say; each coefficient of its own.
+    pub friction_combine_rule: CombineRule,
     /// Whether spheres collide with one another; colliders they always collide with.
     pub spheres_collide: bool,
     /// What is around the spheres: part of the world, as its colliders are, and not of the rule, even
@@ -53,11 +57,12 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// Rule `exact`, product of restitutions, spheres collide, open space.
+    /// Rule `exact`, product of restitutions, geometric mean of frictions, spheres collide, open space.
     fn default() -> Self {
         Self {
             rule: Rule::default(),
             combine_rule: CombineRule::default(),
+            friction_combine_rule: CombineRule::GeometricMean,
             spheres_collide: true,
             boundary: Boundary::default(),
         }
@@ -73,6 +78,11 @@ impl Settings {
     /// The same settings with this rule for the restitution of a contact.
     pub fn with_combine_rule(self, combine_rule: CombineRule) -> Self {
         Self { combine_rule, ..self }
+    }
+
+    /// The same settings with this rule for the friction of a contact.
+    pub fn with_friction_combine_rule(self, friction_combine_rule: CombineRule) -> Self {
+        Self { friction_combine_rule, ..self }
     }
 
     /// The same settings, with or without collisions between spheres.
@@ -97,6 +107,7 @@ impl Settings {
             Rule::Discrete(_) => Ok(()),
             Rule::Bisect(parameters) => parameters.validate(),
             Rule::Exact(parameters) => parameters.validate(),
+            Rule::Contact(parameters) => parameters.validate(),
         }
     }
 }

@@ -1,4 +1,4 @@
-use super::{Bisect, Discrete, Exact};
+use super::{Bisect, Contact, Discrete, Exact};
 
 /// How a frame is taken.
 ///
@@ -40,6 +40,11 @@ pub enum Rule {
     /// happens at its own time, however many there are in a frame and however fast they are. A
     /// frame only says when to look.
     Exact(Exact),
+    /// The rule for heaps, friction and games: frames are cut into sub-steps, and in each the contacts
+    /// of all spheres are solved together. Its cost does not depend on how many impacts there are.
+    ///
+    /// Times of impact are those of a sub-step, and overlaps small but not zero.
+    Contact(Contact),
 }
 
 impl Default for Rule {
@@ -63,5 +68,11 @@ impl From<Bisect> for Rule {
 impl From<Exact> for Rule {
     fn from(parameters: Exact) -> Self {
         Self::Exact(parameters)
+    }
+}
+
+impl From<Contact> for Rule {
+    fn from(parameters: Contact) -> Self {
+        Self::Contact(parameters)
     }
 }

@@ -2,11 +2,12 @@
 
 use crate::bodies::{Motion, Spheres};
 use crate::clock::Clock;
-use crate::detect::contacts::Search;
+use crate::detect::contacts::{self, Search};
 use crate::emitter::{self, Emission, EmitterState};
 use crate::error::Error;
 use crate::numbered::Numbered;
-use crate::report::StepReport;
+use crate::report::{StepReport, TriggerContact};
+use crate::rule::contact::{self, Solver};
 use crate::rule::{bisect, discrete};
 use crate::state::State;
 use crate::work::Work;
@@ -16,6 +17,7 @@ use crate::work::Work;
 pub(crate) struct Scratch {
     pub discrete: discrete::Scratch,
     pub bisect: bisect::Scratch,
+    pub contact: contact::Scratch,
     pub search: Search,
     /// Motion at the start of the step, to return to if it fails.
     pub start: Motion,
@@ -68,12 +70,22 @@ impl<'a> Attempt<'a> {
                 before.restore(self.state);
             }
             self.state.timeline = None;
+            self.state.solver = Solver::default();
             self.report.clear();
             return Err(error);
         }
         self.state.clock = self.end;
         self.state.advance_colliders(self.length);
         Ok(())
+    }
+
+    /// Reports the spheres that are inside triggers now.
+    pub fn report_triggers(&mut self) {
+        let Self { state, scratch, report, .. } = self;
+        let now = state.now();
+        contacts::of_triggers(&now, 0.0, &mut scratch.search, |contact| {
+            report.triggers.extend(TriggerContact::of(&contact, &now.system));
+        });
     }
 
     /// Emits the spheres that are due at `time` \[s\]; notes what was before, the first time.

@@ -2,10 +2,8 @@
 //! emitted at its own time.
 
 use super::attempt::Attempt;
-use crate::detect::contacts;
 use crate::emitter;
 use crate::error::{Error, Subject};
-use crate::report::TriggerContact;
 use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Until};
 use crate::settings::Exact;
 use crate::state::State;
@@ -23,7 +21,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
         attempt.state.timeline = Some(timeline);
         Ok(())
     })?;
-    report_triggers(&mut attempt);
+    attempt.report_triggers();
     Ok(())
 }
 
@@ -95,21 +93,13 @@ fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) {
 fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result<(), Error> {
     let (start, length) = (attempt.start, attempt.length);
     let (system, motion) = attempt.state.split();
+    motion.spin.advance(length);
     exact::end(timeline, &system, motion, Span { start, length, end }).map_err(
         |(index, quantity)| {
             let sphere = attempt.state.spheres.ids()[index];
             Error::NonFiniteState { sphere, quantity, time: start }
         },
     )
-}
-
-/// Reports the spheres that are inside triggers at the end of the attempt.
-fn report_triggers(attempt: &mut Attempt) {
-    let Attempt { state, scratch, report, .. } = attempt;
-    let now = state.now();
-    contacts::of_triggers(&now, 0.0, &mut scratch.search, |contact| {
-        report.triggers.extend(TriggerContact::of(&contact, &now.system));
-    });
 }
 
 /// Why a step that starts at `time` \[s\] was not taken to its end.

@@ -1,18 +1,17 @@
 //! Steps by a rule that knows nothing but frames: what is due is emitted at the start.
 
 use super::attempt::{Attempt, Scratch};
-use crate::bodies::Motion;
 use crate::emitter;
 use crate::error::Error;
 use crate::interval::Interval;
 use crate::report::StepReport;
-use crate::system::System;
+use crate::state::State;
 
 /// Takes a step in which `advance` moves the spheres over the frame. If that fails, the spheres are
 /// where they were.
 pub(super) fn step(
-    mut attempt: Attempt,
-    advance: impl FnOnce(&System, &mut Motion, Interval, &mut Scratch, &mut StepReport),
+    attempt: &mut Attempt,
+    advance: impl FnOnce(&mut State, Interval, &mut Scratch, &mut StepReport),
 ) -> Result<(), Error> {
     let frame = Interval { time: attempt.start, h: attempt.length };
     attempt.state.check_emitters(frame.time)?;
@@ -20,8 +19,7 @@ pub(super) fn step(
         attempt.scratch.start.copy_all(&attempt.state.spheres.motion);
         attempt.emit(frame.time + emitter::DUE_TOLERANCE);
         let Attempt { state, scratch, report, .. } = attempt;
-        let (system, motion) = state.split();
-        advance(&system, motion, frame, scratch, report);
+        advance(state, frame, scratch, report);
         let checked = state.check_finite();
         if checked.is_err() {
             std::mem::swap(&mut state.spheres.motion, &mut scratch.start);

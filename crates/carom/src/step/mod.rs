@@ -12,7 +12,7 @@ use attempt::Attempt;
 use crate::error::{Error, Subject};
 use crate::report::StepReport;
 pub(crate) use crate::rule::exact::Until;
-use crate::rule::{bisect, discrete};
+use crate::rule::{bisect, contact, discrete};
 use crate::settings::Rule;
 use crate::state::State;
 use crate::validate;
@@ -48,18 +48,33 @@ pub(crate) fn step(
     let requirement = "`exact` to know of events";
     validate::require(knows_events, "rule", requirement, "one that knows nothing but frames")
         .map_err(|invalid| invalid.about(Subject::Settings))?;
-    let attempt = Attempt::new(state, scratch, report, work, dt);
+    let mut attempt = Attempt::new(state, scratch, report, work, dt);
     match rule {
         Rule::Discrete(parameters) => {
-            by_frame::step(attempt, |system, motion, frame, scratch, report| {
-                discrete::step(system, parameters, motion, frame, &mut scratch.discrete, report);
+            by_frame::step(&mut attempt, |state, frame, scratch, report| {
+                let (system, motion) = state.split();
+                let scratch = &mut scratch.discrete;
+                discrete::step(&system, parameters, motion, frame, scratch, report);
+                motion.spin.advance(frame.h);
             })
         }
         Rule::Bisect(parameters) => {
-            by_frame::step(attempt, |system, motion, frame, scratch, report| {
-                bisect::step(system, parameters, motion, frame, &mut scratch.bisect, report);
+            by_frame::step(&mut attempt, |state, frame, scratch, report| {
+                let (system, motion) = state.split();
+                let scratch = &mut scratch.bisect;
+                bisect::step(&system, parameters, motion, frame, scratch, report);
+                motion.spin.advance(frame.h);
             })
         }
         Rule::Exact(parameters) => by_event::step(attempt, parameters, until),
+        Rule::Contact(parameters) => {
+            by_frame::step(&mut attempt, |state, frame, scratch, report| {
+                let (system, motion, solver) = state.split_with_solver();
+                let memory = (solver, &mut scratch.contact);
+                contact::step(&system, parameters, motion, frame, memory, report);
+            })?;
+            attempt.report_triggers();
+            Ok(())
+        }
     }
 }

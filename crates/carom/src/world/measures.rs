@@ -8,9 +8,14 @@ use crate::invariants;
 use crate::report::Overlap;
 
 impl World {
-    /// Kinetic energy \[J\].
+    /// Kinetic energy \[J\], that of rotation included.
     pub fn kinetic_energy(&self) -> f64 {
         invariants::kinetic_energy(self.spheres())
+    }
+
+    /// Kinetic energy of rotation \[J\].
+    pub fn rotational_energy(&self) -> f64 {
+        invariants::rotational_energy(self.spheres())
     }
 
     /// Potential energy \[J\] in all forces that have one.
@@ -28,7 +33,7 @@ impl World {
         invariants::momentum(self.spheres())
     }
 
-    /// Angular momentum about the origin \[kg m²/s\].
+    /// Angular momentum about the origin \[kg m²/s\], that of spin included.
     pub fn angular_momentum(&self) -> DVec3 {
         invariants::angular_momentum(self.spheres())
     }

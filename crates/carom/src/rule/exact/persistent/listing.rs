@@ -29,6 +29,7 @@ pub(crate) fn list(
                 normal: touch.normal,
                 gap: touch.gap,
                 normal_force,
+                ..PersistentContact::NONE
             };
             (touch.bodies, contact)
         }));

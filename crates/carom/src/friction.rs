@@ -1,0 +1,102 @@
+//! Friction of two bodies in contact.
+
+use crate::error::InvalidValue;
+use crate::settings::CombineRule;
+use crate::validate;
+
+/// What a body says of friction at its surface. Where it says nothing, its partner's value counts; where
+/// both are silent, there is none.
+///
+/// Only the rule `contact` lets friction act.
+///
+/// ```
+/// use carom::{DVec3, Friction, Sphere};
+///
+/// let ball = Sphere::new(DVec3::ZERO, 0.03)
+///     .with_friction(Friction::sliding(0.2).with_rolling(0.01).with_spinning(0.04));
+/// assert_eq!(ball.friction.sliding, Some(0.2));
+/// ```
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Friction {
+    /// Coulomb's coefficient, >= 0: the tangential force is at most this part of the normal force.
+    pub sliding: Option<f64>,
+    /// Coefficient of rolling friction, >= 0: the torque against rolling is at most this part of the
+    /// normal force, times the radius. A ball that rolls on a level plane slows down by 5/7 of this times g.
+    pub rolling: Option<f64>,
+    /// Coefficient of spinning friction, >= 0: the torque about the normal is at most this part of the
+    /// normal force, times the radius.
+    pub spinning: Option<f64>,
+    /// Coefficient of tangential restitution in \[0, 1\]: where friction suffices, an impact turns
+    /// this part of the tangential speed round. 1 for a superball.
+    pub tangential_restitution: Option<f64>,
+}
+
+impl From<f64> for Friction {
+    /// Coulomb friction with this coefficient.
+    fn from(sliding: f64) -> Self {
+        Self::sliding(sliding)
+    }
+}
+
+impl Friction {
+    /// Coulomb friction with this coefficient; nothing is said of the rest.
+    pub fn sliding(coefficient: f64) -> Self {
+        Self { sliding: Some(coefficient), ..Self::default() }
+    }
+
+    /// The same friction with this coefficient of rolling friction.
+    pub fn with_rolling(self, coefficient: f64) -> Self {
+        Self { rolling: Some(coefficient), ..self }
+    }
+
+    /// The same friction with this coefficient of spinning friction.
+    pub fn with_spinning(self, coefficient: f64) -> Self {
+        Self { spinning: Some(coefficient), ..self }
+    }
+
+    /// The same friction with this coefficient of tangential restitution.
+    pub fn with_tangential_restitution(self, coefficient: f64) -> Self {
+        Self { tangential_restitution: Some(coefficient), ..self }
+    }
+
+    pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
+        let non_negative = |field, value: Option<f64>| {
+            value.map_or(Ok(()), |value| validate::non_negative(field, value))
+        };
+        non_negative("friction", self.sliding)?;
+        non_negative("rolling_friction", self.rolling)?;
+        non_negative("spinning_friction", self.spinning)?;
+        let restitution = self.tangential_restitution;
+        restitution.map_or(Ok(()), |it| validate::unit_interval("tangential_restitution", it))
+    }
+}
+
+/// Friction of a contact.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct ContactFriction {
+    pub sliding: f64,
+    pub rolling: f64,
+    pub spinning: f64,
+    pub tangential_restitution: f64,
+}
+
+impl ContactFriction {
+    /// Friction of the contact of two bodies.
+    pub fn of(bodies: [Friction; 2], rule: CombineRule) -> Self {
+        let [first, second] = bodies;
+        let combine = |first: Option<f64>, second: Option<f64>| match (first, second) {
+            (Some(first), Some(second)) => rule.combine(first, second),
+            (first, second) => first.or(second).unwrap_or(0.0),
+        };
+        Self {
+            sliding: combine(first.sliding, second.sliding),
+            rolling: combine(first.rolling, second.rolling),
+            spinning: combine(first.spinning, second.spinning),
+            tangential_restitution: combine(
+                first.tangential_restitution,
+                second.tangential_restitution,
+            ),
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! Rotations that go on.
+
+use glam::{DQuat, DVec3};
+
+/// A rotation after it has gone on for `h` \[s\] with an angular velocity \[rad/s\]:
+/// `exp(h w / 2) q`, of length 1 where something turns.
+pub(crate) fn turned(rotation: DQuat, angular_velocity: DVec3, h: f64) -> DQuat {
+    let turn = angular_velocity * h;
+    let angle = turn.dot(turn).sqrt();
+    if angle > 0.0 {
+        let (sine, cosine) = libm::sincos(0.5 * angle);
+        let axis = turn / angle;
+        DQuat::from_xyzw(axis.x * sine, axis.y * sine, axis.z * sine, cosine) * rotation.normalize()
+    } else {
+        rotation
+    }
+}

@@ -1,0 +1,278 @@
+//! Pairs of spheres in batches, no sphere in two pairs of a batch: what one pair changes no other of its
+//! batch reads, so that a batch is solved side by side with the bits of one pair after the other.
+
+use crate::friction::ContactFriction;
+use crate::lanes::LANES;
+
+/// One number of each pair of a batch.
+pub(super) type Quad = [f64; LANES];
+
+/// Batches between two in which the same sphere is: a batch that follows at once would wait for what
+/// the one before it writes.
+const APART: u32 = 2;
+
+/// Contacts of pairs of spheres, 1 and 2, by run of slots. Lanes without a pair hold a sphere twice,
+/// with an effective mass of zero.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(32))]
+pub(super) struct PairBatch {
+    /// Slots of spheres 1, from the start of the run.
+    pub first: [u32; LANES],
+    /// Slots of spheres 2, from the start of the run.
+    pub second: [u32; LANES],
+    /// Unit normals from 1 to 2.
+    pub normal: [Quad; 3],
+    /// Normal impulses \[N s\].
+    pub impulse: Quad,
+    /// The impulses of the sub-step before \[N s\].
+    pub previous: Quad,
+    /// What the normal velocity is to be after the sub-step at least, with the opposite sign \[m/s\]: the
+    /// gap may close, and a bounce separates.
+    pub bias: Quad,
+    /// Speed of approach of an impact \[m/s\]; 0 if there is none.
+    pub approach: Quad,
+    /// m1 m2 / (m1 + m2) \[kg\]
+    pub effective_mass: Quad,
+    /// \[m\]
+    pub radius_sum: Quad,
+    pub restitution: Quad,
+}
+
+/// Friction of the contacts of a batch.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C, align(32))]
+pub(super) struct FrictionBatch {
+    /// Tangential impulses \[N s\].
+    pub tangential: [Quad; 3],
+    /// Slip that an impact is to end with \[m/s\].
+    pub slip: [Quad; 3],
+    /// 1 / ((1 + 1/k1)/m1 + (1 + 1/k2)/m2) \[kg\]
+    pub tangential_mass: Quad,
+    pub sliding: Quad,
+    pub tangential_restitution: Quad,
+}
+
+/// Rolling and spinning friction of the contacts of a batch.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C, align(32))]
+pub(super) struct RollingBatch {
+    /// Angular impulses on sphere 2, against which 1 feels the opposite \[N m s\].
+    pub angular: [Quad; 3],
+    /// Coefficients of rolling friction, times the radius \[m\].
+    pub rolling: Quad,
+    /// Coefficients of spinning friction, times the radius \[m\].
+    pub spinning: Quad,
+    /// 1 / (1/I1 + 1/I2) \[kg m²\]
+    pub inertia: Quad,
+    /// 1 / r of spheres 1 and 2 \[1/m\].
+    pub curvature: [Quad; 2],
+}
+
+/// What a contact keeps from search to search.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Impulses {
+    /// \[N s\]
+    pub normal: f64,
+    /// Normal impulse of the sub-step before \[N s\].
+    pub previous: f64,
+    /// \[N s\]
+    pub tangential: [f64; 3],
+    /// \[N m s\]
+    pub angular: [f64; 3],
+}
+
+impl Impulses {
+    /// Whether there is anything to start from.
+    pub fn is_some(&self) -> bool {
+        self.normal > 0.0
+    }
+
+    /// The same impulses as seen from the other body.
+    pub fn reversed(self) -> Self {
+        let minus = |vector: [f64; 3]| vector.map(|part| -part);
+        Self { tangential: minus(self.tangential), angular: minus(self.angular), ..self }
+    }
+}
+
+/// A pair of spheres, in slots from the start of a run, and what is known of its contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pair {
+    pub slots: [u32; 2],
+    pub radii: [f64; 2],
+    /// 1/m of both \[1/kg\].
+    pub inverse_masses: [f64; 2],
+    /// 1/(k m) of both \[1/kg\].
+    pub inverse_inertias: [f64; 2],
+    pub restitution: f64,
+    pub friction: ContactFriction,
+    pub impulses: Impulses,
+}
+
+/// The pairs of a run of slots, in batches.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Batches {
+    pub pairs: Vec<PairBatch>,
+    /// As many, or none where there is no friction.
+    pub frictions: Vec<FrictionBatch>,
+    /// As many, or none where there is no rolling friction.
+    pub rollings: Vec<RollingBatch>,
+    /// Pairs in each batch.
+    counts: Vec<u8>,
+    /// A batch with room that is not before each; itself while it has room.
+    with_room: Vec<u32>,
+    /// One more than the batch that each slot is in last; 0 for none.
+    last: Vec<u32>,
+}
+
+impl Batches {
+    /// Makes ready for the pairs of a run of so many slots.
+    pub fn clear(&mut self, slots: usize) {
+        self.pairs.clear();
+        self.frictions.clear();
+        self.rollings.clear();
+        self.counts.clear();
+        self.with_room.clear();
+        self.last.clear();
+        self.last.resize(slots, 0);
+    }
+
+    /// Adds a pair to the first batch that is behind all others of its spheres and has room, so that
+    /// pairs that share a sphere keep their order.
+    pub fn push(&mut self, pair: &Pair, kinds: ContactKinds) {
+        let [first, second] = pair.slots;
+        let last = self.last[first as usize].max(self.last[second as usize]);
+        let batch = self.first_with_room(if last == 0 { 0 } else { last - 1 + APART });
+        while self.pairs.len() <= batch as usize {
+            self.push_batch(kinds);
+        }
+        let (number, lane) = (batch as usize, self.counts[batch as usize] as usize);
+        self.counts[number] += 1;
+        if lane + 1 == LANES {
+            self.with_room[number] = batch + 1;
+        }
+        self.last[first as usize] = batch + 1;
+        self.last[second as usize] = batch + 1;
+        self.fill(number, lane, pair);
+    }
+
+    fn push_batch(&mut self, kinds: ContactKinds) {
+        self.with_room.push(self.pairs.len() as u32);
+        self.counts.push(0);
+        self.pairs.push(PairBatch::EMPTY);
+        if kinds.friction {
+            self.frictions.push(FrictionBatch::default());
+        }
+        if kinds.rolling {
+            self.rollings.push(RollingBatch::default());
+        }
+    }
+
+    /// The first batch from this one on that has room, which may be one that is not there yet.
+    fn first_with_room(&mut self, from: u32) -> u32 {
+        let next = |table: &[u32], batch: u32| table.get(batch as usize).copied().unwrap_or(batch);
+        let mut found = from;
+        while next(&self.with_room, found) != found {
+            found = next(&self.with_room, found);
+        }
+        // Those on the way lead there at once from now on.
+        let mut batch = from;
+        while batch != found {
+            let following = self.with_room[batch as usize];
+            self.with_room[batch as usize] = found;
+            batch = following;
+        }
+        found
+    }
+
+    fn fill(&mut self, number: usize, lane: usize, pair: &Pair) {
+        let [first, second] = pair.slots;
+        let batch = &mut self.pairs[number];
+        if lane == 0 {
+            (batch.first, batch.second) = ([first; LANES], [first; LANES]);
+        }
+        (batch.first[lane], batch.second[lane]) = (first, second);
+        let inverse_mass = pair.inverse_masses[0] + pair.inverse_masses[1];
+        batch.effective_mass[lane] = 1.0 / inverse_mass;
+        batch.radius_sum[lane] = pair.radii[0] + pair.radii[1];
+        batch.restitution[lane] = pair.restitution;
+        batch.impulse[lane] = pair.impulses.normal;
+        batch.previous[lane] = pair.impulses.previous;
+        let inverse_inertia = pair.inverse_inertias[0] + pair.inverse_inertias[1];
+        if let Some(friction) = self.frictions.get_mut(number) {
+            set(&mut friction.tangential, lane, pair.impulses.tangential);
+            friction.tangential_mass[lane] = 1.0 / (inverse_mass + inverse_inertia);
+            friction.sliding[lane] = pair.friction.sliding;
+            friction.tangential_restitution[lane] = pair.friction.tangential_restitution;
+        }
+        if let Some(rolling) = self.rollings.get_mut(number) {
+            let [r1, r2] = pair.radii;
+            let radius = r1 * r2 / (r1 + r2);
+            let [i1, i2] = pair.inverse_inertias;
+            set(&mut rolling.angular, lane, pair.impulses.angular);
+            rolling.rolling[lane] = pair.friction.rolling * radius;
+            rolling.spinning[lane] = pair.friction.spinning * radius;
+            rolling.inertia[lane] = 1.0 / (i1 / (r1 * r1) + i2 / (r2 * r2));
+            (rolling.curvature[0][lane], rolling.curvature[1][lane]) = (1.0 / r1, 1.0 / r2);
+        }
+    }
+
+    /// Every contact: its batch, its lane and its slots.
+    pub fn contacts(&self) -> impl Iterator<Item = (usize, usize, [u32; 2])> {
+        let lanes = |number: usize| 0..self.counts[number] as usize;
+        (0..self.pairs.len()).flat_map(move |number| {
+            let batch = &self.pairs[number];
+            lanes(number).map(move |lane| (number, lane, [batch.first[lane], batch.second[lane]]))
+        })
+    }
+
+    /// What a contact keeps from search to search. An impact leaves nothing to start from.
+    pub fn impulses(&self, number: usize, lane: usize) -> Impulses {
+        let batch = &self.pairs[number];
+        let bounces = batch.bias[lane] < 0.0;
+        Impulses {
+            normal: if bounces { 0.0 } else { batch.impulse[lane] },
+            previous: batch.previous[lane],
+            tangential: self.frictions.get(number).map_or([0.0; 3], |it| get(&it.tangential, lane)),
+            angular: self.rollings.get(number).map_or([0.0; 3], |it| get(&it.angular, lane)),
+        }
+    }
+
+    pub fn count(&self) -> usize {
+        self.counts.iter().map(|&count| count as usize).sum()
+    }
+}
+
+impl PairBatch {
+    const EMPTY: Self = Self {
+        first: [0; LANES],
+        second: [0; LANES],
+        normal: [[0.0; LANES]; 3],
+        impulse: [0.0; LANES],
+        previous: [0.0; LANES],
+        bias: [0.0; LANES],
+        approach: [0.0; LANES],
+        effective_mass: [0.0; LANES],
+        radius_sum: [0.0; LANES],
+        restitution: [0.0; LANES],
+    };
+}
+
+/// What occurs in the contacts of a world.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct ContactKinds {
+    /// An impact may give something back.
+    pub bounce: bool,
+    /// There is friction of any kind.
+    pub friction: bool,
+    /// There is rolling or spinning friction.
+    pub rolling: bool,
+}
+
+/// A component of each vector of a batch.
+pub(super) fn get(vectors: &[Quad; 3], lane: usize) -> [f64; 3] {
+    [vectors[0][lane], vectors[1][lane], vectors[2][lane]]
+}
+
+pub(super) fn set(vectors: &mut [Quad; 3], lane: usize, vector: [f64; 3]) {
+    (vectors[0][lane], vectors[1][lane], vectors[2][lane]) = (vector[0], vector[1], vector[2]);
+}

@@ -1,0 +1,80 @@
+//! No impulse adds kinetic energy: neither restitution in a group of contacts, nor an impulse to start
+//! from that is no longer needed.
+
+use super::accelerate::{Others, accelerated};
+use super::row::Row;
+use super::slots::Run;
+use super::solver::Solver;
+use super::sub_step::SubStep;
+use crate::interval::Interval;
+use crate::report::StepReport;
+use crate::system::System;
+
+/// Gains up to this part of the kinetic energy are rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// Takes less of all impulses where together they would add kinetic energy, and accounts for what they
+/// took.
+///
+/// With the velocities v before them and v + d after, the kinetic energy of `v + s d` is a parabola in s
+/// that begins with a descent; s is the largest part that adds nothing. Momentum is kept for any s.
+///
+/// Moving surfaces do work: where there are any, it is accounted for, and nothing is taken back.
+pub(super) fn keep(
+    system: &System,
+    frame: Interval,
+    solver: &mut Solver,
+    sub_step: &SubStep,
+    report: &mut StepReport,
+) {
+    let account = &mut report.contact_account;
+    let before = solver.energy_before;
+    solver.slabs.each(&mut solver.slots, |run, slab| slab.found.energy = run.kinetic_energy());
+    let after = solver.slabs.energy();
+    if solver.has_moving_surfaces {
+        let surfaces = solver.slabs.iter().flat_map(|slab| &slab.surfaces);
+        let work = surfaces.map(|contact| contact.work()).sum::<f64>();
+        account.surface_work += work;
+        account.impulse_work += after - before - work;
+        return;
+    }
+    if after - before <= ROUNDING * before {
+        account.impulse_work += after - before;
+        return;
+    }
+    let others = solver.has_other_forces.then_some((system, frame.time + sub_step.time));
+    let h = sub_step.h;
+    solver.slabs.each(&mut solver.slots, |run, slab| {
+        slab.found.energy = of_change(&run, h, others);
+    });
+    // K(s) = before + s slope + s² change, with the energy of the change alone.
+    let change = solver.slabs.energy();
+    let slope = (after - before) - change;
+    let part = if change > 0.0 { (-slope / change).clamp(0.0, 1.0) } else { 0.0 };
+    solver.slabs.each_run(&mut solver.slots, |mut run| take(&mut run, h, others, part));
+    account.limited_sub_steps += 1;
+}
+
+/// Kinetic energy of what the impulses changed \[J\].
+fn of_change(run: &Run, h: f64, others: Others) -> f64 {
+    let of = |now: Row, before: Row| {
+        (now.vector() - before.vector()).length_squared() / now.number()
+    };
+    let velocities = (0..run.velocity.len())
+        .map(|slot| of(run.velocity[slot], accelerated(run, slot, h, others)));
+    let spins = run.spin.iter().zip(&*run.spin_before).map(|(now, before)| of(*now, *before));
+    0.5 * (velocities.sum::<f64>() + spins.sum::<f64>())
+}
+
+/// Takes a part of what the impulses changed.
+fn take(run: &mut Run, h: f64, others: Others, part: f64) {
+    let between = |before: Row, now: Row| {
+        now.with_vector(before.vector() + part * (now.vector() - before.vector()))
+    };
+    for slot in 0..run.velocity.len() {
+        run.velocity[slot] = between(accelerated(run, slot, h, others), run.velocity[slot]);
+    }
+    for (now, before) in run.spin.iter_mut().zip(&*run.spin_before) {
+        *now = between(*before, *now);
+    }
+}

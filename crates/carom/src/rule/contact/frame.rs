@@ -1,0 +1,82 @@
+//! The beginning and the end of a frame: from the world to the solver, and back.
+
+use super::batch::ContactKinds;
+use super::slab::{Found, Slabs};
+use super::solver::Solver;
+use super::surfaces;
+use crate::bodies::Motion;
+use crate::friction::Friction;
+use crate::interval::Interval;
+use crate::report::StepReport;
+use crate::rotation;
+use crate::settings::Contact;
+use crate::system::System;
+
+/// Takes over spheres, forces and surfaces from the world.
+pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
+    let ids = &system.spheres.id;
+    let kinds = kinds_of(system);
+    if solver.is_stale || !solver.slots.are_of(ids) || solver.kinds != kinds {
+        solver.slots.follow(ids);
+        solver.kept.collect(&solver.slots, &solver.slabs, ids.len());
+        let order: Vec<u32> = (0..ids.len() as u32).collect();
+        solver.slots.arrange(&order, ids);
+        solver.slabs = Slabs::of_one(ids.len());
+        (solver.kinds, solver.is_stale, solver.is_collected) = (kinds, true, true);
+    }
+    if kinds.friction || !motion.spin.angular_velocity.is_empty() {
+        motion.spin.make_room(ids.len());
+    }
+    solver.slots.read(system, motion, kinds.friction);
+    solver.has_other_forces = solver.slots.read_forces(system);
+    let accelerations = &solver.slots.acceleration;
+    let is_one = accelerations.windows(2).all(|two| two[0] == two[1]);
+    let first = accelerations.first().copied().unwrap_or_default();
+    let is_common = is_one && first.number() == 0.0 && !solver.has_other_forces;
+    solver.common_acceleration = is_common.then(|| first.vector());
+    solver.has_moving_surfaces = system.surfaces.iter().any(|it| !it.motion.is_at_rest());
+    // The bounds of moving surfaces are those of now.
+    solver.is_stale |= solver.has_moving_surfaces;
+    surfaces::places_after(system.surfaces, 0.0, &mut solver.places);
+}
+
+/// What occurs in the contacts of this world.
+fn kinds_of(system: &System) -> ContactKinds {
+    let spheres = system.spheres;
+    let largest = spheres.restitution.iter().copied().fold(0.0, f64::max);
+    let frictions = || {
+        let of_surfaces = system.surfaces.iter().map(|surface| surface.friction);
+        spheres.friction.iter().copied().chain(of_surfaces)
+    };
+    let is_some = |coefficient: Option<f64>| coefficient.is_some_and(|it| it > 0.0);
+    let rolls = |it: Friction| is_some(it.rolling) || is_some(it.spinning);
+    let rolling = frictions().any(rolls);
+    ContactKinds {
+        bounce: system.settings.combine_rule.combine(largest, largest) > 0.0,
+        friction: rolling || frictions().any(|it| is_some(it.sliding)),
+        rolling,
+    }
+}
+
+/// Gives the world where spheres are and how they move.
+pub(super) fn end(
+    motion: &mut Motion,
+    frame: Interval,
+    parameters: Contact,
+    solver: &mut Solver,
+    report: &mut StepReport,
+) {
+    solver.slots.write(motion);
+    let h = frame.h / f64::from(parameters.sub_steps);
+    if solver.slots.turn.is_empty() {
+        motion.spin.advance(frame.h);
+    }
+    for (slot, turn) in solver.slots.turn.iter().enumerate() {
+        let orientation = &mut motion.spin.orientation[solver.slots.index[slot] as usize];
+        let radius = solver.slots.position[slot].number();
+        *orientation = rotation::turned(*orientation, turn.vector() / radius, h);
+    }
+    let contacts = solver.slabs.iter().map(|slab| slab.batches.count() + slab.surfaces.len());
+    report.work.contacts += contacts.sum::<usize>() as u64;
+    solver.slabs.iter_mut().for_each(|slab| slab.found = Found::default());
+}

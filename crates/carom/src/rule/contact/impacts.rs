@@ -1,0 +1,80 @@
+//! Impacts of a sub-step, as they are reported.
+
+use glam::DVec3;
+
+use super::batch;
+use super::slab::Slab;
+use super::solver::Solver;
+use super::sub_step::SubStep;
+use crate::report::{BodyPair, Impact, StepReport};
+use crate::system::System;
+
+/// Reports the contacts that began with an impact, in order of their bodies.
+pub(super) fn report(
+    system: &System,
+    solver: &Solver,
+    sub_step: &SubStep,
+    report: &mut StepReport,
+) {
+    let first = report.impacts.len();
+    for slab in solver.slabs.iter() {
+        of_pairs(solver, slab, sub_step.time, &mut report.impacts);
+        of_surfaces(system, solver, slab, sub_step.time, &mut report.impacts);
+    }
+    report.impacts[first..].sort_by_key(|impact| impact.between);
+}
+
+fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) {
+    for (number, lane, slots) in slab.batches.contacts() {
+        let pair = &slab.batches.pairs[number];
+        if pair.approach[lane] <= 0.0 || pair.impulse[lane] <= 0.0 {
+            continue;
+        }
+        let mut normal = DVec3::from_array(batch::get(&pair.normal, lane));
+        let [mut first, mut second] = slots.map(|slot| slab.start + slot as usize);
+        if solver.slots.id[first] > solver.slots.id[second] {
+            (first, second, normal) = (second, first, -normal);
+        }
+        let at = &solver.slots;
+        let relative = at.velocity[second].vector() - at.velocity[first].vector();
+        let center = at.position[first];
+        impacts.push(Impact {
+            time,
+            between: BodyPair::Spheres(at.id[first], at.id[second]),
+            point: center.vector() + center.number() * normal,
+            normal,
+            approach_speed: pair.approach[lane],
+            separation_speed: relative.dot(normal),
+            impulse: pair.impulse[lane],
+        });
+    }
+}
+
+fn of_surfaces(
+    system: &System,
+    solver: &Solver,
+    slab: &Slab,
+    time: f64,
+    impacts: &mut Vec<Impact>,
+) {
+    for contact in &slab.surfaces {
+        if contact.approach <= 0.0 || contact.impulses.normal <= 0.0 {
+            continue;
+        }
+        let slot = slab.start + contact.slot as usize;
+        let center = solver.slots.position[slot];
+        let relative = solver.slots.velocity[slot].vector() - contact.velocity;
+        impacts.push(Impact {
+            time,
+            between: BodyPair::Collider {
+                collider: system.surfaces[contact.surface as usize].collider,
+                sphere: solver.slots.id[slot],
+            },
+            point: center.vector() - center.number() * contact.normal,
+            normal: contact.normal,
+            approach_speed: contact.approach,
+            separation_speed: relative.dot(contact.normal),
+            impulse: contact.impulses.normal,
+        });
+    }
+}

@@ -1,0 +1,467 @@
+//! The stages of a sub-step for contacts of pairs of spheres: a batch at a time, one contact in each lane
+//! of the processor's vectors.
+//!
+//! Every operation is the one that a single contact needs, so no bit depends on the vectors.
+
+use fearless_simd::{Level, Simd, SimdMask, dispatch};
+
+use super::batch::{Batches, FrictionBatch, PairBatch, Quad, RollingBatch};
+use super::row::Row;
+use super::slab::Found;
+use super::slots::Run;
+use super::sub_step::{GROWTH, RELAXATION, SLOP, SubStep};
+use super::swept;
+use crate::lanes::{LANES, Lanes};
+use crate::real::{Real, Vector};
+
+/// Smaller than what it is compared with, unless that is zero.
+const TINY: f64 = f64::MIN_POSITIVE;
+
+/// Prepares the contacts of a run: normals, gaps, what velocities must come to, and the impulses to
+/// start from, which it applies.
+pub(super) fn prepare(run: &mut Run, batches: &mut Batches, sub_step: &SubStep, bounces: bool) {
+    let level = Level::new();
+    macro_rules! prepare {
+        ($friction:literal, $bounces:literal) => {
+            dispatch!(level, simd => prepare_all::<_, $friction, $bounces>(
+                simd, run, batches, sub_step
+            ))
+        };
+    }
+    match (!batches.frictions.is_empty(), bounces) {
+        (false, false) => prepare!(false, false),
+        (false, true) => prepare!(false, true),
+        (true, _) => prepare!(true, true),
+    }
+}
+
+/// Sweeps over the contacts of a run, forwards or backwards: each gets the impulse that it needs with
+/// the others as they are. Finds the largest change of an impulse, and the largest impulse.
+pub(super) fn sweep(run: &mut Run, batches: &mut Batches, backwards: bool) -> Found {
+    let level = Level::new();
+    macro_rules! sweep {
+        ($friction:literal, $rolling:literal) => {
+            dispatch!(level, simd => sweep_all::<_, $friction, $rolling>(
+                simd, run, batches, backwards
+            ))
+        };
+    }
+    match (!batches.frictions.is_empty(), !batches.rollings.is_empty()) {
+        (false, _) => sweep!(false, false),
+        (true, false) => sweep!(true, false),
+        (true, true) => sweep!(true, true),
+    }
+}
+
+/// Moves spheres that overlap apart; velocities stay as they are. Gives the largest overlap, as a part of
+/// the sum of radii.
+pub(super) fn correct(run: &mut Run, batches: &Batches) -> f64 {
+    dispatch!(Level::new(), simd => correct_all(simd, run, batches))
+}
+
+#[inline(always)]
+fn prepare_all<S: Simd, const FRICTION: bool, const BOUNCES: bool>(
+    simd: S,
+    run: &mut Run,
+    batches: &mut Batches,
+    sub_step: &SubStep,
+) {
+    let Batches { pairs, frictions, rollings, .. } = batches;
+    for (number, batch) in pairs.iter_mut().enumerate() {
+        aim::<S, BOUNCES>(simd, run, batch, sub_step);
+        if FRICTION {
+            let friction = &mut frictions[number];
+            friction.aim(simd, run, batch);
+            start_friction(simd, run, batch, friction, rollings.get_mut(number));
+        } else {
+            let impulse = Lanes::each(simd, batch.impulse);
+            if is_any(simd, impulse) {
+                apply(simd, run.velocity, batch, vector(simd, &batch.normal) * impulse);
+            }
+        }
+    }
+}
+
+/// Normals and gaps of now; the velocities that the contacts are to have after the sub-step; the impulses
+/// to start from.
+#[inline(always)]
+fn aim<S: Simd, const BOUNCES: bool>(
+    simd: S,
+    run: &Run,
+    batch: &mut PairBatch,
+    sub_step: &SubStep,
+) {
+    let all = |number| Lanes::all(simd, number);
+    let zero = all(0.0);
+    let offset = xyz(difference(simd, run.position, batch));
+    let length = offset.length_squared().sqrt();
+    let is_lost = length.is_less(all(TINY));
+    let inverse = all(1.0) / length.max(all(TINY));
+    let mut normal = offset * inverse;
+    // Any direction would do for centres that coincide, but it must be the same always.
+    normal.y = all(1.0).select(is_lost, normal.y);
+    let gap = length - Lanes::each(simd, batch.radius_sum);
+
+    let carried = Lanes::each(simd, batch.impulse);
+    let before = Lanes::each(simd, batch.previous);
+    let had_bounced = Lanes::each(simd, batch.bias).is_less(zero);
+    // What stopped an impact is no longer needed.
+    let carried = smaller(carried, before).select(had_bounced, carried);
+    let effective_mass = Lanes::each(simd, batch.effective_mass);
+    let most = before * GROWTH + effective_mass * sub_step.growth;
+    batch.previous = carried.to_array();
+    batch.impulse = smaller(carried, most).to_array();
+
+    let velocities: &[Row] = if BOUNCES { run.before } else { run.velocity };
+    let velocity = xyz(difference(simd, velocities, batch));
+    let speed = velocity.dot(normal);
+    let rests = zero.is_less(carried);
+    let threshold = all(-sub_step.resting_speed).select(rests, all(-sub_step.impact_speed));
+    let mut bias = gap.max(zero) * (1.0 / sub_step.h);
+    let is_fast = speed.is_less(threshold);
+    let is_impact = is_fast & (gap + speed * sub_step.h).is_less(zero);
+    if BOUNCES {
+        let rebound = Lanes::each(simd, batch.restitution) * speed;
+        bias = rebound.select(is_impact & rebound.is_less(zero), bias);
+    }
+    batch.approach = (zero - speed).select(is_impact, zero).to_array();
+    batch.bias = bias.to_array();
+    batch.normal = arrays(normal);
+
+    let way = velocity.length_squared() * (sub_step.h * sub_step.h);
+    let reach = Lanes::each(simd, batch.radius_sum) * swept::FAR;
+    if (reach * reach).is_less(way).any_true() {
+        for lane in 0..LANES {
+            swept::aim_pair(run, batch, lane, sub_step);
+        }
+    }
+}
+
+impl FrictionBatch {
+    /// The slip that impacts are to end with.
+    #[inline(always)]
+    fn aim<S: Simd>(&mut self, simd: S, run: &Run, batch: &PairBatch) {
+        let restitution = Lanes::each(simd, self.tangential_restitution);
+        let impact = Lanes::each(simd, batch.approach);
+        if !is_any(simd, impact * restitution) {
+            self.slip = [[0.0; LANES]; 3];
+            return;
+        }
+        let normal = vector(simd, &batch.normal);
+        let velocity = xyz(difference(simd, run.before, batch));
+        let slip = slip(velocity, normal, xyz(sum(simd, run.spin, batch)));
+        let is_impact = Lanes::all(simd, 0.0).is_less(impact);
+        let part = (Lanes::all(simd, 0.0) - restitution).select(is_impact, Lanes::all(simd, 0.0));
+        self.slip = arrays(slip * part);
+    }
+}
+
+/// Applies the impulses to start from, normal and tangential.
+#[inline(always)]
+fn start_friction<S: Simd>(
+    simd: S,
+    run: &mut Run,
+    batch: &PairBatch,
+    friction: &mut FrictionBatch,
+    rolling: Option<&mut RollingBatch>,
+) {
+    let zero = Lanes::all(simd, 0.0);
+    let impulse = Lanes::each(simd, batch.impulse);
+    let bears = zero.is_less(impulse);
+    let normal = vector(simd, &batch.normal);
+    // What the normal turned away from goes; nothing is left where the contact bears nothing.
+    let kept = vector(simd, &friction.tangential);
+    let along = kept - normal * kept.dot(normal);
+    let tangential = Vector {
+        x: along.x.select(bears, zero),
+        y: along.y.select(bears, zero),
+        z: along.z.select(bears, zero),
+    };
+    friction.tangential = arrays(tangential);
+    if let Some(rolling) = rolling {
+        let kept = vector(simd, &rolling.angular);
+        let angular = Vector {
+            x: kept.x.select(bears, zero),
+            y: kept.y.select(bears, zero),
+            z: kept.z.select(bears, zero),
+        };
+        rolling.angular = arrays(angular);
+        turn(simd, run.spin, batch, rolling, angular);
+    }
+    if bears.any_true() {
+        apply(simd, run.velocity, batch, normal * impulse + tangential);
+        apply_spin(simd, run.spin, batch, normal.cross(tangential));
+    }
+}
+
+#[inline(always)]
+fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
+    simd: S,
+    run: &mut Run,
+    batches: &mut Batches,
+    backwards: bool,
+) -> Found {
+    let Batches { pairs, frictions, rollings, .. } = batches;
+    let [mut largest_change, mut largest_impulse] = [Lanes::all(simd, 0.0); 2];
+    let count = pairs.len();
+    for step in 0..count {
+        let number = if backwards { count - 1 - step } else { step };
+        let batch = &mut pairs[number];
+        let change = if FRICTION {
+            let rolling = if ROLLING { rollings.get_mut(number) } else { None };
+            solve_with_friction(simd, run, batch, &mut frictions[number], rolling)
+        } else {
+            solve(simd, run, batch)
+        };
+        largest_change = largest_change.max(change.abs());
+        largest_impulse = largest_impulse.max(Lanes::each(simd, batch.impulse));
+    }
+    let [change, impulse] = [largest_change, largest_impulse].map(Lanes::largest);
+    Found { change, impulse, ..Found::default() }
+}
+
+/// Gives each contact of a batch its normal impulse. Gives the changes.
+#[inline(always)]
+fn solve<S: Simd>(simd: S, run: &mut Run, batch: &mut PairBatch) -> Lanes<S> {
+    let zero = Lanes::all(simd, 0.0);
+    let normal = vector(simd, &batch.normal);
+    let speed = xyz(difference(simd, run.velocity, batch)).dot(normal);
+    let impulse = Lanes::each(simd, batch.impulse);
+    let excess = Lanes::each(simd, batch.effective_mass) * (speed + Lanes::each(simd, batch.bias));
+    let solved = (impulse - excess).max(zero);
+    let change = solved - impulse;
+    if is_any(simd, change) {
+        batch.impulse = solved.to_array();
+        apply(simd, run.velocity, batch, normal * change);
+    }
+    change
+}
+
+/// Gives each contact of a batch its normal and then its tangential impulse, which lies on Coulomb's disc.
+/// Gives the changes of the normal ones.
+///
+/// An impulse along the normal changes no slip, and one across it no normal speed: so both follow in
+/// closed form.
+#[inline(always)]
+fn solve_with_friction<S: Simd>(
+    simd: S,
+    run: &mut Run,
+    batch: &mut PairBatch,
+    friction: &mut FrictionBatch,
+    rolling: Option<&mut RollingBatch>,
+) -> Lanes<S> {
+    let zero = Lanes::all(simd, 0.0);
+    let normal = vector(simd, &batch.normal);
+    let velocity = xyz(difference(simd, run.velocity, batch));
+    let speed = velocity.dot(normal);
+    let impulse = Lanes::each(simd, batch.impulse);
+    let excess = Lanes::each(simd, batch.effective_mass) * (speed + Lanes::each(simd, batch.bias));
+    let solved = (impulse - excess).max(zero);
+    let change = solved - impulse;
+    if !is_any(simd, solved.max(impulse)) {
+        return change;
+    }
+    batch.impulse = solved.to_array();
+
+    let slip = slip(velocity, normal, xyz(sum(simd, run.spin, batch)));
+    let tangential = vector(simd, &friction.tangential);
+    let excess = slip - vector(simd, &friction.slip);
+    let wanted = tangential - excess * Lanes::each(simd, friction.tangential_mass);
+    let most = Lanes::each(simd, friction.sliding) * solved;
+    let limited = limited(simd, wanted, most);
+    friction.tangential = arrays(limited);
+    let across = limited - tangential;
+    apply(simd, run.velocity, batch, normal * change + across);
+    apply_spin(simd, run.spin, batch, normal.cross(across));
+    if let Some(rolling) = rolling {
+        solve_rolling(simd, run, batch, rolling);
+    }
+    change
+}
+
+/// Gives each contact of a batch its angular impulses against rolling and spinning.
+#[inline(always)]
+fn solve_rolling<S: Simd>(simd: S, run: &mut Run, batch: &PairBatch, rolling: &mut RollingBatch) {
+    let normal = vector(simd, &batch.normal);
+    let first = xyz(Lanes::transposed(gathered(simd, run.spin, &batch.first)));
+    let second = xyz(Lanes::transposed(gathered(simd, run.spin, &batch.second)));
+    let [curvature_1, curvature_2] = rolling.curvature;
+    let relative =
+        second * Lanes::each(simd, curvature_2) - first * Lanes::each(simd, curvature_1);
+    let angular = vector(simd, &rolling.angular);
+    let wanted = angular - relative * Lanes::each(simd, rolling.inertia);
+    let spinning = wanted.dot(normal);
+    let impulse = Lanes::each(simd, batch.impulse);
+    let rolls = wanted - normal * spinning;
+    let rolls = limited(simd, rolls, Lanes::each(simd, rolling.rolling) * impulse);
+    let most = Lanes::each(simd, rolling.spinning) * impulse;
+    let spins = limited(simd, normal * spinning, most);
+    let solved = rolls + spins;
+    rolling.angular = arrays(solved);
+    turn(simd, run.spin, batch, rolling, solved - angular);
+}
+
+#[inline(always)]
+fn correct_all<S: Simd>(simd: S, run: &mut Run, batches: &Batches) -> f64 {
+    let zero = Lanes::all(simd, 0.0);
+    let mut largest = zero;
+    for batch in &batches.pairs {
+        let offset = xyz(difference(simd, run.position, batch));
+        let length = offset.length_squared().sqrt();
+        let radius_sum = Lanes::each(simd, batch.radius_sum);
+        let overlap = radius_sum * (1.0 - SLOP) - length;
+        // Centres that coincide are left to the velocities.
+        let is_whole = Lanes::all(simd, TINY).is_less(length);
+        let overlap = overlap.max(zero).select(is_whole, zero);
+        if !is_any(simd, overlap) {
+            continue;
+        }
+        // An overlap within the slop counts as none.
+        largest = largest.max(overlap / radius_sum.max(Lanes::all(simd, TINY)));
+        let effective_mass = Lanes::each(simd, batch.effective_mass);
+        let push = overlap * effective_mass * RELAXATION / length.max(Lanes::all(simd, TINY));
+        let rows = rows_of(simd, offset * push);
+        for lane in 0..LANES {
+            let (first, second) = (batch.first[lane] as usize, batch.second[lane] as usize);
+            let of_first = -run.velocity[first].number();
+            shift(simd, &mut run.position[first], rows[lane] * of_first);
+            let of_second = run.velocity[second].number();
+            shift(simd, &mut run.position[second], rows[lane] * of_second);
+        }
+    }
+    largest.largest()
+}
+
+/// Slip of the surfaces where they touch: what of the velocity is across the normal, with spin.
+#[inline(always)]
+fn slip<S: Simd>(
+    velocity: Vector<Lanes<S>>,
+    normal: Vector<Lanes<S>>,
+    spin: Vector<Lanes<S>>,
+) -> Vector<Lanes<S>> {
+    velocity - normal * velocity.dot(normal) - spin.cross(normal)
+}
+
+/// Vectors, shortened to a length where they are longer.
+#[inline(always)]
+fn limited<S: Simd>(
+    simd: S,
+    vector: Vector<Lanes<S>>,
+    most: Lanes<S>,
+) -> Vector<Lanes<S>> {
+    let length = vector.length_squared().sqrt().max(Lanes::all(simd, TINY));
+    vector * (most / length).min(1.0)
+}
+
+/// Second minus first of each pair.
+#[inline(always)]
+fn difference<S: Simd>(simd: S, all: &[Row], batch: &PairBatch) -> [Lanes<S>; LANES] {
+    let [first, second] = [gathered(simd, all, &batch.first), gathered(simd, all, &batch.second)];
+    let ([a, b, c, d], [e, f, g, h]) = (first, second);
+    Lanes::transposed([e - a, f - b, g - c, h - d])
+}
+
+/// First plus second of each pair.
+#[inline(always)]
+fn sum<S: Simd>(simd: S, all: &[Row], batch: &PairBatch) -> [Lanes<S>; LANES] {
+    let [first, second] = [gathered(simd, all, &batch.first), gathered(simd, all, &batch.second)];
+    let ([a, b, c, d], [e, f, g, h]) = (first, second);
+    Lanes::transposed([e + a, f + b, g + c, h + d])
+}
+
+/// The rows of these slots. Written out, for closures are not compiled for the processor's vectors.
+#[inline(always)]
+fn gathered<S: Simd>(simd: S, all: &[Row], slots: &[u32; LANES]) -> [Lanes<S>; LANES] {
+    let [a, b, c, d] = *slots;
+    [
+        Lanes::each(simd, all[a as usize].0),
+        Lanes::each(simd, all[b as usize].0),
+        Lanes::each(simd, all[c as usize].0),
+        Lanes::each(simd, all[d as usize].0),
+    ]
+}
+
+/// Gives spheres 2 impulses, and spheres 1 the opposite ones.
+#[inline(always)]
+fn apply<S: Simd>(
+    simd: S,
+    velocities: &mut [Row],
+    batch: &PairBatch,
+    impulse: Vector<Lanes<S>>,
+) {
+    let rows = rows_of(simd, impulse);
+    for lane in 0..LANES {
+        let first = &mut velocities[batch.first[lane] as usize];
+        shift(simd, first, rows[lane] * -first.number());
+        let second = &mut velocities[batch.second[lane] as usize];
+        shift(simd, second, rows[lane] * second.number());
+    }
+}
+
+/// Turns both spheres of each pair by the impulses that act at their surfaces, of which this is the cross
+/// product with the normal.
+#[inline(always)]
+fn apply_spin<S: Simd>(simd: S, spins: &mut [Row], batch: &PairBatch, turn: Vector<Lanes<S>>) {
+    let rows = rows_of(simd, turn);
+    for lane in 0..LANES {
+        for slot in [batch.first[lane], batch.second[lane]] {
+            let spin = &mut spins[slot as usize];
+            shift(simd, spin, rows[lane] * -spin.number());
+        }
+    }
+}
+
+/// Gives spheres 2 angular impulses, and spheres 1 the opposite ones.
+#[inline(always)]
+fn turn<S: Simd>(
+    simd: S,
+    spins: &mut [Row],
+    batch: &PairBatch,
+    rolling: &RollingBatch,
+    angular: Vector<Lanes<S>>,
+) {
+    let rows = rows_of(simd, angular);
+    for lane in 0..LANES {
+        let first = &mut spins[batch.first[lane] as usize];
+        shift(simd, first, rows[lane] * -(first.number() * rolling.curvature[0][lane]));
+        let second = &mut spins[batch.second[lane] as usize];
+        shift(simd, second, rows[lane] * (second.number() * rolling.curvature[1][lane]));
+    }
+}
+
+#[inline(always)]
+fn shift<S: Simd>(simd: S, row: &mut Row, by: Lanes<S>) {
+    row.0 = (Lanes::each(simd, row.0) + by).to_array();
+}
+
+#[inline(always)]
+fn rows_of<S: Simd>(simd: S, Vector { x, y, z }: Vector<Lanes<S>>) -> [Lanes<S>; LANES] {
+    Lanes::transposed([x, y, z, Lanes::all(simd, 0.0)])
+}
+
+#[inline(always)]
+fn xyz<S: Simd>([x, y, z, _]: [Lanes<S>; LANES]) -> Vector<Lanes<S>> {
+    Vector { x, y, z }
+}
+
+#[inline(always)]
+fn vector<S: Simd>(simd: S, quads: &[Quad; 3]) -> Vector<Lanes<S>> {
+    let [x, y, z] = *quads;
+    Vector { x: Lanes::each(simd, x), y: Lanes::each(simd, y), z: Lanes::each(simd, z) }
+}
+
+#[inline(always)]
+fn arrays<S: Simd>(Vector { x, y, z }: Vector<Lanes<S>>) -> [Quad; 3] {
+    [x.to_array(), y.to_array(), z.to_array()]
+}
+
+#[inline(always)]
+fn smaller<S: Simd>(first: Lanes<S>, second: Lanes<S>) -> Lanes<S> {
+    first.select(first.is_less(second), second)
+}
+
+/// Whether any of them is not zero.
+#[inline(always)]
+fn is_any<S: Simd>(simd: S, numbers: Lanes<S>) -> bool {
+    !numbers.is_equal(Lanes::all(simd, 0.0)).all_true()
+}

@@ -1,0 +1,67 @@
+//! The rule `contact`: sub-steps, in each of which the contacts of all spheres are solved together
+//! (`docs/physics/contact.md`).
+//!
+//! A frame is cut into sub-steps of equal length. Each goes through these stages:
+//!
+//! 1. *Accelerate*: velocities gain what forces give them.
+//! 2. *Search*: where a sphere may leave the margin of the last search, neighbours are found anew.
+//! 3. *Prepare*: normals, gaps and impacts; contacts begin with the impulses of the sub-step before.
+//! 4. *Sweep*: each contact in turn gets the impulse that it needs, by Gauss and Seidel.
+//! 5. *Keep energy*: where impulses would add kinetic energy, less of them is taken.
+//! 6. *Advance*: positions follow the velocities.
+//! 7. *Correct*: overlaps are reduced, without a change of velocities.
+
+mod accelerate;
+mod advance;
+mod batch;
+mod energy;
+mod frame;
+mod impacts;
+mod kept;
+mod kernel;
+mod listing;
+mod neighbours;
+mod order;
+mod row;
+mod search;
+mod slab;
+mod slots;
+mod solve;
+mod solver;
+mod sub_step;
+mod surfaces;
+mod swept;
+
+pub(crate) use listing::persistent_contacts;
+pub(crate) use solver::{Scratch, Solver};
+
+use crate::bodies::Motion;
+use crate::interval::Interval;
+use crate::report::StepReport;
+use crate::settings::Contact;
+use crate::system::System;
+
+/// Advances all spheres by one frame.
+pub(crate) fn step(
+    system: &System,
+    parameters: Contact,
+    motion: &mut Motion,
+    frame: Interval,
+    (solver, scratch): (&mut Solver, &mut Scratch),
+    report: &mut StepReport,
+) {
+    frame::begin(system, motion, solver);
+    for number in 0..parameters.sub_steps {
+        let sub_step = accelerate::accelerate(system, parameters, frame, number, solver);
+        if neighbours::are_stale(solver, &sub_step) {
+            neighbours::search(system, frame, &sub_step, solver, scratch, report);
+        }
+        solve::prepare(solver, &sub_step);
+        solve::sweep(solver, parameters, report);
+        energy::keep(system, frame, solver, &sub_step, report);
+        impacts::report(system, solver, &sub_step, report);
+        advance::advance(system, solver, &sub_step);
+        solve::correct(solver, report);
+    }
+    frame::end(motion, frame, parameters, solver, report);
+}

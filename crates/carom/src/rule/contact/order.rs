@@ -1,0 +1,92 @@
+//! The order of spheres in memory: by cells of a grid, in layers.
+
+use glam::DVec3;
+
+/// Cells along an axis at most; beyond, spheres share the outermost ones.
+const MOST_CELLS: f64 = 1024.0;
+/// Cells for each sphere at most, all in all: where spheres are scattered, cells are wider.
+const CELLS_PER_SPHERE: f64 = 4.0;
+
+/// A grid over all spheres. Its slowest axis makes layers.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Grid {
+    origin: DVec3,
+    /// Along each axis \[1/m\].
+    cells_per_metre: f64,
+    /// The axes, from the slowest to the fastest.
+    axes: [usize; 3],
+    /// Cells along each of these.
+    pub cells: [usize; 3],
+}
+
+impl Grid {
+    /// A grid of cells of this width at least \[m\] over these centres \[m\], whose fastest axis is that of
+    /// the forces: columns stay together.
+    pub fn over(centers: &[DVec3], width: f64, down: DVec3) -> Self {
+        let bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (low, high) = centers.iter().fold(bounds, |(low, high), &it| (low.min(it), high.max(it)));
+        let extent = (high - low).max(DVec3::ZERO);
+        let most = CELLS_PER_SPHERE * centers.len() as f64 + 64.0;
+        let mut width = width.max(extent.max_element() / MOST_CELLS);
+        let count = |width: f64| {
+            let cells = (extent / width).floor() + 1.0;
+            cells.x * cells.y * cells.z
+        };
+        while count(width) > most {
+            width *= 1.25;
+        }
+        let fastest = if down == DVec3::ZERO { 1 } else { down.abs().max_position() };
+        let [first, second] = [(fastest + 1) % 3, (fastest + 2) % 3];
+        let [slowest, middle] =
+            if extent[first] >= extent[second] { [first, second] } else { [second, first] };
+        let axes = [slowest, middle, fastest];
+        let cells = axes.map(|axis| (extent[axis] / width) as usize + 1);
+        Self { origin: low, cells_per_metre: 1.0 / width, axes, cells }
+    }
+
+    pub fn width(&self) -> f64 {
+        1.0 / self.cells_per_metre
+    }
+
+    /// How many cells there are.
+    pub fn len(&self) -> usize {
+        self.cells.iter().product()
+    }
+
+    /// The cell of a place, along the axes from the slowest to the fastest.
+    #[inline]
+    pub fn cell_of(&self, center: DVec3) -> [usize; 3] {
+        let offset = (center - self.origin) * self.cells_per_metre;
+        let along = |rank: usize| (offset[self.axes[rank]] as usize).min(self.cells[rank] - 1);
+        [along(0), along(1), along(2)]
+    }
+
+    /// The number of a cell.
+    #[inline]
+    pub fn number(&self, [layer, row, column]: [usize; 3]) -> usize {
+        (layer * self.cells[1] + row) * self.cells[2] + column
+    }
+}
+
+/// Sorts spheres by cell, those of one cell by index. `starts[c] .. starts[c + 1]` are the places of cell
+/// c in `order`.
+pub(super) fn sort(grid: &Grid, centers: &[DVec3], starts: &mut Vec<u32>, order: &mut Vec<u32>) {
+    let cells: Vec<u32> =
+        centers.iter().map(|&center| grid.number(grid.cell_of(center)) as u32).collect();
+    starts.clear();
+    // One place further than the starts will be, which makes room to count on while sorting.
+    starts.resize(grid.len() + 2, 0);
+    for &cell in &cells {
+        starts[cell as usize + 2] += 1;
+    }
+    for cell in 2..starts.len() {
+        starts[cell] += starts[cell - 1];
+    }
+    order.clear();
+    order.resize(centers.len(), 0);
+    for (index, &cell) in cells.iter().enumerate() {
+        let place = &mut starts[cell as usize + 1];
+        order[*place as usize] = index as u32;
+        *place += 1;
+    }
+}

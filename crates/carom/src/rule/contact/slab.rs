@@ -1,0 +1,143 @@
+//! Slabs: runs of slots that are worked on side by side.
+//!
+//! A slab has the contacts of its own spheres with each other and with those of the next slab. In the
+//! even phase slabs 0, 2, ... are at work, each with the next one's slots, in the odd phase 1, 3, ...: so
+//! none writes what another reads. What fits into no slab is done alone, after them. How many slabs there
+//! are follows from the spheres, never from the threads.
+
+use super::batch::Batches;
+use super::slots::{Run, Slots};
+use super::surfaces::SurfaceContact;
+use crate::parallel;
+
+/// Spheres in a slab, about.
+const SPHERES: usize = 800;
+/// Slabs at most.
+const MOST: usize = 32;
+
+/// The contacts of a run of slots.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Slab {
+    pub start: usize,
+    pub end: usize,
+    pub batches: Batches,
+    pub surfaces: Vec<SurfaceContact>,
+    /// What a stage found in this slab.
+    pub found: Found,
+}
+
+/// What a stage finds in a slab, to be put together in the order of slabs.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Found {
+    /// A sum \[J\].
+    pub energy: f64,
+    /// Largest change of a normal impulse \[N s\].
+    pub change: f64,
+    /// Largest normal impulse \[N s\].
+    pub impulse: f64,
+    /// Largest overlap, as a part of the sum of radii.
+    pub overlap: f64,
+}
+
+impl Found {
+    /// The larger changes and impulses of two parts.
+    pub fn or_larger(self, other: Self) -> Self {
+        let change = self.change.max(other.change);
+        Self { change, impulse: self.impulse.max(other.impulse), ..self }
+    }
+}
+
+/// How many slabs so many spheres are to have.
+pub(super) fn count(spheres: usize) -> usize {
+    let count = (spheres / SPHERES).clamp(1, MOST);
+    // The phases are equal in work with as many even as odd slabs.
+    if count > 1 { count & !1 } else { 1 }
+}
+
+/// All slabs, and the contacts that fit into none.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Slabs {
+    pub list: Vec<Slab>,
+    /// Contacts of spheres of slabs that are not neighbours.
+    pub far: Slab,
+}
+
+/// In which order the phases follow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Direction {
+    Forwards,
+    Backwards,
+}
+
+impl Slabs {
+    /// One slab of so many slots, without contacts.
+    pub fn of_one(slots: usize) -> Self {
+        Self { list: vec![Slab { end: slots, ..Slab::default() }], far: Slab::default() }
+    }
+
+    /// All of them, in the order in which contacts are listed.
+    pub fn iter(&self) -> impl Iterator<Item = &Slab> {
+        self.list.iter().chain([&self.far])
+    }
+
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Slab> {
+        self.list.iter_mut().chain([&mut self.far])
+    }
+
+    /// Sum of what a stage found.
+    pub fn energy(&self) -> f64 {
+        self.iter().map(|slab| slab.found.energy).sum()
+    }
+
+    /// Runs a stage on the own slots of each slab, side by side.
+    pub fn each(&mut self, slots: &mut Slots, stage: impl Fn(Run, &mut Slab) + Sync) {
+        let ends: Vec<usize> = self.list.iter().map(|slab| slab.end).collect();
+        let tasks = slots.runs(ends.into_iter()).into_iter().zip(&mut self.list).collect();
+        parallel::for_each(tasks, |(run, slab)| stage(run, slab));
+    }
+
+    /// Runs a stage on the slots of each slab that needs nothing else of it, side by side.
+    pub fn each_run(&mut self, slots: &mut Slots, stage: impl Fn(Run) + Sync) {
+        self.each(slots, |run, _| stage(run));
+    }
+
+    /// Runs a stage on the contacts of all slabs, phase after phase.
+    pub fn each_contact(
+        &mut self,
+        slots: &mut Slots,
+        direction: Direction,
+        stage: impl Fn(&mut Run, &mut Slab) + Sync,
+    ) {
+        match direction {
+            Direction::Forwards => {
+                self.phase(slots, 0, &stage);
+                self.phase(slots, 1, &stage);
+                self.far(slots, &stage);
+            }
+            Direction::Backwards => {
+                self.far(slots, &stage);
+                self.phase(slots, 1, &stage);
+                self.phase(slots, 0, &stage);
+            }
+        }
+    }
+
+    fn far(&mut self, slots: &mut Slots, stage: impl Fn(&mut Run, &mut Slab)) {
+        self.far.found = Found::default();
+        if !self.far.batches.pairs.is_empty() {
+            stage(&mut slots.all(), &mut self.far);
+        }
+    }
+
+    /// Runs a stage on the contacts of every other slab, from slab `first` on.
+    fn phase(&mut self, slots: &mut Slots, first: usize, stage: impl Fn(&mut Run, &mut Slab) + Sync) {
+        let end = |slab: usize| self.list[slab.min(self.list.len() - 1)].end;
+        // In the odd phase, slab 0 is not at work.
+        let idle = (first == 1).then(|| end(0));
+        let pairs = (first..self.list.len()).step_by(2).map(|slab| end(slab + 1));
+        let ends: Vec<usize> = idle.into_iter().chain(pairs).collect();
+        let runs = slots.runs(ends.into_iter()).into_iter().skip(first);
+        let tasks = runs.zip(self.list.iter_mut().skip(first).step_by(2)).collect();
+        parallel::for_each(tasks, |(mut run, slab): (Run, &mut Slab)| stage(&mut run, slab));
+    }
+}

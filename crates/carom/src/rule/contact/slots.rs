@@ -1,0 +1,216 @@
+//! Spheres in the order of memory in which the solver works on them.
+
+use glam::DVec3;
+
+use super::row::Row;
+use crate::bodies::Motion;
+use crate::forces;
+use crate::id::SphereId;
+use crate::system::System;
+
+/// Spheres by slot: neighbours in space are neighbours in memory.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Slots {
+    /// Which sphere is in each slot.
+    pub id: Vec<SphereId>,
+    /// The index of each sphere in the world's arrays; [`GONE`] if it is there no more.
+    pub index: Vec<u32>,
+    /// Centre \[m\] and radius \[m\].
+    pub position: Vec<Row>,
+    /// Velocity \[m/s\] and 1/m \[1/kg\].
+    pub velocity: Vec<Row>,
+    /// Velocity at the start of the sub-step \[m/s\].
+    pub before: Vec<Row>,
+    /// Velocity of the surface by spin, r w \[m/s\], and 1/(k m) \[1/kg\] with the inertia k m r². Empty
+    /// without friction.
+    pub spin: Vec<Row>,
+    /// Spin at the start of the sub-step \[m/s\]. Empty without friction.
+    pub spin_before: Vec<Row>,
+    /// Sum of the spins of the sub-steps of a frame \[m/s\]. Empty without friction.
+    pub turn: Vec<Row>,
+    /// Centre at the last search for neighbours \[m\], and how far the sphere may go from there \[m\].
+    pub reference: Vec<Row>,
+    /// Acceleration by forces that are linear \[m/s²\], and rate of drag \[1/s\].
+    pub acceleration: Vec<Row>,
+}
+
+/// The index of a sphere that was taken out of the world.
+pub(super) const GONE: u32 = u32::MAX;
+
+impl Slots {
+    pub fn len(&self) -> usize {
+        self.id.len()
+    }
+
+    /// Whether the same spheres are in the world, at the same indices.
+    pub fn are_of(&self, ids: &[SphereId]) -> bool {
+        self.len() == ids.len()
+            && self.index.iter().zip(&self.id).all(|(&index, &id)| ids.get(index as usize) == Some(&id))
+    }
+
+    /// Finds the spheres that are still in the world.
+    pub fn follow(&mut self, ids: &[SphereId]) {
+        for (index, id) in self.index.iter_mut().zip(&self.id) {
+            *index = ids.binary_search(id).map_or(GONE, |found| found as u32);
+        }
+    }
+
+    /// Puts the spheres of these indices into slots, in this order.
+    pub fn arrange(&mut self, order: &[u32], ids: &[SphereId]) {
+        self.index.clear();
+        self.index.extend_from_slice(order);
+        self.id.clear();
+        self.id.extend(order.iter().map(|&index| ids[index as usize]));
+    }
+
+    /// Takes over from the world where spheres are and how they move.
+    pub fn read(&mut self, system: &System, motion: &Motion, with_spin: bool) {
+        let Self { index, position, velocity, spin, turn, .. } = self;
+        let spheres = system.spheres;
+        let indices = || index.iter().map(|&index| index as usize);
+        position.clear();
+        position.extend(indices().map(|i| Row::new(motion.position[i], spheres.radius[i])));
+        velocity.clear();
+        velocity.extend(indices().map(|i| Row::new(motion.velocity[i], 1.0 / spheres.mass[i])));
+        spin.clear();
+        turn.clear();
+        if with_spin {
+            spin.extend(indices().map(|i| {
+                let surface = spheres.radius[i] * motion.spin.angular_velocity[i];
+                Row::new(surface, 1.0 / (spheres.inertia_factor(i) * spheres.mass[i]))
+            }));
+            turn.resize(index.len(), Row::default());
+        }
+        self.before.clone_from(&self.velocity);
+        self.spin_before.clone_from(&self.spin);
+    }
+
+    /// Has each slot take what was in another one: that of the same place in `from`.
+    pub fn permute(&mut self, from: &[usize]) {
+        for rows in [
+            &mut self.position,
+            &mut self.velocity,
+            &mut self.before,
+            &mut self.spin,
+            &mut self.spin_before,
+            &mut self.turn,
+            &mut self.acceleration,
+        ] {
+            if !rows.is_empty() {
+                *rows = from.iter().map(|&slot| rows[slot]).collect();
+            }
+        }
+        self.id = from.iter().map(|&slot| self.id[slot]).collect();
+        self.index = from.iter().map(|&slot| self.index[slot]).collect();
+    }
+
+    /// Has the accelerations of the forces of now, as far as they are linear. Tells whether there are
+    /// others.
+    pub fn read_forces(&mut self, system: &System) -> bool {
+        let spheres = system.spheres;
+        let mut has_others = false;
+        let mut last = None;
+        self.acceleration.clear();
+        for &index in &self.index {
+            let i = index as usize;
+            let like = (spheres.radius[i], spheres.mass[i]);
+            let (linear, is_all) = match last {
+                Some((known, linear)) if known == like => linear,
+                _ => forces::total_linear(system.forces, like.0, like.1),
+            };
+            last = Some((like, (linear, is_all)));
+            has_others |= !is_all;
+            let own = spheres.applied_acceleration(i).unwrap_or(DVec3::ZERO);
+            self.acceleration.push(Row::new(linear.acceleration + own, linear.drag_rate));
+        }
+        has_others
+    }
+
+    /// Gives the world where spheres are and how they move at the end of a frame.
+    pub fn write(&self, motion: &mut Motion) {
+        for (slot, &index) in self.index.iter().enumerate() {
+            motion.position[index as usize] = self.position[slot].vector();
+            motion.velocity[index as usize] = self.velocity[slot].vector();
+        }
+        for (slot, spin) in self.spin.iter().enumerate() {
+            let radius = self.position[slot].number();
+            motion.spin.angular_velocity[self.index[slot] as usize] = spin.vector() / radius;
+        }
+    }
+}
+
+/// The slots of a run of spheres, which nothing else reads or writes meanwhile.
+pub(super) struct Run<'a> {
+    pub position: &'a mut [Row],
+    pub velocity: &'a mut [Row],
+    pub before: &'a mut [Row],
+    pub spin: &'a mut [Row],
+    pub spin_before: &'a mut [Row],
+    pub turn: &'a mut [Row],
+    pub acceleration: &'a [Row],
+}
+
+impl Slots {
+    /// All of them.
+    pub fn all(&mut self) -> Run<'_> {
+        Run {
+            position: &mut self.position,
+            velocity: &mut self.velocity,
+            before: &mut self.before,
+            spin: &mut self.spin,
+            spin_before: &mut self.spin_before,
+            turn: &mut self.turn,
+            acceleration: &self.acceleration,
+        }
+    }
+
+    /// Runs that end at these slots, ascending.
+    pub fn runs(&mut self, ends: impl Iterator<Item = usize>) -> Vec<Run<'_>> {
+        let mut rest = self.all();
+        let mut start = 0;
+        ends.map(|end| {
+            let count = end - start;
+            start = end;
+            rest.take_front(count)
+        })
+        .collect()
+    }
+}
+
+impl Run<'_> {
+    /// \[J\]
+    pub fn kinetic_energy(&self) -> f64 {
+        let energy = |row: &Row| row.vector().length_squared() / row.number();
+        let of_motion = self.velocity.iter().map(energy).sum::<f64>();
+        0.5 * (of_motion + self.spin.iter().map(energy).sum::<f64>())
+    }
+}
+
+impl<'a> Run<'a> {
+    /// Takes a run of so many slots from the front.
+    fn take_front(&mut self, count: usize) -> Self {
+        Run {
+            position: front_mut(&mut self.position, count),
+            velocity: front_mut(&mut self.velocity, count),
+            before: front_mut(&mut self.before, count),
+            spin: front_mut(&mut self.spin, count),
+            spin_before: front_mut(&mut self.spin_before, count),
+            turn: front_mut(&mut self.turn, count),
+            acceleration: front(&mut self.acceleration, count),
+        }
+    }
+}
+
+/// Takes so many items from the front; an array that is not kept is empty, and stays so.
+fn front_mut<'a, T>(rest: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    let count = count.min(rest.len());
+    let (front, behind) = std::mem::take(rest).split_at_mut(count);
+    *rest = behind;
+    front
+}
+
+fn front<'a, T>(rest: &mut &'a [T], count: usize) -> &'a [T] {
+    let (front, behind) = rest.split_at(count.min(rest.len()));
+    *rest = behind;
+    front
+}

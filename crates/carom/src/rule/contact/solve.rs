@@ -1,0 +1,67 @@
+//! The stages that work on contacts, slab by slab.
+
+use super::kernel;
+use super::slab::{Direction, Found};
+use super::solver::Solver;
+use super::sub_step::SubStep;
+use super::surfaces;
+use crate::report::StepReport;
+use crate::settings::Contact;
+
+/// Largest change of an impulse in a sweep, as a part of the largest impulse: with `converged`, sweeps
+/// end there.
+const CONVERGED: f64 = 1e-10;
+/// Sweeps at most with `converged`.
+const MOST_SWEEPS: u32 = 20_000;
+
+/// Prepares all contacts: normals, gaps, impacts; applies the impulses to start from.
+pub(super) fn prepare(solver: &mut Solver, sub_step: &SubStep) {
+    let Solver { slots, slabs, places, kinds, .. } = solver;
+    slabs.each_contact(slots, Direction::Forwards, |run, slab| {
+        kernel::prepare(run, &mut slab.batches, sub_step, kinds.bounce);
+        surfaces::prepare(run, &mut slab.surfaces, places, sub_step);
+    });
+}
+
+/// Sweeps over all contacts, each time in the other direction.
+pub(super) fn sweep(solver: &mut Solver, parameters: Contact, report: &mut StepReport) {
+    let Solver { slots, slabs, .. } = solver;
+    let most = if parameters.converged { MOST_SWEEPS } else { parameters.sweeps };
+    let mut residual = 0.0;
+    for number in 0..most {
+        let backwards = number % 2 == 0;
+        let direction = if backwards { Direction::Backwards } else { Direction::Forwards };
+        slabs.each_contact(slots, direction, |run, slab| {
+            let Found { change, impulse, .. } = if backwards {
+                let surfaces = surfaces::sweep(run, &mut slab.surfaces, backwards);
+                kernel::sweep(run, &mut slab.batches, backwards).or_larger(surfaces)
+            } else {
+                let pairs = kernel::sweep(run, &mut slab.batches, backwards);
+                surfaces::sweep(run, &mut slab.surfaces, backwards).or_larger(pairs)
+            };
+            (slab.found.change, slab.found.impulse) = (change, impulse);
+        });
+        report.work.sweeps += 1;
+        let found = slabs.iter().fold(Found::default(), |all, slab| all.or_larger(slab.found));
+        residual = if found.impulse > 0.0 { found.change / found.impulse } else { 0.0 };
+        if parameters.converged && residual <= CONVERGED {
+            break;
+        }
+    }
+    let account = &mut report.contact_account;
+    account.residual = account.residual.max(residual);
+}
+
+/// Moves apart what overlaps.
+pub(super) fn correct(solver: &mut Solver, report: &mut StepReport) {
+    let Solver { slots, slabs, places, .. } = solver;
+    slabs.each_contact(slots, Direction::Forwards, |run, slab| {
+        let overlap = kernel::correct(run, &slab.batches);
+        let (work, of_surfaces) = surfaces::correct(run, &slab.surfaces, places);
+        (slab.found.overlap, slab.found.energy) = (overlap.max(of_surfaces), work);
+    });
+    let account = &mut report.contact_account;
+    account.correction_work += slabs.energy();
+    let overlap = slabs.iter().map(|slab| slab.found.overlap).fold(0.0, f64::max);
+    account.largest_overlap = account.largest_overlap.max(overlap);
+}

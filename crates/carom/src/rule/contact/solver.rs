@@ -1,0 +1,51 @@
+//! What the rule keeps from frame to frame.
+
+use glam::DVec3;
+
+use super::batch::ContactKinds;
+use super::kept::Kept;
+use super::search::Search;
+use super::slab::Slabs;
+use super::slots::Slots;
+use super::surfaces::Place;
+
+/// Spheres in their order of memory, their neighbours, and the impulses of their contacts: part of a
+/// snapshot, but not of the state hash.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Solver {
+    pub(super) slots: Slots,
+    pub(super) slabs: Slabs,
+    pub(super) kept: Kept,
+    /// Where surfaces are at the start of the sub-step, and how they move.
+    pub(super) places: Vec<Place>,
+    pub(super) kinds: ContactKinds,
+    /// The acceleration of all spheres \[m/s²\], where it is one and constant.
+    pub(super) common_acceleration: Option<DVec3>,
+    /// Whether some force is not linear, and is evaluated in every sub-step.
+    pub(super) has_other_forces: bool,
+    /// Whether a surface moves.
+    pub(super) has_moving_surfaces: bool,
+    /// Kinetic energy before the impulses of the sub-step \[J\].
+    pub(super) energy_before: f64,
+    /// Length of the sub-steps of the last frame \[s\].
+    pub(super) h: f64,
+    /// Whether a search is due whatever the spheres do.
+    pub(super) is_stale: bool,
+    /// What was taken out of [`Self::slabs`] is in [`Self::kept`].
+    pub(super) is_collected: bool,
+}
+
+/// Working memory of the rule, kept from step to step only to spare its allocation.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Scratch {
+    pub(super) search: Search,
+    pub(super) near: Vec<u32>,
+}
+
+impl Solver {
+    /// Something was changed from outside: neighbours are found anew, and forces read. Contacts keep
+    /// their impulses.
+    pub fn set_stale(&mut self) {
+        self.is_stale = true;
+    }
+}

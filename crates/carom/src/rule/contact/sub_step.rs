@@ -1,0 +1,53 @@
+//! A sub-step: its length, and what tells an impact from a contact that rests.
+
+/// Overlaps up to this part of the sum of radii are left as they are, so that a contact that rests does
+/// not come and go.
+pub(super) const SLOP: f64 = 0.0005;
+/// Part of a larger overlap that a sub-step corrects. With all of it, to open a contact that bears
+/// others would close them next, and a heap would never rest.
+pub(super) const RELAXATION: f64 = 0.3;
+/// The impulse that a contact starts from grows by this factor from sub-step to sub-step at most, and by
+/// [`GROWTH_BY_WEIGHT`] times the impulse that its effective mass gains in free fall over one.
+pub(super) const GROWTH: f64 = 3.0;
+const GROWTH_BY_WEIGHT: f64 = 4.0;
+/// Speed in free fall over a sub-step, times this: a contact that carried something bounces only above
+/// it, for its neighbours shake it by about that much.
+const RESTING: f64 = 10.0;
+/// A new contact bounces only above the speed that its bodies gain relative to each other in a sub-step,
+/// times this: more slowly they would be back within it.
+const NEW: f64 = 2.0;
+
+/// A sub-step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SubStep {
+    /// Time at its start since the start of the frame \[s\].
+    pub time: f64,
+    /// Length \[s\].
+    pub h: f64,
+    /// Speed of approach above which a new contact of two spheres is an impact \[m/s\].
+    pub impact_speed: f64,
+    /// Speed of approach above which a contact that carried something is an impact \[m/s\].
+    pub resting_speed: f64,
+    /// By how much an impulse to start from may grow, by effective mass \[m/s\].
+    pub growth: f64,
+}
+
+impl SubStep {
+    /// A sub-step of `h` \[s\] in which forces change velocities by at most `fall`, and those of any two
+    /// spheres by at most `difference` relative to each other \[m/s\].
+    pub fn new(time: f64, h: f64, [fall, difference]: [f64; 2]) -> Self {
+        Self {
+            time,
+            h,
+            impact_speed: NEW * difference,
+            resting_speed: RESTING * fall,
+            growth: GROWTH_BY_WEIGHT * fall,
+        }
+    }
+
+    /// Speed of approach above which a new contact with a surface is an impact \[m/s\], for a sphere
+    /// that is pressed to it with this acceleration \[m/s²\].
+    pub fn surface_impact_speed(&self, pressing: f64) -> f64 {
+        NEW * self.h * pressing
+    }
+}

@@ -1,0 +1,315 @@
+//! The stages of a sub-step for contacts of spheres with surfaces, at rest or moving.
+
+use glam::DVec3;
+
+use super::batch::Impulses;
+use super::slab::Found;
+use super::slots::Run;
+use super::sub_step::{GROWTH, RELAXATION, SLOP, SubStep};
+use super::swept::{FAR, FREE};
+use crate::contact_time;
+use crate::detect::{Separation, sphere_surface};
+use crate::flight::Flight;
+use crate::friction::ContactFriction;
+use crate::surface::{Form, Surface, SurfaceMotion};
+
+/// Where a surface is, and how it moves.
+pub(super) type Place = (Form, SurfaceMotion);
+
+/// Where all surfaces are after `h` \[s\] of a frame.
+pub(super) fn places_after(surfaces: &[Surface], h: f64, places: &mut Vec<Place>) {
+    places.clear();
+    places.extend(surfaces.iter().map(|surface| surface.after(h)));
+}
+
+/// A contact of a surface, which is body 1, and a sphere, which is body 2.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SurfaceContact {
+    /// Slot of the sphere, from the start of the run.
+    pub slot: u32,
+    pub surface: u32,
+    /// Unit normal out of the surface.
+    pub normal: DVec3,
+    /// Velocity of the surface where they touch \[m/s\].
+    pub velocity: DVec3,
+    /// Angular velocity of the surface \[rad/s\].
+    angular_velocity: DVec3,
+    /// What the normal velocity is to be after the sub-step at least, with the opposite sign \[m/s\].
+    pub bias: f64,
+    /// Speed of approach of an impact \[m/s\]; 0 if there is none.
+    pub approach: f64,
+    /// Slip that an impact is to end with \[m/s\].
+    slip: DVec3,
+    pub restitution: f64,
+    pub friction: ContactFriction,
+    pub impulses: Impulses,
+}
+
+impl SurfaceContact {
+    /// A contact of which nothing but its bodies is known.
+    pub fn new(slot: u32, surface: u32, restitution: f64, friction: ContactFriction) -> Self {
+        Self {
+            slot,
+            surface,
+            normal: DVec3::Y,
+            velocity: DVec3::ZERO,
+            angular_velocity: DVec3::ZERO,
+            bias: FREE,
+            approach: 0.0,
+            slip: DVec3::ZERO,
+            restitution,
+            friction,
+            impulses: Impulses::default(),
+        }
+    }
+
+    /// What it keeps from search to search. An impact leaves nothing to start from.
+    pub fn kept(&self) -> Impulses {
+        let normal = if self.bias < 0.0 { 0.0 } else { self.impulses.normal };
+        Impulses { normal, ..self.impulses }
+    }
+
+    /// Work that the surface does, in its place \[J\].
+    pub fn work(&self) -> f64 {
+        let angular = DVec3::from_array(self.impulses.angular);
+        self.impulse().dot(self.velocity) + angular.dot(self.angular_velocity)
+    }
+
+    /// Impulse on the sphere \[N s\].
+    pub fn impulse(&self) -> DVec3 {
+        self.impulses.normal * self.normal + DVec3::from_array(self.impulses.tangential)
+    }
+}
+
+/// Prepares the contacts of a run: normals, gaps, what velocities must come to, and the impulses to
+/// start from, which it applies.
+pub(super) fn prepare(
+    run: &mut Run,
+    contacts: &mut [SurfaceContact],
+    places: &[Place],
+    sub_step: &SubStep,
+) {
+    for contact in contacts {
+        contact.aim(run, &places[contact.surface as usize], sub_step);
+        let Impulses { normal, tangential, angular, .. } = &mut contact.impulses;
+        if *normal == 0.0 {
+            (*tangential, *angular) = ([0.0; 3], [0.0; 3]);
+            continue;
+        }
+        let kept = DVec3::from_array(*tangential);
+        let across = kept - contact.normal * kept.dot(contact.normal);
+        *tangential = across.to_array();
+        let (along, angular) = (*normal * contact.normal, DVec3::from_array(*angular));
+        push(run, contact.slot, contact.normal, [along, across]);
+        turn(run, contact.slot, angular);
+    }
+}
+
+impl SurfaceContact {
+    /// The normal and the gap of now; the velocity that the sphere is to have after the sub-step; the
+    /// impulse to start from.
+    fn aim(&mut self, run: &Run, (form, motion): &Place, sub_step: &SubStep) {
+        let slot = self.slot as usize;
+        let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
+        let before = run.before[slot].vector();
+        let bounced = self.bias < 0.0;
+        self.angular_velocity = motion.angular_velocity;
+        self.approach = 0.0;
+        self.bias = FREE;
+        let separation = sphere_surface(form, center, radius);
+        let relative = |point: DVec3| before - motion.velocity_at(point);
+        let way = sub_step.h * relative(center).length();
+        if let Some(Separation { distance, normal, point }) = separation {
+            self.normal = normal;
+            self.velocity = motion.velocity_at(point);
+            self.bias = distance.max(0.0) / sub_step.h;
+            self.watch_for_impact(before, run.acceleration[slot].vector(), distance, sub_step);
+        }
+        if way > FAR * radius && separation.is_none_or(|it| it.distance > 0.0) {
+            self.aim_far(run, (form, motion), sub_step);
+        }
+        self.start(bounced, 1.0 / run.velocity[slot].number(), sub_step);
+        self.slip = DVec3::ZERO;
+        let part = self.friction.tangential_restitution;
+        if self.approach > 0.0 && part > 0.0 && !run.spin.is_empty() {
+            let spin = run.spin[slot].vector();
+            self.slip = -part * slip(before - self.velocity, self.normal, spin);
+        }
+    }
+
+    /// Notes an impact, if the sphere comes to one within the sub-step.
+    fn watch_for_impact(
+        &mut self,
+        before: DVec3,
+        acceleration: DVec3,
+        distance: f64,
+        sub_step: &SubStep,
+    ) {
+        let speed = (before - self.velocity).dot(self.normal);
+        let pressing = -acceleration.dot(self.normal).min(0.0);
+        let threshold = if self.impulses.normal > 0.0 {
+            sub_step.resting_speed
+        } else {
+            sub_step.surface_impact_speed(pressing)
+        };
+        if speed < -threshold && distance + sub_step.h * speed < 0.0 {
+            self.note_impact(speed);
+        }
+    }
+
+    /// Notes an impact at this normal velocity \[m/s\].
+    fn note_impact(&mut self, speed: f64) {
+        self.approach = -speed;
+        let rebound = self.restitution * speed;
+        if rebound < 0.0 {
+            self.bias = rebound;
+        }
+    }
+
+    /// Has the contact wait for the impact that a sphere that goes far comes to within the sub-step; if
+    /// it comes to none, it bears nothing.
+    fn aim_far(&mut self, run: &Run, (form, motion): (&Form, &SurfaceMotion), sub_step: &SubStep) {
+        let slot = self.slot as usize;
+        let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
+        let flight = Flight {
+            position: center,
+            velocity: run.before[slot].vector(),
+            acceleration: DVec3::ZERO,
+            drag_rate: 0.0,
+        };
+        (self.bias, self.approach) = (FREE, 0.0);
+        let time = contact_time::sphere_surface(&flight, radius, form, motion, sub_step.h);
+        let Some(time) = time else { return };
+        // Where the surface is then, the sphere is as far from it as where the surface is now.
+        let moved = center + time * (flight.velocity - motion.velocity_at(center));
+        let Some(separation) = sphere_surface(form, moved, radius) else { return };
+        self.normal = separation.normal;
+        self.velocity = motion.velocity_at(separation.point);
+        let speed = (flight.velocity - self.velocity).dot(self.normal);
+        self.bias = (-speed).max(0.0) * time / sub_step.h;
+        self.note_impact(speed);
+    }
+
+    /// The normal impulse to start from, for a sphere of this mass \[kg\].
+    fn start(&mut self, bounced: bool, mass: f64, sub_step: &SubStep) {
+        let Impulses { normal, previous, .. } = &mut self.impulses;
+        let carried = if bounced { normal.min(*previous) } else { *normal };
+        let most = *previous * GROWTH + mass * sub_step.growth;
+        *previous = carried;
+        *normal = if self.bias == FREE { 0.0 } else { carried.min(most) };
+    }
+
+    /// Gives the sphere the impulses that it needs. Gives the change of the normal one \[N s\].
+    fn solve(&mut self, run: &mut Run) -> f64 {
+        let slot = self.slot as usize;
+        let inverse_mass = run.velocity[slot].number();
+        let velocity = run.velocity[slot].vector() - self.velocity;
+        let speed = velocity.dot(self.normal);
+        let Impulses { normal: impulse, tangential, angular, .. } = self.impulses;
+        let solved = (impulse - (speed + self.bias) / inverse_mass).max(0.0);
+        let change = solved - impulse;
+        if solved == 0.0 && impulse == 0.0 {
+            return change;
+        }
+        self.impulses.normal = solved;
+        let mut across = DVec3::ZERO;
+        if !run.spin.is_empty() && self.friction.sliding > 0.0 {
+            let spin = run.spin[slot];
+            let excess = slip(velocity, self.normal, spin.vector()) - self.slip;
+            let kept = DVec3::from_array(tangential);
+            let wanted = kept - excess / (inverse_mass + spin.number());
+            let limited = limited(wanted, self.friction.sliding * solved);
+            self.impulses.tangential = limited.to_array();
+            across = limited - kept;
+        }
+        push(run, self.slot, self.normal, [change * self.normal, across]);
+        if !run.spin.is_empty() && (self.friction.rolling > 0.0 || self.friction.spinning > 0.0) {
+            self.solve_rolling(run, DVec3::from_array(angular));
+        }
+        change
+    }
+
+    /// Gives the sphere the angular impulses against rolling and spinning on the surface.
+    fn solve_rolling(&mut self, run: &mut Run, kept: DVec3) {
+        let slot = self.slot as usize;
+        let (spin, radius) = (run.spin[slot], run.position[slot].number());
+        let relative = spin.vector() / radius - self.angular_velocity;
+        let wanted = kept - relative * (radius * radius / spin.number());
+        let along = wanted.dot(self.normal) * self.normal;
+        let arm = radius * self.impulses.normal;
+        let solved = limited(wanted - along, self.friction.rolling * arm)
+            + limited(along, self.friction.spinning * arm);
+        self.impulses.angular = solved.to_array();
+        turn(run, self.slot, solved - kept);
+    }
+}
+
+/// Sweeps over the contacts of a run: each gets the impulses that it needs with the others as they are.
+/// Finds the largest change of a normal impulse, and the largest one.
+pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: bool) -> Found {
+    let mut found = Found::default();
+    let mut solve = |contact: &mut SurfaceContact| {
+        let change = contact.solve(run).abs();
+        found = found.or_larger(Found { change, impulse: contact.impulses.normal, ..found });
+    };
+    if backwards {
+        contacts.iter_mut().rev().for_each(&mut solve);
+    } else {
+        contacts.iter_mut().for_each(&mut solve);
+    }
+    found
+}
+
+/// Moves spheres that overlap surfaces out of them; velocities stay as they are. Gives the work against
+/// the forces that are linear \[J\], and the largest overlap as a part of the radius.
+pub(super) fn correct(
+    run: &mut Run,
+    contacts: &[SurfaceContact],
+    places: &[Place],
+) -> (f64, f64) {
+    let (mut work, mut largest) = (0.0, 0.0_f64);
+    for contact in contacts {
+        let slot = contact.slot as usize;
+        let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
+        let (form, _) = &places[contact.surface as usize];
+        let Some(separation) = sphere_surface(form, center, radius) else { continue };
+        let overlap = -separation.distance - SLOP * radius;
+        if overlap > 0.0 {
+            let shift = RELAXATION * overlap * separation.normal;
+            run.position[slot] = run.position[slot].with_vector(center + shift);
+            work -= run.acceleration[slot].vector().dot(shift) / run.velocity[slot].number();
+            largest = largest.max(overlap / radius);
+        }
+    }
+    (work, largest)
+}
+
+/// Slip of a sphere's surface where it touches: what of the velocity is across the normal, with spin.
+fn slip(velocity: DVec3, normal: DVec3, spin: DVec3) -> DVec3 {
+    velocity - normal * velocity.dot(normal) - spin.cross(normal)
+}
+
+/// A vector, shortened to a length if it is longer.
+fn limited(vector: DVec3, most: f64) -> DVec3 {
+    let length = vector.dot(vector).sqrt();
+    if length > most { vector * (most / length) } else { vector }
+}
+
+/// Gives a sphere impulses along the normal and across it.
+fn push(run: &mut Run, slot: u32, normal: DVec3, [along, across]: [DVec3; 2]) {
+    let velocity = &mut run.velocity[slot as usize];
+    let impulse = along + across;
+    *velocity = velocity.with_vector(velocity.vector() + velocity.number() * impulse);
+    if let Some(spin) = run.spin.get_mut(slot as usize) {
+        *spin = spin.with_vector(spin.vector() - spin.number() * normal.cross(across));
+    }
+}
+
+/// Gives a sphere an angular impulse.
+fn turn(run: &mut Run, slot: u32, angular: DVec3) {
+    let radius = run.position[slot as usize].number();
+    if let Some(spin) = run.spin.get_mut(slot as usize) {
+        *spin = spin.with_vector(spin.vector() + spin.number() / radius * angular);
+    }
+}
+

@@ -1,0 +1,40 @@
+//! Contacts of spheres that go far in a sub-step: whether they meet on their way, and where.
+//!
+//! Elsewhere the normal at the start of a sub-step is as good as that at the impact, and the gap along it
+//! says when the bodies meet. A sphere that goes far would be stopped by what it passes.
+
+use super::batch::{PairBatch, set};
+use super::slots::Run;
+use super::sub_step::SubStep;
+use crate::contact_time;
+
+/// A way is far from this part of the sum of radii on.
+pub(super) const FAR: f64 = 0.125;
+/// What the normal velocity may be where nothing is met \[m/s\]: anything.
+pub(super) const FREE: f64 = f64::MAX;
+
+/// Has a contact of a batch wait for the impact that its spheres come to within the sub-step; if they
+/// come to none, it bears nothing.
+pub(super) fn aim_pair(run: &Run, batch: &mut PairBatch, lane: usize, sub_step: &SubStep) {
+    let [first, second] = [batch.first[lane] as usize, batch.second[lane] as usize];
+    let radius_sum = batch.radius_sum[lane];
+    let offset = run.position[second].vector() - run.position[first].vector();
+    let velocity = run.before[second].vector() - run.before[first].vector();
+    let way = sub_step.h * sub_step.h * velocity.length_squared();
+    let reach = FAR * radius_sum;
+    let overlaps = offset.length_squared() <= radius_sum * radius_sum;
+    if first == second || way <= reach * reach || overlaps {
+        return;
+    }
+    let time = contact_time::sphere_sphere_linear(offset, velocity, radius_sum);
+    let Some(time) = time.filter(|&time| time <= sub_step.h) else {
+        (batch.bias[lane], batch.approach[lane]) = (FREE, 0.0);
+        return;
+    };
+    let normal = (offset + time * velocity) / radius_sum;
+    let speed = velocity.dot(normal);
+    let rebound = batch.restitution[lane] * speed;
+    set(&mut batch.normal, lane, normal.to_array());
+    batch.bias[lane] = if rebound < 0.0 { rebound } else { -speed * time / sub_step.h };
+    batch.approach[lane] = -speed;
+}

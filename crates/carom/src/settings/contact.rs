@@ -1,0 +1,42 @@
+use crate::error::InvalidValue;
+use crate::validate;
+
+/// Parameters of the rule `contact`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Contact {
+    /// Sub-steps of a frame, at least 1. Overlaps fall with the square of their length.
+    pub sub_steps: u32,
+    /// Sweeps over all contacts in a sub-step, at least 1.
+    pub sweeps: u32,
+    /// Whether sweeps go on until the residual is at most 1e-10: slow, to compare with.
+    pub converged: bool,
+}
+
+impl Default for Contact {
+    fn default() -> Self {
+        Self { sub_steps: 8, sweeps: 2, converged: false }
+    }
+}
+
+impl Contact {
+    /// The same parameters with so many sub-steps in a frame.
+    pub fn with_sub_steps(self, sub_steps: u32) -> Self {
+        Self { sub_steps, ..self }
+    }
+
+    /// The same parameters with so many sweeps in a sub-step.
+    pub fn with_sweeps(self, sweeps: u32) -> Self {
+        Self { sweeps, ..self }
+    }
+
+    /// The same parameters, with or without sweeps until the solution has converged.
+    pub fn with_converged(self, converged: bool) -> Self {
+        Self { converged, ..self }
+    }
+
+    pub(super) fn validate(&self) -> Result<(), InvalidValue> {
+        validate::at_least_one("sub_steps", self.sub_steps)?;
+        validate::at_least_one("sweeps", self.sweeps)
+    }
+}
