@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::row::Row;
-use super::slots::{Run, Slots};
+use super::slots::{self, Run, Slots};
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use crate::forces::{self, SphereState};
@@ -59,14 +59,12 @@ fn accelerate_run(run: &mut Run, h: f64, others: Others) {
 
 /// The velocity of a sphere at the end of the sub-step, without contacts.
 pub(super) fn accelerated(run: &Run, slot: usize, h: f64, others: Others) -> Row {
-    let (before, linear) = (run.before[slot], run.acceleration[slot]);
-    let mut acceleration = linear.vector();
+    let (before, mut acceleration) = (run.before[slot], run.acceleration[slot]);
     if let Some((system, time)) = others {
-        acceleration += of_others(system, run.position[slot], before, time);
+        let more = of_others(system, run.position[slot], before, time);
+        acceleration = acceleration.with_vector(acceleration.vector() + more);
     }
-    let gained = before.vector() + h * acceleration;
-    let drag = h * linear.number();
-    before.with_vector(if drag > 0.0 { gained / (1.0 + drag) } else { gained })
+    slots::accelerated(before, acceleration, h)
 }
 
 /// Acceleration \[m/s²\] by the forces that are not linear.

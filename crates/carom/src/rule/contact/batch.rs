@@ -1,6 +1,8 @@
 //! Pairs of spheres in batches, no sphere in two pairs of a batch: what one pair changes no other of its
 //! batch reads, so that a batch is solved side by side with the bits of one pair after the other.
 
+use glam::DVec3;
+
 use crate::friction::ContactFriction;
 use crate::lanes::LANES;
 
@@ -235,6 +237,21 @@ impl Batches {
             tangential: self.frictions.get(number).map_or([0.0; 3], |it| get(&it.tangential, lane)),
             angular: self.rollings.get(number).map_or([0.0; 3], |it| get(&it.angular, lane)),
         }
+    }
+
+    /// Speed of approach \[m/s\] and impulse on sphere 2 \[N s\] of a bounce, without what others press
+    /// the two together with; `None` without a bounce.
+    pub fn bounce(&self, number: usize, lane: usize) -> Option<(f64, DVec3)> {
+        let batch = &self.pairs[number];
+        let (impulse, approach) = (batch.impulse[lane], batch.approach[lane]);
+        if batch.bias[lane] >= 0.0 || impulse <= 0.0 {
+            return None;
+        }
+        let own = batch.effective_mass[lane] * (1.0 + batch.restitution[lane]) * approach;
+        let tangential = self.frictions.get(number).map_or([0.0; 3], |it| get(&it.tangential, lane));
+        let normal = DVec3::from_array(get(&batch.normal, lane));
+        let whole = impulse * normal + DVec3::from_array(tangential);
+        Some((approach, whole * (own / impulse).min(1.0)))
     }
 
     pub fn count(&self) -> usize {

@@ -130,7 +130,8 @@ fn aim<S: Simd, const BOUNCES: bool>(
 
     let way = velocity.length_squared() * (sub_step.h * sub_step.h);
     let reach = Lanes::each(simd, batch.radius_sum) * swept::FAR;
-    if (reach * reach).is_less(way).any_true() {
+    let bounces = bias.is_less(zero);
+    if (bounces | (reach * reach).is_less(way)).any_true() {
         for lane in 0..LANES {
             swept::aim_pair(run, batch, lane, sub_step);
         }
@@ -149,7 +150,7 @@ impl FrictionBatch {
         }
         let normal = vector(simd, &batch.normal);
         let velocity = xyz(difference(simd, run.before, batch));
-        let slip = slip(velocity, normal, xyz(sum(simd, run.spin, batch)));
+        let slip = slip(velocity, normal, xyz(sum(simd, run.spin_before, batch)));
         let is_impact = Lanes::all(simd, 0.0).is_less(impact);
         let part = (Lanes::all(simd, 0.0) - restitution).select(is_impact, Lanes::all(simd, 0.0));
         self.slip = arrays(slip * part);

@@ -60,6 +60,7 @@ pub(crate) fn step(
         solve::sweep(solver, parameters, report);
         energy::keep(system, frame, solver, &sub_step, report);
         impacts::report(system, solver, &sub_step, report);
+        impacts::note_bounces(solver, &sub_step);
         advance::advance(system, solver, &sub_step);
         solve::correct(solver, report);
     }

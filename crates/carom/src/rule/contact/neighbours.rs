@@ -22,14 +22,16 @@ use crate::system::System;
 
 /// Whether a sphere may go farther in this sub-step than the last search allows.
 pub(super) fn are_stale(solver: &Solver, sub_step: &SubStep) -> bool {
-    let Slots { position, velocity, reference, .. } = &solver.slots;
-    solver.is_stale
-        || (0..position.len()).any(|slot| {
-            let end = position[slot].vector() + sub_step.h * velocity[slot].vector();
-            let way = end - reference[slot].vector();
-            let margin = reference[slot].number();
-            way.length_squared() > margin * margin
-        })
+    let Slots { position, velocity, before, reference, .. } = &solver.slots;
+    let leaves = |slot: usize, velocity: DVec3| {
+        let end = position[slot].vector() + sub_step.h * velocity;
+        let (way, margin) = (end - reference[slot].vector(), reference[slot].number());
+        way.length_squared() > margin * margin
+    };
+    // A flight ends between where its first velocity takes it and where its last one does.
+    let may_leave =
+        |slot: usize| leaves(slot, velocity[slot].vector()) || leaves(slot, before[slot].vector());
+    solver.is_stale || (0..position.len()).any(may_leave)
 }
 
 /// Puts spheres into the order of space, finds which may touch, and makes contacts of them, which go on

@@ -30,6 +30,8 @@ pub(super) struct Slots {
     pub turn: Vec<Row>,
     /// Centre at the last search for neighbours \[m\], and how far the sphere may go from there \[m\].
     pub reference: Vec<Row>,
+    /// Whether a contact that is no bounce had an impulse in the sub-step before.
+    pub bears: Vec<bool>,
     /// Acceleration by forces that are linear \[m/s²\], and rate of drag \[1/s\].
     pub acceleration: Vec<Row>,
 }
@@ -61,6 +63,8 @@ impl Slots {
         self.index.extend_from_slice(order);
         self.id.clear();
         self.id.extend(order.iter().map(|&index| ids[index as usize]));
+        self.bears.clear();
+        self.bears.resize(order.len(), true);
     }
 
     /// Takes over from the world where spheres are and how they move.
@@ -102,6 +106,7 @@ impl Slots {
         }
         self.id = from.iter().map(|&slot| self.id[slot]).collect();
         self.index = from.iter().map(|&slot| self.index[slot]).collect();
+        self.bears = from.iter().map(|&slot| self.bears[slot]).collect();
     }
 
     /// Has the accelerations of the forces of now, as far as they are linear. Tells whether there are
@@ -148,6 +153,8 @@ pub(super) struct Run<'a> {
     pub spin_before: &'a mut [Row],
     pub turn: &'a mut [Row],
     pub acceleration: &'a [Row],
+    pub reference: &'a [Row],
+    pub bears: &'a mut [bool],
 }
 
 impl Slots {
@@ -161,6 +168,8 @@ impl Slots {
             spin_before: &mut self.spin_before,
             turn: &mut self.turn,
             acceleration: &self.acceleration,
+            reference: &self.reference,
+            bears: &mut self.bears,
         }
     }
 
@@ -177,7 +186,21 @@ impl Slots {
     }
 }
 
+impl Slots {
+    /// The velocity of a sphere at the end of a sub-step of `h` \[s\], without contacts, under forces that
+    /// are linear.
+    pub fn accelerated(&self, slot: usize, h: f64) -> Row {
+        accelerated(self.before[slot], self.acceleration[slot], h)
+    }
+}
+
 impl Run<'_> {
+    /// The velocity of a sphere at the end of a sub-step of `h` \[s\], without contacts, under forces that
+    /// are linear.
+    pub fn accelerated(&self, slot: usize, h: f64) -> Row {
+        accelerated(self.before[slot], self.acceleration[slot], h)
+    }
+
     /// \[J\]
     pub fn kinetic_energy(&self) -> f64 {
         let energy = |row: &Row| row.vector().length_squared() / row.number();
@@ -197,6 +220,8 @@ impl<'a> Run<'a> {
             spin_before: front_mut(&mut self.spin_before, count),
             turn: front_mut(&mut self.turn, count),
             acceleration: front(&mut self.acceleration, count),
+            reference: front(&mut self.reference, count),
+            bears: front_mut(&mut self.bears, count),
         }
     }
 }
@@ -213,4 +238,11 @@ fn front<'a, T>(rest: &mut &'a [T], count: usize) -> &'a [T] {
     let (front, behind) = rest.split_at(count.min(rest.len()));
     *rest = behind;
     front
+}
+
+/// `(v + h a) / (1 + h c)`, with the rate c of drag: drag slows down, and never turns round.
+pub(super) fn accelerated(before: Row, acceleration: Row, h: f64) -> Row {
+    let gained = before.vector() + h * acceleration.vector();
+    let drag = h * acceleration.number();
+    before.with_vector(if drag > 0.0 { gained / (1.0 + drag) } else { gained })
 }

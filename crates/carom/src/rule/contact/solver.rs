@@ -16,6 +16,8 @@ pub(crate) struct Solver {
     pub(super) slots: Slots,
     pub(super) slabs: Slabs,
     pub(super) kept: Kept,
+    /// The spheres that bounce in the sub-step and bear nothing, by slot.
+    pub(super) bounces: Vec<Bounce>,
     /// Where surfaces are at the start of the sub-step, and how they move.
     pub(super) places: Vec<Place>,
     pub(super) kinds: ContactKinds,
@@ -33,6 +35,14 @@ pub(crate) struct Solver {
     pub(super) is_stale: bool,
     /// What was taken out of [`Self::slabs`] is in [`Self::kept`].
     pub(super) is_collected: bool,
+}
+
+/// What a bounce does to the way of a sphere in a sub-step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounce {
+    pub slot: u32,
+    /// How far the sphere is from where its last velocity takes it in the whole sub-step \[m\].
+    pub shift: DVec3,
 }
 
 /// Working memory of the rule, kept from step to step only to spare its allocation.

@@ -16,6 +16,9 @@ const RESTING: f64 = 10.0;
 /// A new contact bounces only above the speed that its bodies gain relative to each other in a sub-step,
 /// times this: more slowly they would be back within it.
 const NEW: f64 = 2.0;
+/// A new contact of a body that bears something bounces only above the speed of free fall over a sub-step
+/// along its normal, times [`RESTING`], and in any direction times this: it is shaken, too.
+const SHAKEN: f64 = 0.5;
 
 /// A sub-step.
 #[derive(Debug, Clone, Copy)]
@@ -28,6 +31,8 @@ pub(super) struct SubStep {
     pub impact_speed: f64,
     /// Speed of approach above which a contact that carried something is an impact \[m/s\].
     pub resting_speed: f64,
+    /// Speed that forces give a sphere in the sub-step at most \[m/s\].
+    fall: f64,
     /// By how much an impulse to start from may grow, by effective mass \[m/s\].
     pub growth: f64,
 }
@@ -41,8 +46,15 @@ impl SubStep {
             h,
             impact_speed: NEW * difference,
             resting_speed: RESTING * fall,
+            fall,
             growth: GROWTH_BY_WEIGHT * fall,
         }
+    }
+
+    /// Speed of approach above which a new contact of a sphere that bears something is an impact \[m/s\];
+    /// forces accelerate it by so much along the normal \[m/s²\].
+    pub fn shaken_speed(&self, along: f64) -> f64 {
+        RESTING * self.h * along.abs() + SHAKEN * self.fall
     }
 
     /// Speed of approach above which a new contact with a surface is an impact \[m/s\], for a sphere

@@ -40,6 +40,8 @@ pub(super) struct SurfaceContact {
     pub approach: f64,
     /// Slip that an impact is to end with \[m/s\].
     slip: DVec3,
+    /// When in the sub-step a bounce happens \[s\].
+    pub time: f64,
     pub restitution: f64,
     pub friction: ContactFriction,
     pub impulses: Impulses,
@@ -57,6 +59,7 @@ impl SurfaceContact {
             bias: FREE,
             approach: 0.0,
             slip: DVec3::ZERO,
+            time: 0.0,
             restitution,
             friction,
             impulses: Impulses::default(),
@@ -67,6 +70,14 @@ impl SurfaceContact {
     pub fn kept(&self) -> Impulses {
         let normal = if self.bias < 0.0 { 0.0 } else { self.impulses.normal };
         Impulses { normal, ..self.impulses }
+    }
+
+    /// The impulse of a bounce \[N s\] on a sphere of this mass \[kg\], without what others press it to
+    /// the surface with; `None` without a bounce.
+    pub fn bounce(&self, mass: f64) -> Option<DVec3> {
+        let bounces = self.bias < 0.0 && self.impulses.normal > 0.0;
+        let own = mass * (1.0 + self.restitution) * self.approach;
+        bounces.then(|| self.impulse() * (own / self.impulses.normal).min(1.0))
     }
 
     /// Work that the surface does, in its place \[J\].
@@ -108,86 +119,94 @@ pub(super) fn prepare(
 impl SurfaceContact {
     /// The normal and the gap of now; the velocity that the sphere is to have after the sub-step; the
     /// impulse to start from.
-    fn aim(&mut self, run: &Run, (form, motion): &Place, sub_step: &SubStep) {
+    fn aim(&mut self, run: &Run, place: &Place, sub_step: &SubStep) {
         let slot = self.slot as usize;
+        let (form, motion) = place;
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
         let before = run.before[slot].vector();
         let bounced = self.bias < 0.0;
         self.angular_velocity = motion.angular_velocity;
-        self.approach = 0.0;
-        self.bias = FREE;
+        (self.approach, self.bias) = (0.0, FREE);
         let separation = sphere_surface(form, center, radius);
-        let relative = |point: DVec3| before - motion.velocity_at(point);
-        let way = sub_step.h * relative(center).length();
         if let Some(Separation { distance, normal, point }) = separation {
             self.normal = normal;
             self.velocity = motion.velocity_at(point);
             self.bias = distance.max(0.0) / sub_step.h;
-            self.watch_for_impact(before, run.acceleration[slot].vector(), distance, sub_step);
+            self.watch_for_impact(run, distance, sub_step);
         }
-        if way > FAR * radius && separation.is_none_or(|it| it.distance > 0.0) {
-            self.aim_far(run, (form, motion), sub_step);
+        let way = sub_step.h * (before - motion.velocity_at(center)).length();
+        let is_apart = separation.is_none_or(|it| it.distance > 0.0);
+        let is_curved = !matches!(form, Form::HalfSpace { .. }) || !motion.is_at_rest();
+        if is_apart && is_curved && (way > FAR * radius || self.approach > 0.0) {
+            self.aim_at_impact(run, place, sub_step);
         }
         self.start(bounced, 1.0 / run.velocity[slot].number(), sub_step);
         self.slip = DVec3::ZERO;
         let part = self.friction.tangential_restitution;
         if self.approach > 0.0 && part > 0.0 && !run.spin.is_empty() {
-            let spin = run.spin[slot].vector();
+            let spin = run.spin_before[slot].vector();
             self.slip = -part * slip(before - self.velocity, self.normal, spin);
         }
     }
 
     /// Notes an impact, if the sphere comes to one within the sub-step.
-    fn watch_for_impact(
-        &mut self,
-        before: DVec3,
-        acceleration: DVec3,
-        distance: f64,
-        sub_step: &SubStep,
-    ) {
-        let speed = (before - self.velocity).dot(self.normal);
-        let pressing = -acceleration.dot(self.normal).min(0.0);
+    fn watch_for_impact(&mut self, run: &Run, distance: f64, sub_step: &SubStep) {
+        let slot = self.slot as usize;
+        let speed = -(run.before[slot].vector() - self.velocity).dot(self.normal);
+        let pressing = -run.acceleration[slot].vector().dot(self.normal).min(0.0);
         let threshold = if self.impulses.normal > 0.0 {
             sub_step.resting_speed
+        } else if run.bears[slot] {
+            sub_step.shaken_speed(pressing)
         } else {
             sub_step.surface_impact_speed(pressing)
         };
-        if speed < -threshold && distance + sub_step.h * speed < 0.0 {
-            self.note_impact(speed);
+        let fall = 0.5 * pressing * sub_step.h;
+        if speed > threshold && distance < sub_step.h * (speed + fall) {
+            // gap = s t + a t²/2
+            let gap = distance.max(0.0);
+            let time = 2.0 * gap / (speed + (speed * speed + 2.0 * pressing * gap).sqrt());
+            self.note_impact(speed + pressing * time, pressing, time, sub_step);
+        } else if self.impulses.normal == 0.0 && distance > sub_step.h * (speed + fall) {
+            // On its parabola it does not come so far as its last velocity says.
+            self.bias += fall;
         }
     }
 
-    /// Notes an impact at this normal velocity \[m/s\].
-    fn note_impact(&mut self, speed: f64) {
-        self.approach = -speed;
-        let rebound = self.restitution * speed;
-        if rebound < 0.0 {
-            self.bias = rebound;
-        }
-    }
-
-    /// Has the contact wait for the impact that a sphere that goes far comes to within the sub-step; if
-    /// it comes to none, it bears nothing.
-    fn aim_far(&mut self, run: &Run, (form, motion): (&Form, &SurfaceMotion), sub_step: &SubStep) {
+    /// Has the contact wait for the impact that the sphere comes to within the sub-step, wherever on the
+    /// surface that is; if it comes to none, the contact bears nothing.
+    fn aim_at_impact(&mut self, run: &Run, (form, motion): &Place, sub_step: &SubStep) {
         let slot = self.slot as usize;
-        let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
+        let radius = run.position[slot].number();
         let flight = Flight {
-            position: center,
+            position: run.position[slot].vector(),
             velocity: run.before[slot].vector(),
-            acceleration: DVec3::ZERO,
+            acceleration: run.acceleration[slot].vector(),
             drag_rate: 0.0,
         };
         (self.bias, self.approach) = (FREE, 0.0);
         let time = contact_time::sphere_surface(&flight, radius, form, motion, sub_step.h);
         let Some(time) = time else { return };
-        // Where the surface is then, the sphere is as far from it as where the surface is now.
-        let moved = center + time * (flight.velocity - motion.velocity_at(center));
+        // Seen from where the surface is now.
+        let (there, velocity) = flight.after(time);
+        let moved = there - time * motion.velocity_at(there);
         let Some(separation) = sphere_surface(form, moved, radius) else { return };
         self.normal = separation.normal;
         self.velocity = motion.velocity_at(separation.point);
-        let speed = (flight.velocity - self.velocity).dot(self.normal);
-        self.bias = (-speed).max(0.0) * time / sub_step.h;
-        self.note_impact(speed);
+        let approach = -(velocity - self.velocity).dot(self.normal);
+        let pressing = -flight.acceleration.dot(self.normal).min(0.0);
+        self.bias = approach.max(0.0) * time / sub_step.h;
+        self.note_impact(approach.max(0.0), pressing, time, sub_step);
+    }
+
+    /// Notes an impact after a `time` \[s\] with this speed of approach \[m/s\]; it is a bounce if the
+    /// sphere, which accelerates towards the surface \[m/s²\], is still leaving it at the end.
+    fn note_impact(&mut self, approach: f64, pressing: f64, time: f64, sub_step: &SubStep) {
+        self.approach = approach;
+        let rebound = self.restitution * approach - pressing * (sub_step.h - time);
+        if rebound > 0.0 {
+            (self.bias, self.time) = (-rebound, time);
+        }
     }
 
     /// The normal impulse to start from, for a sphere of this mass \[kg\].

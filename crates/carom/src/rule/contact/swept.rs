@@ -1,9 +1,11 @@
-//! Contacts of spheres that go far in a sub-step: whether they meet on their way, and where.
+//! Contacts of spheres that bounce, or go far in a sub-step: whether they meet on their way, and where.
 //!
 //! Elsewhere the normal at the start of a sub-step is as good as that at the impact, and the gap along it
 //! says when the bodies meet. A sphere that goes far would be stopped by what it passes.
 
-use super::batch::{PairBatch, set};
+use glam::DVec3;
+
+use super::batch::{PairBatch, get, set};
 use super::slots::Run;
 use super::sub_step::SubStep;
 use crate::contact_time;
@@ -13,8 +15,8 @@ pub(super) const FAR: f64 = 0.125;
 /// What the normal velocity may be where nothing is met \[m/s\]: anything.
 pub(super) const FREE: f64 = f64::MAX;
 
-/// Has a contact of a batch wait for the impact that its spheres come to within the sub-step; if they
-/// come to none, it bears nothing.
+/// Has a contact of a batch that bounces, or whose spheres go far, wait for the impact that they come to
+/// within the sub-step, with the normal there; if they come to none, it bears nothing.
 pub(super) fn aim_pair(run: &Run, batch: &mut PairBatch, lane: usize, sub_step: &SubStep) {
     let [first, second] = [batch.first[lane] as usize, batch.second[lane] as usize];
     let radius_sum = batch.radius_sum[lane];
@@ -22,8 +24,17 @@ pub(super) fn aim_pair(run: &Run, batch: &mut PairBatch, lane: usize, sub_step: 
     let velocity = run.before[second].vector() - run.before[first].vector();
     let way = sub_step.h * sub_step.h * velocity.length_squared();
     let reach = FAR * radius_sum;
+    let goes_far = way > reach * reach || batch.bias[lane] < 0.0;
     let overlaps = offset.length_squared() <= radius_sum * radius_sum;
-    if first == second || way <= reach * reach || overlaps {
+    if first == second || !goes_far {
+        return;
+    }
+    if is_shaken(run, batch, lane, sub_step) {
+        let gap = offset.length() - radius_sum;
+        (batch.bias[lane], batch.approach[lane]) = (gap.max(0.0) / sub_step.h, 0.0);
+        return;
+    }
+    if overlaps {
         return;
     }
     let time = contact_time::sphere_sphere_linear(offset, velocity, radius_sum);
@@ -32,9 +43,18 @@ pub(super) fn aim_pair(run: &Run, batch: &mut PairBatch, lane: usize, sub_step: 
         return;
     };
     let normal = (offset + time * velocity) / radius_sum;
-    let speed = velocity.dot(normal);
-    let rebound = batch.restitution[lane] * speed;
+    let approach = -velocity.dot(normal);
+    let rebound = batch.restitution[lane] * approach;
     set(&mut batch.normal, lane, normal.to_array());
-    batch.bias[lane] = if rebound < 0.0 { rebound } else { -speed * time / sub_step.h };
-    batch.approach[lane] = -speed;
+    batch.bias[lane] = if rebound > 0.0 { -rebound } else { approach * time / sub_step.h };
+    batch.approach[lane] = approach;
+}
+
+/// Whether spheres meet no faster than contacts are shaken by the others of a heap.
+fn is_shaken(run: &Run, batch: &PairBatch, lane: usize, sub_step: &SubStep) -> bool {
+    let slots = [batch.first[lane] as usize, batch.second[lane] as usize];
+    let normal = DVec3::from_array(get(&batch.normal, lane));
+    let along = slots.map(|slot| run.acceleration[slot].vector().dot(normal).abs());
+    slots.iter().any(|&slot| run.bears[slot])
+        && batch.approach[lane] < sub_step.shaken_speed(along[0].max(along[1]))
 }

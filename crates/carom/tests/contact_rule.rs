@@ -1,0 +1,378 @@
+//! The rule `contact` for many spheres: what it keeps, what it may not do, and that its bits depend on
+//! nothing but the world.
+//!
+//! How fast it is, and how good for large heaps, is measured by `carom bench --set heaps`.
+
+use carom::{
+    BodyPair, Collider, Contact, DQuat, DVec3, Friction, Gravity, Pose, Settings, Shape, Sphere,
+    World,
+};
+
+const G: f64 = 9.81;
+const FRAME: f64 = 1.0 / 60.0;
+
+fn world() -> World {
+    World::new(Settings::default().with_rule(Contact::default())).unwrap()
+}
+
+fn under_gravity() -> World {
+    let mut world = world();
+    world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0))).unwrap();
+    world
+}
+
+/// Adds a half-space that faces along `normal`, through a point.
+fn add_wall(world: &mut World, normal: DVec3, point: DVec3, restitution: f64) {
+    let pose = Pose::at(point).rotated(DQuat::from_rotation_arc(DVec3::Y, normal));
+    let wall = Collider::new(Shape::HalfSpace, pose).with_restitution(restitution);
+    world.add_collider(wall).unwrap();
+}
+
+/// Adds an open box about the origin: a floor at height 0 and walls at this distance.
+fn add_box(world: &mut World, half: f64, restitution: f64) {
+    add_wall(world, DVec3::Y, DVec3::ZERO, restitution);
+    for normal in [DVec3::X, DVec3::NEG_X, DVec3::Z, DVec3::NEG_Z] {
+        add_wall(world, normal, -half * normal, restitution);
+    }
+}
+
+/// Numbers in [0, 1).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn vector(&mut self) -> DVec3 {
+        DVec3::new(self.next(), self.next(), self.next()) * 2.0 - 1.0
+    }
+}
+
+/// A box of balls of several sizes that were dropped, with friction and restitution.
+fn poured(count: u32) -> World {
+    let mut world = under_gravity();
+    add_box(&mut world, 1.0, 0.5);
+    let mut random = Random(7);
+    for number in 0..count {
+        let radius = 0.06 + 0.06 * random.next();
+        let place = random.vector() * 0.8;
+        let height = 0.3 + 0.03 * f64::from(number);
+        let ball = Sphere::new(DVec3::new(place.x, height, place.z), radius)
+            .with_density(1000.0)
+            .with_restitution(0.4)
+            .with_friction(Friction::sliding(0.4).with_rolling(0.05));
+        world.add_sphere(ball).unwrap();
+    }
+    world
+}
+
+fn run(world: &mut World, frames: u32) {
+    for _ in 0..frames {
+        world.step(FRAME).unwrap();
+    }
+}
+
+fn largest_overlap(world: &World) -> f64 {
+    world.overlaps(0.0).iter().map(|overlap| overlap.depth).fold(0.0, f64::max)
+}
+
+#[test]
+fn an_elastic_ball_bounces_to_its_height_for_minutes() {
+    let mut world = under_gravity();
+    add_wall(&mut world, DVec3::Y, DVec3::ZERO, 1.0);
+    let id = world.add_sphere(Sphere::new(DVec3::new(0.0, 2.0, 0.0), 0.5)).unwrap();
+    let energy = world.total_energy();
+    let mut apex: f64 = 0.0;
+    for frame in 0..60 * 120 {
+        world.step(FRAME).unwrap();
+        let height = world.sphere(id).unwrap().position.y;
+        if frame > 60 * 110 {
+            apex = apex.max(height);
+        }
+        // A parabola before the impact, and one after it: what is left is rounding.
+        assert!((world.total_energy() - energy).abs() < 1e-10 * energy, "{}", world.time());
+    }
+    // The top of a flight may lie between two frames.
+    assert!((apex - 2.0).abs() < 0.5 * G * (0.5 * FRAME) * (0.5 * FRAME) + 1e-9, "{apex}");
+}
+
+#[test]
+fn rebounds_rise_to_e_squared() {
+    for e in [0.9, 0.7, 0.5] {
+        let mut world = under_gravity();
+        add_wall(&mut world, DVec3::Y, DVec3::ZERO, e);
+        let (drop, radius) = (2.0, 0.1);
+        let start = DVec3::new(0.0, drop + radius, 0.0);
+        let id = world.add_sphere(Sphere::new(start, radius)).unwrap();
+        let (mut bounces, mut expected) = (0, drop * G);
+        while bounces < 4 {
+            bounces += world.step(FRAME).unwrap().impacts.len();
+            if !world.report().impacts.is_empty() {
+                expected *= e * e;
+            }
+            let energy = world.total_energy() - G * radius;
+            assert!((energy - expected).abs() < 1e-10 * drop * G, "{e}: {energy} {expected}");
+        }
+        assert!(world.sphere(id).unwrap().position.y >= radius);
+    }
+}
+
+#[test]
+fn impacts_of_free_balls_are_those_of_the_rule_exact() {
+    // Without forces a sub-step with one impact for each ball moves as the closed form does.
+    let mut random = Random(3);
+    let spheres: Vec<Sphere> = (0..6)
+        .map(|number| {
+            let place = DVec3::new(3.0 * f64::from(number), 0.0, 0.0) + 0.3 * random.vector();
+            let towards = if number % 2 == 0 { DVec3::X } else { DVec3::NEG_X };
+            Sphere::new(place, 0.4)
+                .with_velocity(2.0 * towards + 0.2 * random.vector())
+                .with_mass(1.0 + random.next())
+                .with_restitution(0.9)
+        })
+        .collect();
+    let ends = [Settings::default(), Settings::default().with_rule(Contact::default())].map(|it| {
+        let mut world = World::new(it).unwrap();
+        spheres.iter().for_each(|sphere| _ = world.add_sphere(*sphere).unwrap());
+        let mut impacts = 0;
+        for _ in 0..60 {
+            impacts += world.step(FRAME).unwrap().impacts.len();
+        }
+        assert!(impacts >= 3);
+        (impacts, world.spheres().positions().to_vec(), world.spheres().velocities().to_vec())
+    });
+    let [(count, positions, velocities), (other_count, others, other_velocities)] = ends;
+    assert_eq!(count, other_count);
+    // The normal is that of the start of the sub-step, where the balls are nearly as far apart as they
+    // move in it: their offset turns by a few hundredths until they touch.
+    for (exact, contact) in positions.iter().zip(&others).chain(velocities.iter().zip(&other_velocities)) {
+        assert!((*exact - *contact).length() < 1e-11, "{exact} {contact}");
+    }
+}
+
+#[test]
+fn momenta_of_free_balls_are_kept_to_rounding() {
+    let mut world = world();
+    let mut random = Random(11);
+    for number in 0..200 {
+        let cell = DVec3::new(f64::from(number % 6), f64::from(number / 6 % 6), f64::from(number / 36));
+        let ball = Sphere::new(cell + 0.1 * random.vector(), 0.3 + 0.1 * random.next())
+            .with_velocity(random.vector() - 0.3 * (cell - 2.5))
+            .with_angular_velocity(5.0 * random.vector())
+            .with_mass(0.5 + random.next())
+            .with_restitution(0.8)
+            .with_friction(0.5);
+        world.add_sphere(ball).unwrap();
+    }
+    let momentum = world.momentum();
+    let sizes = |world: &World| -> f64 {
+        let of = world.spheres();
+        of.masses().iter().zip(of.velocities()).map(|(m, v)| m * v.length()).sum()
+    };
+    let (scale, mut energy) = (sizes(&world), world.kinetic_energy());
+    let mut impacts = 0;
+    for _ in 0..240 {
+        impacts += world.step(FRAME).unwrap().impacts.len();
+        assert!((world.momentum() - momentum).length() < 1e-12 * scale);
+        assert!(world.kinetic_energy() <= energy * (1.0 + 1e-13), "energy grows");
+        energy = world.kinetic_energy();
+    }
+    assert!(impacts > 200, "{impacts}");
+}
+
+#[test]
+fn a_heap_comes_to_rest_and_bears_its_weight() {
+    let mut world = poured(200);
+    run(&mut world, 600);
+    let speeds = world.spheres().velocities().iter().map(|v| v.length_squared()).sum::<f64>();
+    assert!((speeds / 200.0).sqrt() < 1e-3, "rms {}", (speeds / 200.0).sqrt());
+    assert!(largest_overlap(&world) < 0.005 * 0.06, "{}", largest_overlap(&world));
+    // The floor bears the weight of all.
+    let floor: f64 = world
+        .contacts()
+        .iter()
+        .filter(|it| matches!(it.between, BodyPair::Collider { .. }))
+        .map(|it| (it.normal_force * it.normal + it.tangential_force).y)
+        .sum();
+    let weight = G * world.spheres().masses().iter().sum::<f64>();
+    assert!((floor / weight - 1.0).abs() < 1e-3, "{floor} {weight}");
+}
+
+#[test]
+fn impulses_of_a_pour_never_add_energy() {
+    let mut world = poured(300);
+    let mut taken = 0.0;
+    for _ in 0..300 {
+        let account = world.step(FRAME).unwrap().contact_account;
+        assert!(account.impulse_work <= 1e-12 * world.total_energy(), "{account:?}");
+        taken -= account.impulse_work;
+        assert!(account.correction_work >= 0.0);
+    }
+    assert!(taken > 0.0);
+}
+
+#[test]
+fn fast_balls_do_not_tunnel() {
+    let thin = [
+        Shape::HalfSpace,
+        Shape::Rectangle { size_x: 4.0, size_z: 4.0 },
+        Shape::Sphere { radius: 0.3 },
+        Shape::Box { size: DVec3::new(2.0, 0.01, 2.0) },
+    ];
+    for speed in [10.0, 100.0, 1000.0, 10_000.0] {
+        for shape in thin {
+            for offset in [0.0, 0.13, 0.29] {
+                let mut world = world();
+                world.add_collider(Collider::new(shape, Pose::at(DVec3::ZERO))).unwrap();
+                let ball = Sphere::new(DVec3::new(offset, 3.0, 0.5 * offset), 0.05)
+                    .with_velocity(-speed * DVec3::Y);
+                let id = world.add_sphere(ball).unwrap();
+                let frames = (3.0 / speed / FRAME) as u32 + 3;
+                run(&mut world, frames);
+                let end = world.sphere(id).unwrap();
+                assert!(end.velocity.y > -0.999 * speed, "{shape:?} {speed} {offset}: {end:?}");
+                assert!(end.velocity.length() < speed * (1.0 + 1e-9), "{end:?}");
+            }
+        }
+        // Two balls head on.
+        let mut world = world();
+        let ids = [DVec3::X, DVec3::NEG_X].map(|side| {
+            let ball = Sphere::new(2.0 * side, 0.05).with_velocity(-speed * side);
+            world.add_sphere(ball).unwrap()
+        });
+        run(&mut world, (4.0 / speed / FRAME) as u32 + 3);
+        let [first, second] = ids.map(|id| world.sphere(id).unwrap());
+        assert!((first.velocity.x - speed).abs() < 1e-9 * speed, "{first:?}");
+        assert!((second.velocity.x + speed).abs() < 1e-9 * speed, "{second:?}");
+    }
+}
+
+#[test]
+fn a_fast_ball_that_passes_is_not_stopped() {
+    let mut world = world();
+    world.add_collider(Collider::new(Shape::Sphere { radius: 0.3 }, Pose::at(DVec3::ZERO))).unwrap();
+    world.add_sphere(Sphere::new(DVec3::new(3.0, 0.0, 0.36), 0.3)).unwrap();
+    let plate = Shape::Rectangle { size_x: 1.0, size_z: 1.0 };
+    world.add_collider(Collider::new(plate, Pose::at(DVec3::new(0.0, -1.0, 2.0)))).unwrap();
+    let velocity = 1000.0 * DVec3::X;
+    let fast = Sphere::new(DVec3::new(-5.0, 0.0, -0.36), 0.05).with_velocity(velocity);
+    let id = world.add_sphere(fast).unwrap();
+    run(&mut world, 3);
+    assert_eq!(world.sphere(id).unwrap().velocity, velocity);
+}
+
+#[test]
+fn a_pyramid_of_four_stands_from_its_friction_on() {
+    // Three balls that touch carry a fourth: it holds from tan(angle/2) on between balls, with the angle
+    // of the edges to the vertical, and a quarter of that on the floor (0.3178 and 0.0795).
+    let radius = 0.1;
+    let height = (8.0_f64 / 3.0).sqrt() * radius;
+    for (balls, floor, stands) in
+        [(0.33, 0.083, true), (0.30, 0.083, false), (0.33, 0.076, false), (0.9, 0.9, true)]
+    {
+        let mut world = under_gravity();
+        let friction = Friction::sliding(floor * floor / balls);
+        let plane = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))
+            .with_restitution(0.0)
+            .with_friction(friction);
+        world.add_collider(plane).unwrap();
+        let ring = 2.0 / 3.0_f64.sqrt() * radius;
+        for number in 0..3 {
+            let angle = f64::from(number) * std::f64::consts::TAU / 3.0;
+            let place = DVec3::new(ring * angle.cos(), radius, ring * angle.sin());
+            world.add_sphere(Sphere::new(place, radius).with_friction(balls)).unwrap();
+        }
+        let top = DVec3::new(0.0, radius + height, 0.0);
+        let top = world.add_sphere(Sphere::new(top, radius).with_friction(balls)).unwrap();
+        run(&mut world, 180);
+        let sunk = radius + height - world.sphere(top).unwrap().position.y;
+        assert_eq!(sunk < 0.01 * radius, stands, "{balls} {floor}: sunk by {sunk}");
+    }
+}
+
+#[test]
+fn a_snapshot_goes_on_with_the_same_bits() {
+    let mut world = poured(150);
+    run(&mut world, 90);
+    let snapshot = world.snapshot();
+    run(&mut world, 30);
+    let hash = world.state_hash();
+    world.restore(&snapshot);
+    run(&mut world, 30);
+    assert_eq!(world.state_hash(), hash);
+    let mut copy = world.clone();
+    run(&mut world, 10);
+    run(&mut copy, 10);
+    assert_eq!(world.state_hash(), copy.state_hash());
+}
+
+#[test]
+fn what_changes_from_outside_keeps_a_heap_at_rest() {
+    // A game sets gravity anew in each frame, and takes spheres out: the others keep their impulses.
+    let mut world = poured(100);
+    run(&mut world, 400);
+    let force = world.forces().next().unwrap().0;
+    let first = world.spheres().ids()[99];
+    world.remove_sphere(first).unwrap();
+    for _ in 0..60 {
+        world.set_force(force, Gravity::new(DVec3::new(0.0, -G, 0.0))).unwrap();
+        world.step(FRAME).unwrap();
+    }
+    let fastest = world.spheres().velocities().iter().map(|v| v.length()).fold(0.0, f64::max);
+    assert!(fastest < 0.05, "{fastest}");
+    assert!(largest_overlap(&world) < 0.005 * 0.06);
+}
+
+#[test]
+fn a_turning_drum_takes_balls_along() {
+    let mut world = under_gravity();
+    for number in 0..12 {
+        let angle = f64::from(number) * std::f64::consts::TAU / 12.0;
+        let plate = Shape::Box { size: DVec3::new(0.7, 0.1, 1.0) };
+        let place = 1.2 * DVec3::new(angle.sin(), -angle.cos(), 0.0);
+        // Each plate turns about its own centre and moves about the axis of the drum.
+        let spin = 1.0 * DVec3::Z;
+        let pose = Pose::at(place).rotated(DQuat::from_rotation_z(angle));
+        let plate = Collider::new(plate, pose)
+            .moving(spin.cross(place), spin)
+            .with_restitution(0.2)
+            .with_friction(0.6);
+        world.add_collider(plate).unwrap();
+    }
+    for z in [-0.4, 0.4] {
+        let wall = Collider::new(
+            Shape::HalfSpace,
+            Pose::at(DVec3::new(0.0, 0.0, z))
+                .rotated(DQuat::from_rotation_arc(DVec3::Y, -z.signum() * DVec3::Z)),
+        );
+        world.add_collider(wall.with_restitution(0.2)).unwrap();
+    }
+    for number in 0..40 {
+        let place =
+            DVec3::new(0.2 * f64::from(number % 5) - 0.4, 0.2 * f64::from(number / 5 % 4) - 0.6, 0.4 * f64::from(number / 20) - 0.2);
+        let ball = Sphere::new(place, 0.09).with_restitution(0.3).with_friction(0.6);
+        world.add_sphere(ball).unwrap();
+    }
+    for _ in 0..240 {
+        // The plates move on straight lines within a frame: put back onto the circle at its end.
+        let turned: Vec<_> = world
+            .colliders()
+            .filter(|(_, it)| it.angular_velocity != DVec3::ZERO)
+            .map(|(id, it)| {
+                let place = 1.2 * it.pose.position.with_z(0.0).normalize();
+                (id, it.with_pose(Pose { position: place, ..it.pose }).moving(DVec3::Z.cross(place), DVec3::Z))
+            })
+            .collect();
+        world.set_colliders(&turned).unwrap();
+        world.step(FRAME).unwrap();
+        let farthest = world.spheres().positions().iter().map(|it| it.truncate().length());
+        assert!(farthest.fold(0.0, f64::max) < 1.2, "a ball left the drum");
+    }
+    // The floor goes towards +x: the heap leans there, up to the angle of repose.
+    let mean = world.spheres().positions().iter().sum::<DVec3>() / 40.0;
+    let angle = mean.x.atan2(-mean.y).to_degrees();
+    assert!((10.0..50.0).contains(&angle), "{angle}");
+    assert!(world.report().contact_account.surface_work != 0.0);
+}
