@@ -4,6 +4,7 @@
 use super::accelerate::{Others, accelerated};
 use super::row::Row;
 use super::slots::Run;
+use super::solve;
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use crate::interval::Interval;
@@ -13,11 +14,16 @@ use crate::system::System;
 /// Gains up to this part of the kinetic energy are rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// Takes less of all impulses where together they would add kinetic energy, and accounts for what they
-/// took.
+/// Sweeps again where impulses have added kinetic energy, in so many rounds at most; from
+/// [`SOFTENING`] on with less restitution.
+const ROUNDS: u32 = 12;
+const SOFTENING: u32 = 3;
+
+/// Has impulses add no kinetic energy, and accounts for what they took.
 ///
-/// With the velocities v before them and v + d after, the kinetic energy of `v + s d` is a parabola in s
-/// that begins with a descent; s is the largest part that adds nothing. Momentum is kept for any s.
+/// Impulses to start from may be too large, and a few sweeps do not take all of that back; more sweeps do.
+/// Restitution in a group of contacts may add energy whatever the sweeps: there, less is given back. As a
+/// last resort less of all impulses is taken.
 ///
 /// Moving surfaces do work: where there are any, it is accounted for, and nothing is taken back.
 pub(super) fn keep(
@@ -27,32 +33,53 @@ pub(super) fn keep(
     sub_step: &SubStep,
     report: &mut StepReport,
 ) {
-    let account = &mut report.contact_account;
     let before = solver.energy_before;
-    solver.slabs.each(&mut solver.slots, |run, slab| slab.found.energy = run.kinetic_energy());
-    let after = solver.slabs.energy();
+    let mut gain = gain(solver);
     if solver.has_moving_surfaces {
         let surfaces = solver.slabs.iter().flat_map(|slab| &slab.surfaces);
         let work = surfaces.map(|contact| contact.work()).sum::<f64>();
-        account.surface_work += work;
-        account.impulse_work += after - before - work;
+        report.contact_account.surface_work += work;
+        report.contact_account.impulse_work += gain - work;
         return;
     }
-    if after - before <= ROUNDING * before {
-        account.impulse_work += after - before;
+    let mut round = 0;
+    while gain > ROUNDING * before && round < ROUNDS {
+        if round >= SOFTENING {
+            solve::soften_bounces(solver, 0.5);
+        }
+        solve::sweep_once(solver, true, report);
+        solve::sweep_once(solver, false, report);
+        gain = self::gain(solver);
+        round += 1;
+    }
+    report.contact_account.limited_sub_steps += u32::from(round > 0);
+    if gain <= ROUNDING * before {
+        report.contact_account.impulse_work += gain;
         return;
     }
     let others = solver.has_other_forces.then_some((system, frame.time + sub_step.time));
-    let h = sub_step.h;
+    take_less(solver, gain, (sub_step.h, others));
+}
+
+/// What the impulses have added to the kinetic energy \[J\].
+fn gain(solver: &mut Solver) -> f64 {
+    solver.slabs.each(&mut solver.slots, |run, slab| slab.found.energy = run.kinetic_energy());
+    solver.slabs.energy() - solver.energy_before
+}
+
+/// Takes less of all impulses, so that they add nothing, in a sub-step of `h` \[s\].
+///
+/// With the velocities v before them and v + d after, the kinetic energy of `v + s d` is a parabola in s
+/// that begins with a descent; s is the largest part that adds nothing. Momentum is kept for any s.
+fn take_less(solver: &mut Solver, gain: f64, (h, others): (f64, Others)) {
     solver.slabs.each(&mut solver.slots, |run, slab| {
         slab.found.energy = of_change(&run, h, others);
     });
-    // K(s) = before + s slope + s² change, with the energy of the change alone.
+    // K(s) = K(0) + s slope + s² change, with the energy of the change alone.
     let change = solver.slabs.energy();
-    let slope = (after - before) - change;
+    let slope = gain - change;
     let part = if change > 0.0 { (-slope / change).clamp(0.0, 1.0) } else { 0.0 };
     solver.slabs.each_run(&mut solver.slots, |mut run| take(&mut run, h, others, part));
-    account.limited_sub_steps += 1;
 }
 
 /// Kinetic energy of what the impulses changed \[J\].

@@ -102,19 +102,20 @@ fn aim<S: Simd, const BOUNCES: bool>(
     normal.y = all(1.0).select(is_lost, normal.y);
     let gap = length - Lanes::each(simd, batch.radius_sum);
 
+    let velocities: &[Row] = if BOUNCES { run.before } else { run.velocity };
+    let velocity = xyz(difference(simd, velocities, batch));
+    let speed = velocity.dot(normal);
+
     let carried = Lanes::each(simd, batch.impulse);
     let before = Lanes::each(simd, batch.previous);
-    let had_bounced = Lanes::each(simd, batch.bias).is_less(zero);
-    // What stopped an impact is no longer needed.
-    let carried = smaller(carried, before).select(had_bounced, carried);
+    // What stopped an impact is no longer needed, once the two part.
+    let has_bounced = Lanes::each(simd, batch.bias).is_less(zero) & zero.is_at_most(speed);
+    let carried = smaller(carried, before).select(has_bounced, carried);
     let effective_mass = Lanes::each(simd, batch.effective_mass);
     let most = before * GROWTH + effective_mass * sub_step.growth;
     batch.previous = carried.to_array();
     batch.impulse = smaller(carried, most).to_array();
 
-    let velocities: &[Row] = if BOUNCES { run.before } else { run.velocity };
-    let velocity = xyz(difference(simd, velocities, batch));
-    let speed = velocity.dot(normal);
     let rests = zero.is_less(carried);
     let threshold = all(-sub_step.resting_speed).select(rests, all(-sub_step.impact_speed));
     let mut bias = gap.max(zero) * (1.0 / sub_step.h);
@@ -122,7 +123,9 @@ fn aim<S: Simd, const BOUNCES: bool>(
     let is_impact = is_fast & (gap + speed * sub_step.h).is_less(zero);
     if BOUNCES {
         let rebound = Lanes::each(simd, batch.restitution) * speed;
-        bias = rebound.select(is_impact & rebound.is_less(zero), bias);
+        // What bears something already does not bounce: it would lose the impulse to start from.
+        let is_new = carried.is_equal(zero);
+        bias = rebound.select(is_impact & is_new & rebound.is_less(zero), bias);
     }
     batch.approach = (zero - speed).select(is_impact, zero).to_array();
     batch.bias = bias.to_array();

@@ -25,31 +25,48 @@ pub(super) fn prepare(solver: &mut Solver, sub_step: &SubStep) {
 
 /// Sweeps over all contacts, each time in the other direction.
 pub(super) fn sweep(solver: &mut Solver, parameters: Contact, report: &mut StepReport) {
-    let Solver { slots, slabs, .. } = solver;
     let most = if parameters.converged { MOST_SWEEPS } else { parameters.sweeps };
     let mut residual = 0.0;
     for number in 0..most {
-        let backwards = number % 2 == 0;
-        let direction = if backwards { Direction::Backwards } else { Direction::Forwards };
-        slabs.each_contact(slots, direction, |run, slab| {
-            let Found { change, impulse, .. } = if backwards {
-                let surfaces = surfaces::sweep(run, &mut slab.surfaces, backwards);
-                kernel::sweep(run, &mut slab.batches, backwards).or_larger(surfaces)
-            } else {
-                let pairs = kernel::sweep(run, &mut slab.batches, backwards);
-                surfaces::sweep(run, &mut slab.surfaces, backwards).or_larger(pairs)
-            };
-            (slab.found.change, slab.found.impulse) = (change, impulse);
-        });
-        report.work.sweeps += 1;
-        let found = slabs.iter().fold(Found::default(), |all, slab| all.or_larger(slab.found));
-        residual = if found.impulse > 0.0 { found.change / found.impulse } else { 0.0 };
+        residual = sweep_once(solver, number % 2 == 0, report);
         if parameters.converged && residual <= CONVERGED {
             break;
         }
     }
     let account = &mut report.contact_account;
     account.residual = account.residual.max(residual);
+}
+
+/// Sweeps over all contacts once. Gives the residual.
+pub(super) fn sweep_once(solver: &mut Solver, backwards: bool, report: &mut StepReport) -> f64 {
+    let Solver { slots, slabs, .. } = solver;
+    let direction = if backwards { Direction::Backwards } else { Direction::Forwards };
+    slabs.each_contact(slots, direction, |run, slab| {
+        let Found { change, impulse, .. } = if backwards {
+            let surfaces = surfaces::sweep(run, &mut slab.surfaces, backwards);
+            kernel::sweep(run, &mut slab.batches, backwards).or_larger(surfaces)
+        } else {
+            let pairs = kernel::sweep(run, &mut slab.batches, backwards);
+            surfaces::sweep(run, &mut slab.surfaces, backwards).or_larger(pairs)
+        };
+        (slab.found.change, slab.found.impulse) = (change, impulse);
+    });
+    report.work.sweeps += 1;
+    let found = slabs.iter().fold(Found::default(), |all, slab| all.or_larger(slab.found));
+    if found.impulse > 0.0 { found.change / found.impulse } else { 0.0 }
+}
+
+/// Has bounces give back only this part of what they would.
+pub(super) fn soften_bounces(solver: &mut Solver, part: f64) {
+    let soften = |bias: &mut f64| {
+        if *bias < 0.0 {
+            *bias *= part;
+        }
+    };
+    for slab in solver.slabs.iter_mut() {
+        slab.batches.pairs.iter_mut().flat_map(|batch| &mut batch.bias).for_each(soften);
+        slab.surfaces.iter_mut().map(|contact| &mut contact.bias).for_each(soften);
+    }
 }
 
 /// Moves apart what overlaps.

@@ -124,7 +124,10 @@ impl SurfaceContact {
         let (form, motion) = place;
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
         let before = run.before[slot].vector();
-        let bounced = self.bias < 0.0;
+        if self.bias < 0.0 && (before - self.velocity).dot(self.normal) >= 0.0 {
+            // What stopped an impact is no longer needed, once the two part.
+            self.impulses.normal = self.impulses.normal.min(self.impulses.previous);
+        }
         self.angular_velocity = motion.angular_velocity;
         (self.approach, self.bias) = (0.0, FREE);
         let separation = sphere_surface(form, center, radius);
@@ -140,7 +143,7 @@ impl SurfaceContact {
         if is_apart && is_curved && (way > FAR * radius || self.approach > 0.0) {
             self.aim_at_impact(run, place, sub_step);
         }
-        self.start(bounced, 1.0 / run.velocity[slot].number(), sub_step);
+        self.start(1.0 / run.velocity[slot].number(), sub_step);
         self.slip = DVec3::ZERO;
         let part = self.friction.tangential_restitution;
         if self.approach > 0.0 && part > 0.0 && !run.spin.is_empty() {
@@ -204,15 +207,16 @@ impl SurfaceContact {
     fn note_impact(&mut self, approach: f64, pressing: f64, time: f64, sub_step: &SubStep) {
         self.approach = approach;
         let rebound = self.restitution * approach - pressing * (sub_step.h - time);
-        if rebound > 0.0 {
+        // What bears something already does not bounce: it would lose the impulse to start from.
+        if rebound > 0.0 && self.impulses.normal == 0.0 {
             (self.bias, self.time) = (-rebound, time);
         }
     }
 
     /// The normal impulse to start from, for a sphere of this mass \[kg\].
-    fn start(&mut self, bounced: bool, mass: f64, sub_step: &SubStep) {
+    fn start(&mut self, mass: f64, sub_step: &SubStep) {
         let Impulses { normal, previous, .. } = &mut self.impulses;
-        let carried = if bounced { normal.min(*previous) } else { *normal };
+        let carried = *normal;
         let most = *previous * GROWTH + mass * sub_step.growth;
         *previous = carried;
         *normal = if self.bias == FREE { 0.0 } else { carried.min(most) };
