@@ -68,6 +68,9 @@ pub struct ContactAccount {
     /// Largest overlap before it was corrected, beyond what is left as it is, as a part of the sum of
     /// radii.
     pub largest_overlap: f64,
+    /// Spheres that sleep at the end of the step: at rest, with all that they touch, until something comes
+    /// near or changes.
+    pub asleep: u32,
 }
 
 /// The work of a step, counted by stage: integers that depend on the world alone, not on the machine

@@ -74,7 +74,7 @@ impl State {
     /// are others.
     pub fn changed(&mut self) -> &mut Self {
         self.timeline = None;
-        self.solver.set_stale();
+        self.solver.set_changed();
         self
     }
 
@@ -96,6 +96,7 @@ impl State {
         if let Some(timeline) = self.renewed_flights() {
             timeline.place(index, position, velocity, time);
         }
+        self.solver.set_changed();
         (self.spheres.motion.position[index], self.spheres.motion.velocity[index]) =
             (position, velocity);
     }

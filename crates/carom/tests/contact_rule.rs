@@ -62,7 +62,7 @@ fn poured(count: u32) -> World {
         let ball = Sphere::new(DVec3::new(place.x, height, place.z), radius)
             .with_density(1000.0)
             .with_restitution(0.4)
-            .with_friction(Friction::sliding(0.4).with_rolling(0.05));
+            .with_friction(Friction::sliding(0.4).with_rolling(0.05).with_spinning(0.05));
         world.add_sphere(ball).unwrap();
     }
     world
@@ -290,6 +290,58 @@ fn a_pyramid_of_four_stands_from_its_friction_on() {
         let sunk = radius + height - world.sphere(top).unwrap().position.y;
         assert_eq!(sunk < 0.01 * radius, stands, "{balls} {floor}: sunk by {sunk}");
     }
+}
+
+#[test]
+fn a_heap_at_rest_sleeps_does_not_creep_and_wakes_when_touched() {
+    let mut world = poured(200);
+    run(&mut world, 480);
+    assert_eq!(world.report().contact_account.asleep, 200);
+    let before = world.spheres().positions().to_vec();
+    let contacts = world.contacts();
+    assert!(contacts.len() > 300, "{}", contacts.len());
+    // Ten minutes.
+    run(&mut world, 36_000);
+    assert_eq!(world.spheres().positions(), before);
+    assert_eq!(world.contacts(), contacts);
+    // A ball comes down on it.
+    let ball = Sphere::new(DVec3::new(0.0, 3.0, 0.0), 0.1)
+        .with_density(1000.0)
+        .with_restitution(0.0)
+        .with_friction(0.4);
+    world.add_sphere(ball).unwrap();
+    let mut fewest = u32::MAX;
+    for _ in 0..600 {
+        fewest = fewest.min(world.step(FRAME).unwrap().contact_account.asleep);
+    }
+    assert!(fewest < 200, "nothing woke: {fewest}");
+    assert_eq!(world.report().contact_account.asleep, 201);
+    let moved = world.spheres().positions().iter().zip(&before).map(|(a, b)| (*a - *b).length());
+    let farthest = moved.fold(0.0, f64::max);
+    assert!((1e-6..0.2).contains(&farthest), "{farthest}");
+}
+
+#[test]
+fn sleepers_far_from_an_impact_sleep_on() {
+    let mut world = under_gravity();
+    add_wall(&mut world, DVec3::Y, DVec3::ZERO, 0.0);
+    for number in 0..10 {
+        let place = DVec3::new(f64::from(number), 0.1, 0.0);
+        world.add_sphere(Sphere::new(place, 0.1)).unwrap();
+    }
+    run(&mut world, 60);
+    assert_eq!(world.report().contact_account.asleep, 10);
+    world.add_sphere(Sphere::new(DVec3::new(0.0, 0.5, 0.0), 0.1).with_restitution(0.0)).unwrap();
+    let mut fewest = u32::MAX;
+    for _ in 0..120 {
+        fewest = fewest.min(world.step(FRAME).unwrap().contact_account.asleep);
+    }
+    // To add a sphere wakes all once; they fall asleep again but for the one that is hit.
+    assert_eq!(world.report().contact_account.asleep, 11, "{fewest}");
+    // Without gravity they wake.
+    let force = world.forces().next().unwrap().0;
+    world.remove_force(force).unwrap();
+    assert_eq!(world.step(FRAME).unwrap().contact_account.asleep, 0);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::row::Row;
-use super::slots::{self, Run, Slots};
+use super::slots::{self, AWAKE, Run, Slots};
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use crate::forces::{self, SphereState};
@@ -57,9 +57,12 @@ fn accelerate_run(run: &mut Run, h: f64, others: Others) {
     }
 }
 
-/// The velocity of a sphere at the end of the sub-step, without contacts.
+/// The velocity of a sphere at the end of the sub-step, without contacts. One that sleeps stays at rest.
 pub(super) fn accelerated(run: &Run, slot: usize, h: f64, others: Others) -> Row {
     let (before, mut acceleration) = (run.before[slot], run.acceleration[slot]);
+    if run.island[slot] != AWAKE {
+        return before;
+    }
     if let Some((system, time)) = others {
         let more = of_others(system, run.position[slot], before, time);
         acceleration = acceleration.with_vector(acceleration.vector() + more);

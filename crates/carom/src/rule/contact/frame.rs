@@ -1,7 +1,10 @@
 //! The beginning and the end of a frame: from the world to the solver, and back.
 
 use super::batch::ContactKinds;
+use super::kept::Kept;
 use super::slab::{Found, Slabs};
+use super::sleep;
+use super::slots::AWAKE;
 use super::solver::Solver;
 use super::surfaces;
 use crate::bodies::Motion;
@@ -16,13 +19,17 @@ use crate::system::System;
 pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
     let ids = &system.spheres.id;
     let kinds = kinds_of(system);
-    if solver.is_stale || !solver.slots.are_of(ids) || solver.kinds != kinds {
+    solver.has_moving_surfaces = system.surfaces.iter().any(|it| !it.motion.is_at_rest());
+    if solver.is_changed || solver.has_moving_surfaces || !system.spheres.applied_force.is_empty() {
+        sleep::wake(solver, |_| true);
+    }
+    if solver.is_changed || !solver.slots.are_of(ids) || solver.kinds != kinds {
         solver.slots.follow(ids);
-        solver.kept.collect(&solver.slots, &solver.slabs, ids.len());
-        let order: Vec<u32> = (0..ids.len() as u32).collect();
-        solver.slots.arrange(&order, ids);
+        solver.kept = Kept::of(&solver.slots, &solver.slabs, &solver.dormant, ids);
+        solver.slots.arrange(ids);
         solver.slabs = Slabs::of_one(ids.len());
         (solver.kinds, solver.is_stale, solver.is_collected) = (kinds, true, true);
+        solver.is_changed = false;
     }
     if kinds.friction || !motion.spin.angular_velocity.is_empty() {
         motion.spin.make_room(ids.len());
@@ -34,7 +41,9 @@ pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
     let first = accelerations.first().copied().unwrap_or_default();
     let is_common = is_one && first.number() == 0.0 && !solver.has_other_forces;
     solver.common_acceleration = is_common.then(|| first.vector());
-    solver.has_moving_surfaces = system.surfaces.iter().any(|it| !it.motion.is_at_rest());
+    solver.may_sleep = !solver.has_other_forces
+        && !solver.has_moving_surfaces
+        && system.spheres.applied_force.is_empty();
     // The bounds of moving surfaces are those of now.
     solver.is_stale |= solver.has_moving_surfaces;
     surfaces::places_after(system.surfaces, 0.0, &mut solver.places);
@@ -66,6 +75,10 @@ pub(super) fn end(
     solver: &mut Solver,
     report: &mut StepReport,
 ) {
+    sleep::wake_moved(solver);
+    sleep::fall_asleep(solver, frame.h);
+    let asleep = solver.slots.island.iter().filter(|&&island| island != AWAKE).count();
+    report.contact_account.asleep = asleep as u32;
     solver.slots.write(motion);
     let h = frame.h / f64::from(parameters.sub_steps);
     if solver.slots.turn.is_empty() {

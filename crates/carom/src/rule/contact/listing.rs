@@ -1,10 +1,15 @@
 //! The contacts of a world, as they are listed.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use super::batch::{self, Impulses};
+use super::dormant::{Dormant, Partner};
+use super::slots::AWAKE;
 use super::solver::Solver;
-use crate::detect::sphere_surface;
+use crate::detect::{Separation, sphere_sphere, sphere_surface};
+use crate::id::SphereId;
 use crate::persistent_contact::PersistentContact;
 use crate::report::BodyPair;
 use crate::system::System;
@@ -15,20 +20,20 @@ const SLIDES: f64 = 1.0 - 1e-9;
 /// The contacts that bore something in the last sub-step, in order of their bodies, pairs of spheres
 /// first.
 pub(crate) fn persistent_contacts(solver: &Solver, system: &System) -> Vec<PersistentContact> {
-    if solver.is_stale {
+    if solver.is_changed {
         return Vec::new();
     }
     let mut contacts = Vec::new();
     of_pairs(solver, &mut contacts);
     of_surfaces(solver, system, &mut contacts);
+    of_sleepers(solver, system, &mut contacts);
     contacts.sort_by_key(|contact| contact.between);
     contacts
 }
 
 fn of_pairs(solver: &Solver, contacts: &mut Vec<PersistentContact>) {
-    let slots = &solver.slots;
     for slab in solver.slabs.iter() {
-        for (number, lane, [first, second]) in slab.batches.contacts() {
+        for (number, lane, slots) in slab.batches.contacts() {
             let pair = &slab.batches.pairs[number];
             if pair.impulse[lane] <= 0.0 {
                 continue;
@@ -37,50 +42,89 @@ fn of_pairs(solver: &Solver, contacts: &mut Vec<PersistentContact>) {
             let tangential = friction.map_or([0.0; 3], |it| batch::get(&it.tangential, lane));
             let impulses =
                 Impulses { normal: pair.impulse[lane], tangential, ..Impulses::default() };
-            let [mut first, mut second] = [first, second].map(|slot| slab.start + slot as usize);
-            let is_reversed = slots.id[first] > slots.id[second];
-            if is_reversed {
-                (first, second) = (second, first);
+            let slots = slots.map(|slot| slab.start + slot as usize);
+            if slots.iter().all(|&slot| solver.slots.island[slot] != AWAKE) {
+                continue;
             }
-            let [from, to] = [first, second].map(|slot| slots.position[slot]);
-            let offset = to.vector() - from.vector();
-            let length = offset.length();
-            let normal = if length > 0.0 { offset / length } else { DVec3::Y };
-            contacts.push(PersistentContact {
-                between: BodyPair::Spheres(slots.id[first], slots.id[second]),
-                point: from.vector() + from.number() * normal,
-                normal,
-                gap: length - (from.number() + to.number()),
-                ..forces(
-                    if is_reversed { impulses.reversed() } else { impulses },
-                    friction.map_or(0.0, |it| it.sliding[lane]),
-                    solver.h,
-                )
-            });
+            let sliding = friction.map_or(0.0, |it| it.sliding[lane]);
+            contacts.push(of_pair(solver, slots, impulses, sliding));
         }
     }
 }
 
-fn of_surfaces(solver: &Solver, system: &System, contacts: &mut Vec<PersistentContact>) {
+/// The contact of the spheres in two slots, with the impulses on the second.
+fn of_pair(
+    solver: &Solver,
+    [mut first, mut second]: [usize; 2],
+    mut impulses: Impulses,
+    sliding: f64,
+) -> PersistentContact {
     let slots = &solver.slots;
+    if slots.id[first] > slots.id[second] {
+        (first, second, impulses) = (second, first, impulses.reversed());
+    }
+    let [from, to] = [first, second].map(|slot| slots.position[slot]);
+    let separation =
+        sphere_sphere([from.vector(), to.vector()], [from.number(), to.number()]);
+    PersistentContact {
+        between: BodyPair::Spheres(slots.id[first], slots.id[second]),
+        ..of_separation(separation, forces(impulses, sliding, solver.h))
+    }
+}
+
+fn of_surfaces(solver: &Solver, system: &System, contacts: &mut Vec<PersistentContact>) {
     for slab in solver.slabs.iter() {
-        for contact in &slab.surfaces {
+        for contact in slab.surfaces.iter().filter(|it| it.impulses.normal > 0.0) {
             let slot = slab.start + contact.slot as usize;
-            let (center, radius) = (slots.position[slot].vector(), slots.position[slot].number());
-            let surface = &system.surfaces[contact.surface as usize];
-            let separation = sphere_surface(&surface.form, center, radius);
-            let Some(separation) = separation.filter(|_| contact.impulses.normal > 0.0) else {
+            if solver.slots.island[slot] != AWAKE {
                 continue;
-            };
-            contacts.push(PersistentContact {
-                between: BodyPair::Collider { collider: surface.collider, sphere: slots.id[slot] },
-                point: separation.point,
-                normal: separation.normal,
-                gap: separation.distance,
-                ..forces(contact.impulses, contact.friction.sliding, solver.h)
-            });
+            }
+            let forces = forces(contact.impulses, contact.friction.sliding, solver.h);
+            contacts.extend(of_surface(solver, system, (slot, contact.surface), forces));
         }
     }
+}
+
+/// The contact of the sphere in a slot with a surface; `None` where it has gone behind it.
+fn of_surface(
+    solver: &Solver,
+    system: &System,
+    (slot, surface): (usize, u32),
+    forces: PersistentContact,
+) -> Option<PersistentContact> {
+    let slots = &solver.slots;
+    let (center, radius) = (slots.position[slot].vector(), slots.position[slot].number());
+    let surface = &system.surfaces[surface as usize];
+    let separation = sphere_surface(&surface.form, center, radius)?;
+    Some(PersistentContact {
+        between: BodyPair::Collider { collider: surface.collider, sphere: slots.id[slot] },
+        ..of_separation(separation, forces)
+    })
+}
+
+/// The contacts of spheres that sleep, with the forces with which they fell asleep.
+fn of_sleepers(solver: &Solver, system: &System, contacts: &mut Vec<PersistentContact>) {
+    if solver.dormant.is_empty() {
+        return;
+    }
+    let slots: BTreeMap<SphereId, usize> = solver.slots.id.iter().copied().zip(0..).collect();
+    for &Dormant { sphere, partner, impulses, sliding } in &solver.dormant {
+        let slot = slots[&sphere];
+        match partner {
+            Partner::Sphere(other) => {
+                contacts.push(of_pair(solver, [slots[&other], slot], impulses, sliding));
+            }
+            Partner::Surface(surface) => {
+                let forces = forces(impulses, sliding, solver.h);
+                contacts.extend(of_surface(solver, system, (slot, surface), forces));
+            }
+        }
+    }
+}
+
+fn of_separation(separation: Separation, forces: PersistentContact) -> PersistentContact {
+    let Separation { distance, normal, point } = separation;
+    PersistentContact { point, normal, gap: distance, ..forces }
 }
 
 /// The forces of a contact that had these impulses in a sub-step of `h` \[s\].

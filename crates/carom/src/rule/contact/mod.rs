@@ -14,6 +14,7 @@
 mod accelerate;
 mod advance;
 mod batch;
+mod dormant;
 mod energy;
 mod frame;
 mod impacts;
@@ -25,6 +26,7 @@ mod order;
 mod row;
 mod search;
 mod slab;
+mod sleep;
 mod slots;
 mod solve;
 mod solver;
@@ -50,9 +52,14 @@ pub(crate) fn step(
     (solver, scratch): (&mut Solver, &mut Scratch),
     report: &mut StepReport,
 ) {
+    if solver.is_idle() && report.emitted.is_empty() && report.retired.is_empty() {
+        report.contact_account.asleep = motion.position.len() as u32;
+        return;
+    }
     frame::begin(system, motion, solver);
     for number in 0..parameters.sub_steps {
         let sub_step = accelerate::accelerate(system, parameters, frame, number, solver);
+        sleep::wake_touched(solver, &sub_step);
         if neighbours::are_stale(solver, &sub_step) {
             neighbours::search(system, frame, &sub_step, solver, scratch, report);
         }

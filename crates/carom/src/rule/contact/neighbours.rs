@@ -1,5 +1,7 @@
 //! Neighbours: when they are found anew, and what contacts are made of them.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::batch::{ContactKinds, Pair};
@@ -7,7 +9,7 @@ use super::kept::Kept;
 use super::row::Row;
 use super::search::{self, Search};
 use super::slab::{self, Slab, Slabs};
-use super::slots::Slots;
+use super::slots::{AWAKE, Slots};
 use super::solver::{Scratch, Solver};
 use super::sub_step::SubStep;
 use super::surfaces::{Place, SurfaceContact};
@@ -15,6 +17,7 @@ use crate::bodies::Properties;
 use crate::detect::sphere_surface;
 use crate::detect::surface_tree::Bounds;
 use crate::friction::ContactFriction;
+use crate::id::SphereId;
 use crate::interval::Interval;
 use crate::report::StepReport;
 use crate::surface::Role;
@@ -44,16 +47,23 @@ pub(super) fn search(
     scratch: &mut Scratch,
     report: &mut StepReport,
 ) {
-    let Solver { slots, slabs, kept, .. } = solver;
     if !solver.is_collected {
-        kept.collect(slots, slabs, slots.len());
+        solver.kept = Kept::of(&solver.slots, &solver.slabs, &solver.dormant, &system.spheres.id);
     }
+    let Solver { slots, slabs, kept, watched, dormant, .. } = solver;
     (solver.is_stale, solver.is_collected) = (false, false);
     arrange(slots, [frame.h, sub_step.h], &mut scratch.search);
     divide(slots, slabs, &scratch.search);
+    if !dormant.is_empty() {
+        let sleeps: BTreeSet<SphereId> = slots.asleep().collect();
+        dormant.retain(|contact| sleeps.contains(&contact.sphere));
+    }
+    watched.clear();
     if system.settings.spheres_collide {
         scratch.search.find_pairs(slots);
-        add_pairs(system, slots, slabs, kept, solver.kinds, &scratch.search.pairs);
+        let pairs = &mut scratch.search.pairs;
+        watch_sleepers(slots, pairs, watched);
+        add_pairs(system, slots, slabs, kept, solver.kinds, pairs);
     }
     let left = frame.h - sub_step.time;
     for slab in &mut slabs.list {
@@ -106,6 +116,20 @@ fn divide(slots: &Slots, slabs: &mut Slabs, search: &Search) {
         slab.surfaces.clear();
     }
     slabs.far.batches.clear(slots.len());
+}
+
+/// Takes out the pairs of which both sleep, and notes those of which one does.
+fn watch_sleepers(slots: &Slots, pairs: &mut Vec<[u32; 2]>, watched: &mut Vec<[u32; 2]>) {
+    pairs.retain(|&[first, second]| {
+        let is_awake = |slot: u32| slots.island[slot as usize] == AWAKE;
+        match [is_awake(first), is_awake(second)] {
+            [true, true] => {}
+            [true, false] => watched.push([second, first]),
+            [false, true] => watched.push([first, second]),
+            [false, false] => return false,
+        }
+        true
+    });
 }
 
 /// Makes contacts of pairs of slots, in the slab of the first one.
@@ -167,7 +191,8 @@ impl Surfaces<'_> {
     /// search.
     fn add_to(&self, slab: &mut Slab, near: &mut Vec<u32>) {
         let Self { system, slots, .. } = *self;
-        for slot in slab.start..slab.end {
+        let awake = (slab.start..slab.end).filter(|&slot| slots.island[slot] == AWAKE);
+        for slot in awake {
             let (center, radius) = (slots.position[slot].vector(), slots.position[slot].number());
             let margin = slots.reference[slot].number();
             let bounds = Bounds::around(center, DVec3::splat(radius + margin));

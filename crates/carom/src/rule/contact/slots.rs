@@ -30,11 +30,18 @@ pub(super) struct Slots {
     pub turn: Vec<Row>,
     /// Centre at the last search for neighbours \[m\], and how far the sphere may go from there \[m\].
     pub reference: Vec<Row>,
+    /// The island of each sphere that sleeps; [`AWAKE`] for the others.
+    pub island: Vec<u32>,
+    /// For how long each sphere has been calm \[s\].
+    pub calm: Vec<f64>,
     /// Whether a contact that is no bounce had an impulse in the sub-step before.
     pub bears: Vec<bool>,
     /// Acceleration by forces that are linear \[m/s²\], and rate of drag \[1/s\].
     pub acceleration: Vec<Row>,
 }
+
+/// The number of an island that is awake.
+pub(super) const AWAKE: u32 = u32::MAX;
 
 /// The index of a sphere that was taken out of the world.
 pub(super) const GONE: u32 = u32::MAX;
@@ -42,6 +49,11 @@ pub(super) const GONE: u32 = u32::MAX;
 impl Slots {
     pub fn len(&self) -> usize {
         self.id.len()
+    }
+
+    /// The spheres that sleep.
+    pub fn asleep(&self) -> impl Iterator<Item = SphereId> {
+        self.id.iter().zip(&self.island).filter(|(_, island)| **island != AWAKE).map(|(&id, _)| id)
     }
 
     /// Whether the same spheres are in the world, at the same indices.
@@ -57,14 +69,19 @@ impl Slots {
         }
     }
 
-    /// Puts the spheres of these indices into slots, in this order.
-    pub fn arrange(&mut self, order: &[u32], ids: &[SphereId]) {
-        self.index.clear();
-        self.index.extend_from_slice(order);
-        self.id.clear();
-        self.id.extend(order.iter().map(|&index| ids[index as usize]));
-        self.bears.clear();
-        self.bears.resize(order.len(), true);
+    /// Puts all spheres of the world into slots, in order of their ids. What is not in the world is kept of
+    /// those that were there.
+    pub fn arrange(&mut self, ids: &[SphereId]) {
+        let count = ids.len();
+        let (mut island, mut calm, mut bears) = (vec![AWAKE; count], vec![0.0; count], vec![true; count]);
+        for (slot, &index) in self.index.iter().enumerate().filter(|(_, index)| **index != GONE) {
+            let index = index as usize;
+            (island[index], calm[index]) = (self.island[slot], self.calm[slot]);
+            bears[index] = self.bears[slot];
+        }
+        (self.island, self.calm, self.bears) = (island, calm, bears);
+        self.index = (0..count as u32).collect();
+        self.id = ids.to_vec();
     }
 
     /// Takes over from the world where spheres are and how they move.
@@ -107,6 +124,8 @@ impl Slots {
         self.id = from.iter().map(|&slot| self.id[slot]).collect();
         self.index = from.iter().map(|&slot| self.index[slot]).collect();
         self.bears = from.iter().map(|&slot| self.bears[slot]).collect();
+        self.calm = from.iter().map(|&slot| self.calm[slot]).collect();
+        self.island = from.iter().map(|&slot| self.island[slot]).collect();
     }
 
     /// Has the accelerations of the forces of now, as far as they are linear. Tells whether there are
@@ -155,6 +174,7 @@ pub(super) struct Run<'a> {
     pub acceleration: &'a [Row],
     pub reference: &'a [Row],
     pub bears: &'a mut [bool],
+    pub island: &'a [u32],
 }
 
 impl Slots {
@@ -170,6 +190,7 @@ impl Slots {
             acceleration: &self.acceleration,
             reference: &self.reference,
             bears: &mut self.bears,
+            island: &self.island,
         }
     }
 
@@ -222,6 +243,7 @@ impl<'a> Run<'a> {
             acceleration: front(&mut self.acceleration, count),
             reference: front(&mut self.reference, count),
             bears: front_mut(&mut self.bears, count),
+            island: front(&mut self.island, count),
         }
     }
 }

@@ -6,6 +6,7 @@ use super::batch::ContactKinds;
 use super::kept::Kept;
 use super::search::Search;
 use super::slab::Slabs;
+use super::dormant::Dormant;
 use super::slots::Slots;
 use super::surfaces::Place;
 
@@ -33,6 +34,18 @@ pub(crate) struct Solver {
     pub(super) h: f64,
     /// Whether a search is due whatever the spheres do.
     pub(super) is_stale: bool,
+    /// Whether something was changed from outside since the last frame.
+    pub(super) is_changed: bool,
+    /// Slots of spheres that sleep, each with that of one near it that is awake.
+    pub(super) watched: Vec<[u32; 2]>,
+    /// The contacts of spheres that sleep.
+    pub(super) dormant: Vec<Dormant>,
+    /// Whether spheres at rest stay at rest: forces are constant, and surfaces fixed.
+    pub(super) may_sleep: bool,
+    /// Whether no sphere is awake.
+    pub(super) is_all_asleep: bool,
+    /// Frames since islands were looked for.
+    pub(super) frames: u32,
     /// What was taken out of [`Self::slabs`] is in [`Self::kept`].
     pub(super) is_collected: bool,
 }
@@ -53,9 +66,14 @@ pub(crate) struct Scratch {
 }
 
 impl Solver {
-    /// Something was changed from outside: neighbours are found anew, and forces read. Contacts keep
-    /// their impulses.
-    pub fn set_stale(&mut self) {
-        self.is_stale = true;
+    /// Something was changed from outside: neighbours are found anew, and whatever sleeps wakes. Contacts
+    /// keep their impulses.
+    pub fn set_changed(&mut self) {
+        self.is_changed = true;
+    }
+
+    /// Whether nothing happens in a frame without emissions and changes from outside: all spheres sleep.
+    pub fn is_idle(&self) -> bool {
+        self.is_all_asleep && !self.is_changed
     }
 }
