@@ -116,7 +116,8 @@ fn commands_of_documents() -> Outcome {
 
 /// The same bits in every build, and on any number of threads.
 fn hashes() -> Outcome {
-    cargo(&[&OPTIMISED[..], &["carom", "--test", "world", "--test", "exact"]].concat())?;
+    let tests = ["carom", "--test", "world", "--test", "exact", "--test", "contact_rule"];
+    cargo(&[&OPTIMISED[..], &tests].concat())?;
     cargo(&[&OPTIMISED[..], &["carom-scene", "--test", "scenes"]].concat())?;
     for threads in ["1", "2"] {
         let threads = [("RAYON_NUM_THREADS", threads)];
@@ -124,6 +125,11 @@ fn hashes() -> Outcome {
             let threaded = [package, "--features", "rayon", "--test", test];
             cargo_with(&[&OPTIMISED[..], &threaded].concat(), &threads)?;
         }
+    }
+    for threads in ["1", "2", "3", "8"] {
+        let threads = [("RAYON_NUM_THREADS", threads)];
+        let threaded = ["carom", "--features", "rayon", "--test", "contact_rule", "bits"];
+        cargo_with(&[&OPTIMISED[..], &threaded].concat(), &threads)?;
     }
     Ok(())
 }

@@ -55,7 +55,8 @@ pub(crate) fn of_state(state: &State) -> StateHash {
     }
     let spin = &spheres.motion.spin;
     if spin.is_any() {
-        for (orientation, &angular_velocity) in spin.orientation.iter().zip(&spin.angular_velocity) {
+        for (orientation, &angular_velocity) in spin.orientation.iter().zip(&spin.angular_velocity)
+        {
             orientation.to_array().into_iter().for_each(|part| words.number(part));
             words.vector(angular_velocity);
         }

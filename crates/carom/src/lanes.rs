@@ -293,7 +293,8 @@ mod tests {
         }
         for level in levels() {
             let columns = dispatch!(level, simd => transposed(simd));
-            let expected = [0, 1, 2, 3].map(|it: u8| [0, 10, 20, 30].map(|row| f64::from(row + it)));
+            let expected =
+                [0, 1, 2, 3].map(|it: u8| [0, 10, 20, 30].map(|row| f64::from(row + it)));
             assert_eq!(columns, expected, "{level:?}");
         }
     }

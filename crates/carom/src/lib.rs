@@ -71,10 +71,12 @@ pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId};
 pub use persistent_contact::PersistentContact;
 pub use report::{
-    BodyPair, ContactAccount, Impact, ImpactGroup, LedgerEntry, Overlap, StageCounts, StepReport, TriggerContact,
+    BodyPair, ContactAccount, Impact, ImpactGroup, LedgerEntry, Overlap, StageCounts, StepReport,
+    TriggerContact,
 };
 pub use settings::{
-    Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings, WindBack,
+    Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,
+    WindBack,
 };
 pub use work::StopRequest;
 pub use world::World;

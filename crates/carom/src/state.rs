@@ -8,7 +8,7 @@ use crate::bodies::{Motion, Spheres};
 use crate::clock::Clock;
 use crate::colliders::Colliders;
 use crate::detect::instant::Instant;
-use crate::emitter::EmitterState;
+use crate::emitter::{self, EmitterState};
 use crate::error::{Error, Subject};
 use crate::forces::Force;
 use crate::id::EmitterId;
@@ -81,6 +81,12 @@ impl State {
     /// The colliders, to be changed from outside.
     pub fn colliders_mut(&mut self) -> &mut Colliders {
         Arc::make_mut(&mut self.changed().colliders)
+    }
+
+    /// Whether nothing happens in a step by the rule `contact` that begins at `time` \[s\].
+    pub fn is_idle(&self, time: f64) -> bool {
+        let any_due = emitter::any_due(&self.emitters, time + emitter::DUE_TOLERANCE);
+        self.solver.is_idle() && !any_due
     }
 
     /// Moves on by `h` \[s\] the colliders that move.

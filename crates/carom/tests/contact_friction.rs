@@ -127,8 +127,8 @@ fn rolling_friction_stops_a_ball_with_five_sevenths_of_its_coefficient_times_g()
 fn spinning_friction_stops_a_spinning_ball_in_the_time_of_its_torque() {
     let (w0, mu_s, radius) = (20.0, 0.05, 0.1);
     let mut world = on_plane(0.0, Friction::sliding(0.5).with_spinning(mu_s));
-    let ball = Sphere::new(DVec3::new(0.0, radius, 0.0), radius)
-        .with_angular_velocity(w0 * DVec3::Y);
+    let ball =
+        Sphere::new(DVec3::new(0.0, radius, 0.0), radius).with_angular_velocity(w0 * DVec3::Y);
     let id = world.add_sphere(ball).unwrap();
     run(&mut world, 60);
     let deceleration = 2.5 * mu_s * G / radius;

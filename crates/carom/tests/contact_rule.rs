@@ -147,7 +147,9 @@ fn impacts_of_free_balls_are_those_of_the_rule_exact() {
     assert_eq!(count, other_count);
     // The normal is that of the start of the sub-step, where the balls are nearly as far apart as they
     // move in it: their offset turns by a few hundredths until they touch.
-    for (exact, contact) in positions.iter().zip(&others).chain(velocities.iter().zip(&other_velocities)) {
+    for (exact, contact) in
+        positions.iter().zip(&others).chain(velocities.iter().zip(&other_velocities))
+    {
         assert!((*exact - *contact).length() < 1e-11, "{exact} {contact}");
     }
 }
@@ -157,7 +159,8 @@ fn momenta_of_free_balls_are_kept_to_rounding() {
     let mut world = world();
     let mut random = Random(11);
     for number in 0..200 {
-        let cell = DVec3::new(f64::from(number % 6), f64::from(number / 6 % 6), f64::from(number / 36));
+        let cell =
+            DVec3::new(f64::from(number % 6), f64::from(number / 6 % 6), f64::from(number / 36));
         let ball = Sphere::new(cell + 0.1 * random.vector(), 0.3 + 0.1 * random.next())
             .with_velocity(random.vector() - 0.3 * (cell - 2.5))
             .with_angular_velocity(5.0 * random.vector())
@@ -252,7 +255,9 @@ fn fast_balls_do_not_tunnel() {
 #[test]
 fn a_fast_ball_that_passes_is_not_stopped() {
     let mut world = world();
-    world.add_collider(Collider::new(Shape::Sphere { radius: 0.3 }, Pose::at(DVec3::ZERO))).unwrap();
+    world
+        .add_collider(Collider::new(Shape::Sphere { radius: 0.3 }, Pose::at(DVec3::ZERO)))
+        .unwrap();
     world.add_sphere(Sphere::new(DVec3::new(3.0, 0.0, 0.36), 0.3)).unwrap();
     let plate = Shape::Rectangle { size_x: 1.0, size_z: 1.0 };
     world.add_collider(Collider::new(plate, Pose::at(DVec3::new(0.0, -1.0, 2.0)))).unwrap();
@@ -361,6 +366,27 @@ fn a_snapshot_goes_on_with_the_same_bits() {
 }
 
 #[test]
+fn bits_depend_on_no_thread() {
+    // Enough balls for several slabs. Run with the feature `rayon`, too, on several numbers of threads.
+    let mut world = under_gravity();
+    add_box(&mut world, 2.0, 0.5);
+    for number in 0..2500 {
+        let cell = DVec3::new(
+            f64::from(number % 15),
+            f64::from(number / 225),
+            f64::from(number / 15 % 15),
+        );
+        let place =
+            0.25 * cell - DVec3::new(1.75, -0.2, 1.75) + 0.01 * (number % 7) as f64 * DVec3::X;
+        world
+            .add_sphere(Sphere::new(place, 0.12).with_restitution(0.3).with_friction(0.3))
+            .unwrap();
+    }
+    run(&mut world, 60);
+    assert_eq!(world.state_hash().to_string(), "6cda9e3a97623840");
+}
+
+#[test]
 fn what_changes_from_outside_keeps_a_heap_at_rest() {
     // A game sets gravity anew in each frame, and takes spheres out: the others keep their impulses.
     let mut world = poured(100);
@@ -402,8 +428,11 @@ fn a_turning_drum_takes_balls_along() {
         world.add_collider(wall.with_restitution(0.2)).unwrap();
     }
     for number in 0..40 {
-        let place =
-            DVec3::new(0.2 * f64::from(number % 5) - 0.4, 0.2 * f64::from(number / 5 % 4) - 0.6, 0.4 * f64::from(number / 20) - 0.2);
+        let place = DVec3::new(
+            0.2 * f64::from(number % 5) - 0.4,
+            0.2 * f64::from(number / 5 % 4) - 0.6,
+            0.4 * f64::from(number / 20) - 0.2,
+        );
         let ball = Sphere::new(place, 0.09).with_restitution(0.3).with_friction(0.6);
         world.add_sphere(ball).unwrap();
     }
@@ -414,7 +443,11 @@ fn a_turning_drum_takes_balls_along() {
             .filter(|(_, it)| it.angular_velocity != DVec3::ZERO)
             .map(|(id, it)| {
                 let place = 1.2 * it.pose.position.with_z(0.0).normalize();
-                (id, it.with_pose(Pose { position: place, ..it.pose }).moving(DVec3::Z.cross(place), DVec3::Z))
+                (
+                    id,
+                    it.with_pose(Pose { position: place, ..it.pose })
+                        .moving(DVec3::Z.cross(place), DVec3::Z),
+                )
             })
             .collect();
         world.set_colliders(&turned).unwrap();

@@ -67,6 +67,12 @@ pub(crate) fn step(
             })
         }
         Rule::Exact(parameters) => by_event::step(attempt, parameters, until),
+        Rule::Contact(_) if attempt.state.is_idle(attempt.start) => {
+            contact::rest(&attempt.state.solver, attempt.report);
+            attempt.take(|_| Ok(()))?;
+            attempt.report_triggers();
+            Ok(())
+        }
         Rule::Contact(parameters) => {
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
                 let (system, motion, solver) = state.split_with_solver();

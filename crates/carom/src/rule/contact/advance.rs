@@ -45,11 +45,8 @@ fn advance_run(run: &mut Run, h: f64, flies: bool) {
         let (before, velocity) = (run.before[slot], run.velocity[slot]);
         let flies = flies && velocity == run.accelerated(slot, h);
         run.bears[slot] = !flies;
-        let mean = if flies {
-            0.5 * (before.vector() + velocity.vector())
-        } else {
-            velocity.vector()
-        };
+        let mean =
+            if flies { 0.5 * (before.vector() + velocity.vector()) } else { velocity.vector() };
         let position = &mut run.position[slot];
         *position = position.with_vector(position.vector() + h * mean);
     }

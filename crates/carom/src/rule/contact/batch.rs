@@ -248,7 +248,8 @@ impl Batches {
             return None;
         }
         let own = batch.effective_mass[lane] * (1.0 + batch.restitution[lane]) * approach;
-        let tangential = self.frictions.get(number).map_or([0.0; 3], |it| get(&it.tangential, lane));
+        let tangential =
+            self.frictions.get(number).map_or([0.0; 3], |it| get(&it.tangential, lane));
         let normal = DVec3::from_array(get(&batch.normal, lane));
         let whole = impulse * normal + DVec3::from_array(tangential);
         Some((approach, whole * (own / impulse).min(1.0)))

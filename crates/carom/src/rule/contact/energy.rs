@@ -84,9 +84,8 @@ fn take_less(solver: &mut Solver, gain: f64, (h, others): (f64, Others)) {
 
 /// Kinetic energy of what the impulses changed \[J\].
 fn of_change(run: &Run, h: f64, others: Others) -> f64 {
-    let of = |now: Row, before: Row| {
-        (now.vector() - before.vector()).length_squared() / now.number()
-    };
+    let of =
+        |now: Row, before: Row| (now.vector() - before.vector()).length_squared() / now.number();
     let velocities = (0..run.velocity.len())
         .map(|slot| of(run.velocity[slot], accelerated(run, slot, h, others)));
     let spins = run.spin.iter().zip(&*run.spin_before).map(|(now, before)| of(*now, *before));

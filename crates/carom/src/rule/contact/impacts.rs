@@ -73,7 +73,8 @@ fn bounce(
     let [velocity, before] = [slots.velocity[slot], slots.before[slot]].map(Row::vector);
     let own = slots.velocity[slot].number() * impulse;
     let change = velocity - slots.accelerated(slot, sub_step.h).vector();
-    let is_alone = (change - own).length_squared() <= (ROUNDING * ROUNDING) * change.length_squared();
+    let is_alone =
+        (change - own).length_squared() <= (ROUNDING * ROUNDING) * change.length_squared();
     let flight = 0.5 * sub_step.h * (before - (velocity - change));
     is_alone.then(|| Bounce { slot: slot as u32, shift: flight - time * own })
 }

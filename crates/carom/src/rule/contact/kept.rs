@@ -1,8 +1,8 @@
 //! The impulses of contacts, kept over a search for neighbours.
 
 use super::batch::Impulses;
-use super::slab::{Slab, Slabs};
 use super::dormant::{Dormant, Partner};
+use super::slab::{Slab, Slabs};
 use super::slots::{GONE, Slots};
 use crate::id::SphereId;
 
@@ -92,8 +92,7 @@ impl Found {
 
     /// Adds the contacts of islands that sleep.
     fn add_dormant(&mut self, dormant: &[Dormant], ids: &[SphereId]) {
-        let index_of =
-            |id: SphereId| ids.binary_search(&id).map_or(GONE, |found| found as u32);
+        let index_of = |id: SphereId| ids.binary_search(&id).map_or(GONE, |found| found as u32);
         for &Dormant { sphere, partner, impulses, .. } in dormant {
             let index = index_of(sphere);
             match partner {

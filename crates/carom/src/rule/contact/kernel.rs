@@ -290,8 +290,7 @@ fn solve_rolling<S: Simd>(simd: S, run: &mut Run, batch: &PairBatch, rolling: &m
     let first = xyz(Lanes::transposed(gathered(simd, run.spin, &batch.first)));
     let second = xyz(Lanes::transposed(gathered(simd, run.spin, &batch.second)));
     let [curvature_1, curvature_2] = rolling.curvature;
-    let relative =
-        second * Lanes::each(simd, curvature_2) - first * Lanes::each(simd, curvature_1);
+    let relative = second * Lanes::each(simd, curvature_2) - first * Lanes::each(simd, curvature_1);
     let angular = vector(simd, &rolling.angular);
     let wanted = angular - relative * Lanes::each(simd, rolling.inertia);
     let spinning = wanted.dot(normal);
@@ -348,11 +347,7 @@ fn slip<S: Simd>(
 
 /// Vectors, shortened to a length where they are longer.
 #[inline(always)]
-fn limited<S: Simd>(
-    simd: S,
-    vector: Vector<Lanes<S>>,
-    most: Lanes<S>,
-) -> Vector<Lanes<S>> {
+fn limited<S: Simd>(simd: S, vector: Vector<Lanes<S>>, most: Lanes<S>) -> Vector<Lanes<S>> {
     let length = vector.length_squared().sqrt().max(Lanes::all(simd, TINY));
     vector * (most / length).min(1.0)
 }
@@ -387,12 +382,7 @@ fn gathered<S: Simd>(simd: S, all: &[Row], slots: &[u32; LANES]) -> [Lanes<S>; L
 
 /// Gives spheres 2 impulses, and spheres 1 the opposite ones.
 #[inline(always)]
-fn apply<S: Simd>(
-    simd: S,
-    velocities: &mut [Row],
-    batch: &PairBatch,
-    impulse: Vector<Lanes<S>>,
-) {
+fn apply<S: Simd>(simd: S, velocities: &mut [Row], batch: &PairBatch, impulse: Vector<Lanes<S>>) {
     let rows = rows_of(simd, impulse);
     for lane in 0..LANES {
         let first = &mut velocities[batch.first[lane] as usize];

@@ -64,8 +64,7 @@ fn of_pair(
         (first, second, impulses) = (second, first, impulses.reversed());
     }
     let [from, to] = [first, second].map(|slot| slots.position[slot]);
-    let separation =
-        sphere_sphere([from.vector(), to.vector()], [from.number(), to.number()]);
+    let separation = sphere_sphere([from.vector(), to.vector()], [from.number(), to.number()]);
     PersistentContact {
         between: BodyPair::Spheres(slots.id[first], slots.id[second]),
         ..of_separation(separation, forces(impulses, sliding, solver.h))

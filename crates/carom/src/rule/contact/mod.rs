@@ -43,6 +43,11 @@ use crate::report::StepReport;
 use crate::settings::Contact;
 use crate::system::System;
 
+/// A frame in which all spheres sleep.
+pub(crate) fn rest(solver: &Solver, report: &mut StepReport) {
+    report.contact_account.asleep = solver.slots.len() as u32;
+}
+
 /// Advances all spheres by one frame.
 pub(crate) fn step(
     system: &System,
@@ -52,10 +57,6 @@ pub(crate) fn step(
     (solver, scratch): (&mut Solver, &mut Scratch),
     report: &mut StepReport,
 ) {
-    if solver.is_idle() && report.emitted.is_empty() && report.retired.is_empty() {
-        report.contact_account.asleep = motion.position.len() as u32;
-        return;
-    }
     frame::begin(system, motion, solver);
     for number in 0..parameters.sub_steps {
         let sub_step = accelerate::accelerate(system, parameters, frame, number, solver);

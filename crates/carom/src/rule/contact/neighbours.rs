@@ -80,16 +80,15 @@ fn arrange(slots: &mut Slots, [frame, h]: [f64; 2], search: &mut Search) {
     // By index, for the order of spheres in one cell not to depend on the order of now.
     let mut slot_of = vec![0; count];
     slots.index.iter().zip(0..).for_each(|(&index, slot)| slot_of[index as usize] = slot);
-    let by_index = |rows: &[Row]| -> Vec<Row> { slot_of.iter().map(|&slot: &usize| rows[slot]).collect() };
+    let by_index =
+        |rows: &[Row]| -> Vec<Row> { slot_of.iter().map(|&slot: &usize| rows[slot]).collect() };
     let (positions, velocities) = (by_index(&slots.position), by_index(&slots.velocity));
     let centers: Vec<DVec3> = positions.iter().map(|row| row.vector()).collect();
     let radii: Vec<f64> = positions.iter().map(|row| row.number()).collect();
     let margins: Vec<f64> = radii
         .iter()
         .zip(&velocities)
-        .map(|(&radius, velocity)| {
-            search::margin(radius, velocity.vector().length(), frame, h)
-        })
+        .map(|(&radius, velocity)| search::margin(radius, velocity.vector().length(), frame, h))
         .collect();
     let down = slots.acceleration.first().map_or(DVec3::ZERO, |row| row.vector());
     let order = search.order(&centers, &radii, &margins, down);
@@ -148,8 +147,7 @@ fn add_pairs(
             number += 1;
         }
         let next = (number + 1).min(list.len() - 1);
-        let slab =
-            if (second as usize) < list[next].end { &mut list[number] } else { &mut *far };
+        let slab = if (second as usize) < list[next].end { &mut list[number] } else { &mut *far };
         let indices = [first, second].map(|slot| slots.index[slot as usize]);
         let pair = Pair {
             slots: [first, second].map(|slot| slot - slab.start as u32),

@@ -24,7 +24,8 @@ impl Grid {
     /// the forces: columns stay together.
     pub fn over(centers: &[DVec3], width: f64, down: DVec3) -> Self {
         let bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let (low, high) = centers.iter().fold(bounds, |(low, high), &it| (low.min(it), high.max(it)));
+        let (low, high) =
+            centers.iter().fold(bounds, |(low, high), &it| (low.min(it), high.max(it)));
         let extent = (high - low).max(DVec3::ZERO);
         let most = CELLS_PER_SPHERE * centers.len() as f64 + 64.0;
         let mut width = width.max(extent.max_element() / MOST_CELLS);

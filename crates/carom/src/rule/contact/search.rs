@@ -46,7 +46,13 @@ pub(super) struct Search {
 impl Search {
     /// The indices of spheres with these centres and radii \[m\], in the order in which they are to be in
     /// memory. `down` is the direction of the forces.
-    pub fn order(&mut self, centers: &[DVec3], radii: &[f64], margins: &[f64], down: DVec3) -> &[u32] {
+    pub fn order(
+        &mut self,
+        centers: &[DVec3],
+        radii: &[f64],
+        margins: &[f64],
+        down: DVec3,
+    ) -> &[u32] {
         let reach = |index: usize| radii[index] + margins[index];
         let count = centers.len();
         let mean = (0..count).map(reach).sum::<f64>() / count.max(1) as f64;

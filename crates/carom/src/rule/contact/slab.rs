@@ -130,7 +130,12 @@ impl Slabs {
     }
 
     /// Runs a stage on the contacts of every other slab, from slab `first` on.
-    fn phase(&mut self, slots: &mut Slots, first: usize, stage: impl Fn(&mut Run, &mut Slab) + Sync) {
+    fn phase(
+        &mut self,
+        slots: &mut Slots,
+        first: usize,
+        stage: impl Fn(&mut Run, &mut Slab) + Sync,
+    ) {
         let end = |slab: usize| self.list[slab.min(self.list.len() - 1)].end;
         // In the odd phase, slab 0 is not at work.
         let idle = (first == 1).then(|| end(0));

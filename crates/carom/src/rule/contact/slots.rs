@@ -59,7 +59,11 @@ impl Slots {
     /// Whether the same spheres are in the world, at the same indices.
     pub fn are_of(&self, ids: &[SphereId]) -> bool {
         self.len() == ids.len()
-            && self.index.iter().zip(&self.id).all(|(&index, &id)| ids.get(index as usize) == Some(&id))
+            && self
+                .index
+                .iter()
+                .zip(&self.id)
+                .all(|(&index, &id)| ids.get(index as usize) == Some(&id))
     }
 
     /// Finds the spheres that are still in the world.
@@ -73,7 +77,8 @@ impl Slots {
     /// those that were there.
     pub fn arrange(&mut self, ids: &[SphereId]) {
         let count = ids.len();
-        let (mut island, mut calm, mut bears) = (vec![AWAKE; count], vec![0.0; count], vec![true; count]);
+        let (mut island, mut calm, mut bears) =
+            (vec![AWAKE; count], vec![0.0; count], vec![true; count]);
         for (slot, &index) in self.index.iter().enumerate().filter(|(_, index)| **index != GONE) {
             let index = index as usize;
             (island[index], calm[index]) = (self.island[slot], self.calm[slot]);

@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use super::batch::ContactKinds;
+use super::dormant::Dormant;
 use super::kept::Kept;
 use super::search::Search;
 use super::slab::Slabs;
-use super::dormant::Dormant;
 use super::slots::Slots;
 use super::surfaces::Place;
 

@@ -285,11 +285,7 @@ pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: b
 
 /// Moves spheres that overlap surfaces out of them; velocities stay as they are. Gives the work against
 /// the forces that are linear \[J\], and the largest overlap as a part of the radius.
-pub(super) fn correct(
-    run: &mut Run,
-    contacts: &[SurfaceContact],
-    places: &[Place],
-) -> (f64, f64) {
+pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Place]) -> (f64, f64) {
     let (mut work, mut largest) = (0.0, 0.0_f64);
     for contact in contacts {
         let slot = contact.slot as usize;
@@ -335,4 +331,3 @@ fn turn(run: &mut Run, slot: u32, angular: DVec3) {
         *spin = spin.with_vector(spin.vector() + spin.number() / radius * angular);
     }
 }
-
