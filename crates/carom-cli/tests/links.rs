@@ -146,7 +146,8 @@ fn a_run_of_a_link_is_written_like_any_other() {
 #[test]
 fn a_link_is_read_from_the_standard_input() {
     let link = link(&["tutorial1", "--seconds", "1"]);
-    let mut child = carom().args(["run", "--link", "-", "--json"])
+    let mut child = carom()
+        .args(["run", "--link", "-", "--json"])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

@@ -1,9 +1,9 @@
 //! Changing a world from outside.
 
 use carom::Collider;
-use carom_scene::scene::{self, Force};
 use carom_scene::Palette;
 use carom_scene::part::{self, only};
+use carom_scene::scene::{self, Force};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
