@@ -5,7 +5,7 @@ use carom_scene::{Library, Override, Scene, Source};
 use crate::failure::Failure;
 
 /// Names of the step rules.
-pub const RULES: [&str; 3] = carom_scene::scene::Rule::NAMES;
+pub const RULES: [&str; 4] = carom_scene::scene::Rule::NAMES;
 
 /// Which scene, and what is different in it.
 #[derive(Debug, clap::Args)]

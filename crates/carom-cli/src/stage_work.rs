@@ -13,6 +13,9 @@ pub struct StageWork<T> {
     pub cell_crossings: T,
     pub groups: T,
     pub solver_iterations: T,
+    pub searches: T,
+    pub sweeps: T,
+    pub contacts: T,
 }
 
 impl From<StageCounts> for StageWork<u64> {
@@ -24,6 +27,9 @@ impl From<StageCounts> for StageWork<u64> {
             cell_crossings: counts.cell_crossings,
             groups: counts.groups,
             solver_iterations: counts.solver_iterations,
+            searches: counts.searches,
+            sweeps: counts.sweeps,
+            contacts: counts.contacts,
         }
     }
 }
@@ -39,6 +45,9 @@ impl StageWork<f64> {
             cell_crossings: per_impact(counts.cell_crossings),
             groups: per_impact(counts.groups),
             solver_iterations: per_impact(counts.solver_iterations),
+            searches: per_impact(counts.searches),
+            sweeps: per_impact(counts.sweeps),
+            contacts: per_impact(counts.contacts),
         })
     }
 }

@@ -125,7 +125,7 @@ impl Summary {
             integrator: match simulation.rule {
                 Rule::Discrete => Some(simulation.discrete.integrator),
                 Rule::Bisect => Some(simulation.bisect.integrator),
-                Rule::Exact => None,
+                Rule::Exact | Rule::Contact => None,
             },
             impact_law: is_exact.then_some(simulation.exact.impact_law),
             frame_time: simulation.frame_time,

@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use command::{bad, bad_line, carom, good, path, run};
+use command::{CAROM, bad, bad_line, carom, good, path};
 use serde_json::Value;
 
 fn stdout(output: &Output) -> String {

@@ -4,7 +4,7 @@
 mod command;
 
 use std::io::Write;
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 
 use carom::{DVec3, SphereId};
 use carom_scene::Library;

@@ -96,12 +96,6 @@ fn colliders_now(world: &Physics, scene: &Scene) -> Vec<Collider> {
 
 /// A sphere as scene files write it.
 fn sphere(world: &Physics, members: &Members, index: usize) -> Sphere {
-    let spheres = world.spheres();
-    Sphere {
-        velocity: spheres.velocities()[index].to_array(),
-        mass: Some(spheres.masses()[index]),
-        restitution: spheres.restitutions()[index],
-        color: Some(members.color(index)),
-        ..Sphere::at(spheres.positions()[index].to_array(), spheres.radii()[index])
-    }
+    let sphere = world.spheres().get(index);
+    Sphere { color: Some(members.color(index)), ..Sphere::of(&sphere) }
 }

@@ -108,18 +108,7 @@ fn collectible(position: [f64; 3]) -> Collider {
 }
 
 fn collider(name: &str, shape: Shape, position: [f64; 3]) -> Collider {
-    Collider {
-        name: name.to_owned(),
-        shape,
-        position,
-        rotation: DQuat::IDENTITY.to_array(),
-        velocity: [0.0; 3],
-        angular_velocity: [0.0; 3],
-        restitution: 1.0,
-        trigger: false,
-        visible: true,
-        color: None,
-    }
+    Collider { name: name.to_owned(), position, ..Collider::new(shape) }
 }
 
 /// The course's light.

@@ -1,6 +1,6 @@
 //! Telling what is in a world, as JSON. Infinite numbers are `null`.
 
-use carom::{Mass, SphereId};
+use carom::SphereId;
 use carom_scene::scene::{Collider, Color, Sphere};
 use pyo3::prelude::*;
 
@@ -92,15 +92,5 @@ fn spheres_now(inner: &Inner) -> Vec<Sphere> {
 
 /// A sphere as scene files write it.
 fn described(sphere: &carom::Sphere, color: Option<Color>) -> Sphere {
-    let mass = match sphere.mass {
-        Mass::Kilograms(mass) => mass,
-        Mass::Density(_) => sphere.kilograms(),
-    };
-    Sphere {
-        velocity: sphere.velocity.to_array(),
-        mass: Some(mass),
-        restitution: sphere.restitution,
-        color,
-        ..Sphere::at(sphere.position.to_array(), sphere.radius)
-    }
+    Sphere { color, ..Sphere::of(sphere) }
 }

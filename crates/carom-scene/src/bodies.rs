@@ -1,8 +1,8 @@
 //! Spheres, colliders and emitters of scenes, as the physics knows them.
 
-use carom::{Mass, Pose, World};
+use carom::{Friction, Mass, Pose, World};
 
-use crate::error::Problem;
+use crate::error::{Problem, SceneError};
 use crate::requirement::check_positive;
 use crate::scene::values::{quaternion, vector};
 use crate::scene::{Collider, Emitter, Shape, Sphere};
@@ -38,7 +38,57 @@ pub(crate) fn sphere(sphere: &Sphere, path: &str) -> Result<carom::Sphere, Probl
     Ok(carom::Sphere::new(vector(sphere.position), radius)
         .with_velocity(vector(sphere.velocity))
         .with_mass(mass)
-        .with_restitution(sphere.restitution))
+        .with_restitution(sphere.restitution)
+        .with_friction(friction(
+            [sphere.friction, sphere.rolling_friction, sphere.spinning_friction],
+            sphere.tangential_restitution,
+        ))
+        .with_orientation(quaternion(sphere.orientation))
+        .with_angular_velocity(vector(sphere.angular_velocity))
+        .with_inertia_factor(sphere.inertia_factor))
+}
+
+/// What a body says of friction: coefficients of sliding, rolling and spinning friction, and of
+/// tangential restitution.
+fn friction(coefficients: [Option<f64>; 3], tangential_restitution: Option<f64>) -> Friction {
+    let mut friction = Friction::default();
+    [friction.sliding, friction.rolling, friction.spinning] = coefficients;
+    friction.tangential_restitution = tangential_restitution;
+    friction
+}
+
+impl Sphere {
+    /// A sphere of the physics as scene files write it, without a colour of its own.
+    pub fn of(sphere: &carom::Sphere) -> Self {
+        let (mass, density) = match sphere.mass {
+            Mass::Kilograms(mass) => (Some(mass), None),
+            Mass::Density(density) => (None, Some(density)),
+        };
+        Self {
+            velocity: sphere.velocity.to_array(),
+            mass,
+            density,
+            restitution: sphere.restitution,
+            friction: sphere.friction.sliding,
+            rolling_friction: sphere.friction.rolling,
+            spinning_friction: sphere.friction.spinning,
+            tangential_restitution: sphere.friction.tangential_restitution,
+            orientation: sphere.orientation.to_array(),
+            angular_velocity: sphere.angular_velocity.to_array(),
+            inertia_factor: sphere.inertia_factor,
+            ..Self::at(sphere.position.to_array(), sphere.radius)
+        }
+    }
+}
+
+impl Emitter {
+    /// The emitter as the physics knows it.
+    ///
+    /// # Errors
+    /// A description of the field of its sphere that makes no sense.
+    pub fn emitter(&self) -> Result<carom::Emitter, SceneError> {
+        emitter(self, "emitter").map_err(|problem| problem.in_code(&self.name).into())
+    }
 }
 
 /// A collider, its numbers not yet checked.
@@ -52,7 +102,11 @@ pub(crate) fn collider(collider: &Collider) -> carom::Collider {
     let pose = Pose::at(vector(collider.position)).rotated(quaternion(collider.rotation));
     let solid = carom::Collider::new(shape, pose)
         .moving(vector(collider.velocity), vector(collider.angular_velocity))
-        .with_restitution(collider.restitution);
+        .with_restitution(collider.restitution)
+        .with_friction(friction(
+            [collider.friction, collider.rolling_friction, collider.spinning_friction],
+            collider.tangential_restitution,
+        ));
     if collider.trigger { solid.as_trigger() } else { solid }
 }
 

@@ -317,18 +317,7 @@ mod tests {
     #[test]
     fn a_collider_has_its_own_colour_before_the_scenes() {
         let mut scene = Scene::new("colliders");
-        let collider = |color| Collider {
-            name: String::new(),
-            shape: Shape::HalfSpace,
-            position: [0.0; 3],
-            rotation: [0.0, 0.0, 0.0, 1.0],
-            velocity: [0.0; 3],
-            angular_velocity: [0.0; 3],
-            restitution: 1.0,
-            trigger: false,
-            visible: true,
-            color,
-        };
+        let collider = |color| Collider { color, ..Collider::new(Shape::HalfSpace) };
         scene.colliders = vec![collider(Some(RED)), collider(None)];
         scene.colors = Some(Colors { colliders: Some(GREEN), ..Colors::default() });
         let palette = Palette::new(&scene).unwrap();

@@ -5,8 +5,8 @@ use carom::Settings;
 use crate::error::Problem;
 use crate::scene::values::vector;
 use crate::scene::{
-    Bisect, Boundary, CombineRule, Discrete, Exact, ImpactLaw, Integrator, Rule, Scene, Simulation,
-    WindBack,
+    Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Scene,
+    Simulation, WindBack,
 };
 
 impl Scene {
@@ -21,12 +21,7 @@ fn settings(simulation: &Simulation) -> Settings {
         Rule::Discrete => discrete(&simulation.discrete).into(),
         Rule::Bisect => bisect(&simulation.bisect).into(),
         Rule::Exact => exact(&simulation.exact).into(),
-    };
-    let combine_rule = match simulation.combine_rule {
-        CombineRule::Product => carom::CombineRule::Product,
-        CombineRule::Minimum => carom::CombineRule::Minimum,
-        CombineRule::Maximum => carom::CombineRule::Maximum,
-        CombineRule::Average => carom::CombineRule::Average,
+        Rule::Contact => contact(&simulation.contact).into(),
     };
     let boundary = match simulation.boundary {
         Boundary::Open => carom::Boundary::Open,
@@ -34,9 +29,20 @@ fn settings(simulation: &Simulation) -> Settings {
     };
     Settings::default()
         .with_rule(rule)
-        .with_combine_rule(combine_rule)
+        .with_combine_rule(combine_rule(simulation.combine_rule))
+        .with_friction_combine_rule(combine_rule(simulation.friction_combine_rule))
         .with_spheres_collide(simulation.spheres_collide)
         .with_boundary(boundary)
+}
+
+fn combine_rule(rule: CombineRule) -> carom::CombineRule {
+    match rule {
+        CombineRule::Product => carom::CombineRule::Product,
+        CombineRule::Minimum => carom::CombineRule::Minimum,
+        CombineRule::Maximum => carom::CombineRule::Maximum,
+        CombineRule::Average => carom::CombineRule::Average,
+        CombineRule::GeometricMean => carom::CombineRule::GeometricMean,
+    }
 }
 
 fn discrete(parameters: &Discrete) -> carom::Discrete {
@@ -68,6 +74,13 @@ fn exact(parameters: &Exact) -> carom::Exact {
         .with_max_impacts(parameters.max_impacts)
 }
 
+fn contact(parameters: &Contact) -> carom::Contact {
+    carom::Contact::default()
+        .with_sub_steps(parameters.sub_steps)
+        .with_sweeps(parameters.sweeps)
+        .with_converged(parameters.converged)
+}
+
 fn integrator(integrator: Integrator) -> carom::Integrator {
     match integrator {
         Integrator::SemiImplicitEuler => carom::Integrator::SemiImplicitEuler,
@@ -84,8 +97,7 @@ pub(crate) fn settings_problem(simulation: &Simulation, error: carom::Error) -> 
             "simulation.boundary.periodic"
         }
         carom::Error::Invalid { source, .. } if source.field == "boundary" => "simulation",
-        _ if simulation.rule == Rule::Exact => "simulation.exact",
-        _ => "simulation.bisect",
+        _ => &format!("simulation.{}", simulation.rule),
     };
     Problem::of_physics(path, error)
 }

@@ -83,6 +83,31 @@ fn every_mistake_is_told_with_its_line_and_field() {
         ("density = 2.0", "density = -2.0", "15: generators[0].row.sphere.density: must be"),
         ("diameter = 1.0", "diameter = \"big\"", "15: generators[0].row.sphere.diameter: invalid"),
         ("restitution = 0.5", "restitution = 1.5", "19: colliders[0].restitution: must be in"),
+        ("radius = 0.5", "radius = 1\nfriction = -0.1", "9: spheres[0].friction: must be"),
+        ("radius = 0.5", "radius = 1\nfriction = nan", "9: spheres[0].friction: must be"),
+        ("radius = 0.5", "radius = 1\nfriction = 'much'", "9: spheres[0].friction: invalid type"),
+        ("radius = 0.5", "radius = 1\ninertia_factor = 0", "9: spheres[0].inertia_factor: must be"),
+        (
+            "radius = 0.5",
+            "radius = 1\norientation = [0, 0, 0, 0]",
+            "9: spheres[0].orientation: must be",
+        ),
+        (
+            "radius = 0.5",
+            "radius = 1\nangular_velocity = [0, inf, 0]",
+            "9: spheres[0].angular_velocity: must be finite",
+        ),
+        (
+            "restitution = 0.5",
+            "tangential_restitution = 1.5",
+            "19: colliders[0].tangential_restitution: must be in",
+        ),
+        (
+            "density = 2.0",
+            "rolling_friction = -2.0",
+            "15: generators[0].row.sphere.rolling_friction: must be",
+        ),
+        ("mass = 2", "spinning_friction = -2", "28: emitters[0].sphere.spinning_friction: must be"),
         ("size_x = 10", "size_x = 0", "22: colliders[0].shape.rectangle.size_x: must be positive"),
         ("size_x = 10", "size_x = [1, 2]", "22: colliders[0].shape.rectangle.size_x: invalid"),
         ("period = 0.5", "period = 0", "26: emitters[0].period: must be finite and longer"),
@@ -99,6 +124,11 @@ fn every_mistake_is_told_with_its_line_and_field() {
             "[camera]",
             "[simulation]\nrule = 'bisect'\nbisect = { max_halvings = 0 }\n[camera]",
             "32: simulation.bisect.max_halvings: must be at least 1",
+        ),
+        (
+            "[camera]",
+            "[simulation]\nrule = 'contact'\ncontact = { sub_steps = 0 }\n[camera]",
+            "32: simulation.contact.sub_steps: must be at least 1",
         ),
         (
             "[camera]",

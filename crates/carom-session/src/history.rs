@@ -20,6 +20,10 @@ const MOST_MOMENTS: usize = 1024;
 /// Memory per sphere: id, position, velocity, radius, mass, restitution, and the colour \[bytes\].
 const BYTES_PER_SPHERE: usize = 112;
 
+/// Memory per sphere where one turns: orientation and angular velocity \[bytes\].
+const BYTES_PER_ROTATION: usize = 56;
+/// Memory per sphere where one says something of friction or is no solid ball \[bytes\].
+const BYTES_PER_FRICTION: usize = 72;
 /// Memory per sphere for its flight and predictions under the rule `exact` \[bytes\]: 250 were
 /// measured in dense gases; the rest is for persistent contacts.
 const BYTES_PER_FLIGHT: usize = 400;
@@ -69,10 +73,16 @@ impl Moment {
 fn estimated_bytes(world: &World, frame: u64) -> usize {
     // Before the first frame, nothing has been predicted.
     let has_flights = frame > 0 && matches!(world.settings().rule, Rule::Exact(_));
-    let per_sphere = BYTES_PER_SPHERE + if has_flights { BYTES_PER_FLIGHT } else { 0 };
-    BYTES_PER_MOMENT
-        + world.spheres().len() * per_sphere
-        + world.colliders().len() * BYTES_PER_COLLIDER
+    let spheres = world.spheres();
+    let has_friction = !(spheres.frictions().is_empty() && spheres.inertia_factors().is_empty());
+    let parts = [
+        (true, BYTES_PER_SPHERE),
+        (has_flights, BYTES_PER_FLIGHT),
+        (!spheres.orientations().is_empty(), BYTES_PER_ROTATION),
+        (has_friction, BYTES_PER_FRICTION),
+    ];
+    let per_sphere: usize = parts.iter().filter(|(is, _)| *is).map(|(_, bytes)| bytes).sum();
+    BYTES_PER_MOMENT + spheres.len() * per_sphere + world.colliders().len() * BYTES_PER_COLLIDER
 }
 
 /// The past of a session: moments, and the changes from outside.

@@ -385,6 +385,8 @@ impl Session {
         replace(&mut arrays.radii, spheres.radii().iter().copied());
         replace(&mut arrays.masses, spheres.masses().iter().copied());
         replace(&mut arrays.restitutions, spheres.restitutions().iter().copied());
+        replace(&mut arrays.frictions, spheres.frictions().iter().copied());
+        replace(&mut arrays.inertia_factors, spheres.inertia_factors().iter().copied());
         let mut colors = self.looks.colors().iter().peekable();
         // Both lists are ascending.
         let color_of = |id: &SphereId| {
@@ -399,6 +401,8 @@ impl Session {
         let spheres = self.world.spheres();
         replace(&mut arrays.positions, spheres.positions().iter().copied());
         replace(&mut arrays.velocities, spheres.velocities().iter().copied());
+        replace(&mut arrays.orientations, spheres.orientations().iter().copied());
+        replace(&mut arrays.angular_velocities, spheres.angular_velocities().iter().copied());
         replace(&mut arrays.previous_positions, self.previous_positions().iter().copied());
     }
 

@@ -1,6 +1,6 @@
 //! What a scene says besides its spheres, as changed since it was opened.
 
-use carom::{ColliderId, EmitterId, ForceId, Mass, World};
+use carom::{ColliderId, EmitterId, ForceId, World};
 use carom_scene::scene::{Collider, Emitter, Force, Scene, Simulation, Sphere};
 
 /// What a scene says besides its spheres, as changed since it was opened: what a world does not
@@ -47,20 +47,7 @@ impl Setup {
 
 /// Writes into a description of spheres what the physics calls them.
 pub(crate) fn describe_sphere(sphere: &carom::Sphere, description: &mut Sphere) {
-    let (mass, density) = match sphere.mass {
-        Mass::Kilograms(mass) => (Some(mass), None),
-        Mass::Density(density) => (None, Some(density)),
-    };
-    *description = Sphere {
-        position: sphere.position.to_array(),
-        velocity: sphere.velocity.to_array(),
-        radius: Some(sphere.radius),
-        diameter: None,
-        mass,
-        density,
-        restitution: sphere.restitution,
-        color: description.color,
-    };
+    *description = Sphere { color: description.color, ..Sphere::of(sphere) };
 }
 
 /// Writes into the description of an emitter what the physics calls it.

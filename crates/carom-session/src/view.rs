@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom::{DVec3, PersistentContact, Pose, SphereId, StateHash};
+use carom::{DQuat, DVec3, Friction, PersistentContact, Pose, SphereId, StateHash};
 use carom_scene::scene::{Color, Scene, Sphere};
 
 use crate::change::PastChange;
@@ -78,6 +78,15 @@ pub struct SphereArrays {
     pub masses: Vec<f64>,
     /// Coefficients of restitution.
     pub restitutions: Vec<f64>,
+    /// What each sphere says of friction; empty while none says anything.
+    pub frictions: Vec<Friction>,
+    /// Moments of inertia divided by m r²; empty while all spheres are solid balls.
+    pub inertia_factors: Vec<f64>,
+    /// Rotations from the coordinate system of each sphere to the world's; empty while no sphere was
+    /// ever turned.
+    pub orientations: Vec<DQuat>,
+    /// Angular velocities \[rad/s\]; empty while no sphere was ever turned.
+    pub angular_velocities: Vec<DVec3>,
     /// Colours of their own or of their density.
     pub colors: Vec<Option<Color>>,
     /// Another number when anything but the motion may have changed, within one scene.
@@ -179,17 +188,22 @@ impl SphereArrays {
 
     /// A sphere as scene files write it.
     fn described(&self, index: usize) -> Sphere {
-        Sphere {
-            position: self.positions[index].to_array(),
-            velocity: self.velocities[index].to_array(),
-            radius: Some(self.radii[index]),
-            diameter: None,
-            mass: Some(self.masses[index]),
-            density: None,
-            restitution: self.restitutions[index],
-            color: self.colors[index],
-        }
+        let usual = carom::Sphere::new(self.positions[index], self.radii[index]);
+        let sphere = usual
+            .with_velocity(self.velocities[index])
+            .with_mass(self.masses[index])
+            .with_restitution(self.restitutions[index])
+            .with_friction(or(&self.frictions, index, usual.friction))
+            .with_inertia_factor(or(&self.inertia_factors, index, usual.inertia_factor))
+            .with_orientation(or(&self.orientations, index, usual.orientation))
+            .with_angular_velocity(or(&self.angular_velocities, index, usual.angular_velocity));
+        Sphere { color: self.colors[index], ..Sphere::of(&sphere) }
     }
+}
+
+/// The value at an index of an array that is empty while all values are `usual`.
+fn or<T: Copy>(values: &[T], index: usize, usual: T) -> T {
+    values.get(index).copied().unwrap_or(usual)
 }
 
 /// Fills a list anew, in the memory it has.

@@ -43,6 +43,7 @@ fn frame_length(name: &str, rule: Rule) -> Outcome {
     let rule = match rule {
         Rule::Discrete(_) => "discrete",
         Rule::Bisect(_) => "bisect",
+        Rule::Contact(_) => "contact",
         _ => "exact",
     };
     let mut worlds = Vec::new();

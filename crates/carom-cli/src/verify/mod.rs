@@ -21,7 +21,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use carom::{Bisect, Discrete, Exact, Rule};
+use carom::{Bisect, Contact, Discrete, Exact, Rule};
 
 use crate::args::Verify;
 use crate::failure::Failure;
@@ -71,6 +71,7 @@ fn rule_named(name: &str) -> Rule {
     match name {
         "discrete" => Rule::Discrete(Discrete::default()),
         "bisect" => Rule::Bisect(Bisect::default()),
+        "contact" => Rule::Contact(Contact::default()),
         _ => Rule::Exact(Exact::default()),
     }
 }

@@ -5,9 +5,12 @@ use std::process::{Command, Output};
 
 use tempfile::TempDir;
 
+/// Path of the program.
+pub const CAROM: &str = env!("CARGO_BIN_EXE_carom");
+
 /// The command, in an environment that says nothing of scenes and pages.
 pub fn carom() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_carom"));
+    let mut command = Command::new(CAROM);
     command.env_remove("CAROM_SCENES").env_remove("CAROM_PAGE");
     // Wayland's library complains aloud where this is missing.
     command.env("XDG_RUNTIME_DIR", std::env::temp_dir());

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::values::{Color, Quaternion, Vector, one, unturned};
+use super::values::{Color, Quaternion, Vector, is_default, one, unturned};
 
 /// A fixed shape that spheres bounce off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -21,17 +21,35 @@ pub struct Collider {
     #[serde(default = "unturned")]
     pub rotation: Quaternion,
     /// How fast its centre moves, in m/s.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub velocity: Vector,
     /// How fast it turns about its centre, along the axis, in rad/s.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub angular_velocity: Vector,
     /// Coefficient of restitution in [0, 1].
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
+    /// Coulomb's coefficient of friction, >= 0, under the rule `contact`; that of what it touches
+    /// where it is missing.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
+    /// Coefficient of rolling friction, >= 0; that of what it touches where it is missing.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolling_friction: Option<f64>,
+    /// Coefficient of spinning friction, >= 0; that of what it touches where it is missing.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spinning_friction: Option<f64>,
+    /// Coefficient of tangential restitution in [0, 1]; that of what it touches where it is
+    /// missing.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tangential_restitution: Option<f64>,
     /// A trigger reports contact and deflects nothing.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub trigger: bool,
     /// Whether it is drawn.
     #[serde(default = "yes", skip_serializing_if = "is_true")]
@@ -39,6 +57,28 @@ pub struct Collider {
     /// Its colour; the scene's own for surfaces where it is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
+}
+
+impl Collider {
+    /// A solid collider at the origin that does not move, not turned, without a name.
+    pub fn new(shape: Shape) -> Self {
+        Self {
+            name: String::new(),
+            shape,
+            position: [0.0; 3],
+            rotation: unturned(),
+            velocity: [0.0; 3],
+            angular_velocity: [0.0; 3],
+            restitution: 1.0,
+            friction: None,
+            rolling_friction: None,
+            spinning_friction: None,
+            tangential_restitution: None,
+            trigger: false,
+            visible: true,
+            color: None,
+        }
+    }
 }
 
 /// Form of a collider in its own frame.
@@ -75,12 +115,4 @@ fn yes() -> bool {
 
 fn is_true(value: &bool) -> bool {
     *value
-}
-
-fn is_false(value: &bool) -> bool {
-    !*value
-}
-
-fn is_zero(vector: &Vector) -> bool {
-    *vector == [0.0; 3]
 }

@@ -18,8 +18,8 @@ pub use emitter::Emitter;
 pub use force::Force;
 pub use look::{Camera, Colors, DensityColor, Sun};
 pub use simulation::{
-    Bisect, Boundary, CombineRule, Discrete, Exact, ImpactLaw, Integrator, Rule, Simulation,
-    WindBack,
+    Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule,
+    Simulation, WindBack,
 };
 pub use sphere::{Generator, Sphere};
 pub use values::{Color, Quaternion, Vector};

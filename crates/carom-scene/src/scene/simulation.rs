@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::values::Vector;
+use super::values::{Vector, is_default};
 
 /// How a scene is stepped.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -21,6 +21,9 @@ pub struct Simulation {
     pub spheres_collide: bool,
     /// Restitution of a contact from that of its two bodies.
     pub combine_rule: CombineRule,
+    /// Friction of a contact from that of its two bodies.
+    #[serde(skip_serializing_if = "is_geometric_mean")]
+    pub friction_combine_rule: CombineRule,
     /// Whether spheres may overlap each other or colliders at the start.
     pub allow_overlap: bool,
     /// What is around the spheres, besides colliders.
@@ -31,6 +34,13 @@ pub struct Simulation {
     pub bisect: Bisect,
     /// Parameters of the rule `discrete`.
     pub discrete: Discrete,
+    /// Parameters of the rule `contact`.
+    #[serde(skip_serializing_if = "is_default")]
+    pub contact: Contact,
+}
+
+fn is_geometric_mean(rule: &CombineRule) -> bool {
+    *rule == CombineRule::GeometricMean
 }
 
 impl Default for Simulation {
@@ -41,11 +51,13 @@ impl Default for Simulation {
             duration: 10.0,
             spheres_collide: true,
             combine_rule: CombineRule::default(),
+            friction_combine_rule: CombineRule::GeometricMean,
             allow_overlap: false,
             boundary: Boundary::default(),
             exact: Exact::default(),
             bisect: Bisect::default(),
             discrete: Discrete::default(),
+            contact: Contact::default(),
         }
     }
 }
@@ -61,11 +73,14 @@ pub enum Rule {
     /// Fly in closed form from impact to impact, each at its own time: nothing is missed.
     #[default]
     Exact,
+    /// Cut frames into sub-steps and solve all contacts of each together: for heaps and friction.
+    Contact,
 }
 
 impl Rule {
     /// The names of all rules in scene files, the default first.
-    pub const NAMES: [&str; 3] = [Self::Exact.name(), Self::Bisect.name(), Self::Discrete.name()];
+    pub const NAMES: [&str; 4] =
+        [Self::Exact.name(), Self::Contact.name(), Self::Bisect.name(), Self::Discrete.name()];
 
     /// Its name in scene files.
     pub const fn name(self) -> &'static str {
@@ -73,6 +88,7 @@ impl Rule {
             Self::Discrete => "discrete",
             Self::Bisect => "bisect",
             Self::Exact => "exact",
+            Self::Contact => "contact",
         }
     }
 }
@@ -147,7 +163,7 @@ pub enum Integrator {
     RungeKutta4,
 }
 
-/// Restitution of a contact from that of its two bodies.
+/// Coefficient of a contact from those of its two bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CombineRule {
@@ -160,6 +176,8 @@ pub enum CombineRule {
     Maximum,
     /// Their mean.
     Average,
+    /// The root of their product.
+    GeometricMean,
 }
 
 /// Parameters of the rule `bisect`.
@@ -211,4 +229,25 @@ pub enum WindBack {
 pub struct Discrete {
     /// How spheres move under forces.
     pub integrator: Integrator,
+}
+
+/// Parameters of the rule `contact`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Contact {
+    /// Sub-steps of a frame, >= 1: overlaps fall with the square of their length.
+    #[schemars(range(min = 1))]
+    pub sub_steps: u32,
+    /// Sweeps over all contacts in a sub-step, >= 1.
+    #[schemars(range(min = 1))]
+    pub sweeps: u32,
+    /// Whether sweeps go on until the solution has converged: slow, to compare with.
+    pub converged: bool,
+}
+
+impl Default for Contact {
+    fn default() -> Self {
+        let carom::Contact { sub_steps, sweeps, converged, .. } = carom::Contact::default();
+        Self { sub_steps, sweeps, converged }
+    }
 }

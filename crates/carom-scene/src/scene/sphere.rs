@@ -1,9 +1,10 @@
 //! Single spheres, and generators of many.
 
+use carom::SOLID_BALL;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::values::{Color, Vector, one};
+use super::values::{Color, Quaternion, Vector, is_default, is_unturned, one, unturned};
 
 /// A sphere, or what the spheres of a generator or an emitter have in common.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -39,6 +40,35 @@ pub struct Sphere {
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
+    /// Coulomb's coefficient of friction, >= 0, under the rule `contact`; that of what it touches
+    /// where it is missing.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
+    /// Coefficient of rolling friction, >= 0; that of what it touches where it is missing.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolling_friction: Option<f64>,
+    /// Coefficient of spinning friction, >= 0; that of what it touches where it is missing.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spinning_friction: Option<f64>,
+    /// Coefficient of tangential restitution in [0, 1]; that of what it touches where it is
+    /// missing.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tangential_restitution: Option<f64>,
+    /// How it is turned at the start.
+    #[serde(default = "unturned", skip_serializing_if = "is_unturned")]
+    pub orientation: Quaternion,
+    /// How fast it turns, along the axis, in rad/s; in an emitter in the emitter's frame.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub angular_velocity: Vector,
+    /// Moment of inertia divided by mass and square of the radius, > 0: 2/5 for a solid ball, 2/3
+    /// for a thin shell.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[serde(default = "solid_ball", skip_serializing_if = "is_solid_ball")]
+    pub inertia_factor: f64,
     /// Colour; by density or the scene's own where it is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
@@ -55,9 +85,24 @@ impl Sphere {
             mass: None,
             density: None,
             restitution: 1.0,
+            friction: None,
+            rolling_friction: None,
+            spinning_friction: None,
+            tangential_restitution: None,
+            orientation: unturned(),
+            angular_velocity: [0.0; 3],
+            inertia_factor: SOLID_BALL,
             color: None,
         }
     }
+}
+
+fn solid_ball() -> f64 {
+    SOLID_BALL
+}
+
+fn is_solid_ball(factor: &f64) -> bool {
+    *factor == SOLID_BALL
 }
 
 /// Places for many spheres.

@@ -19,6 +19,16 @@ pub(super) fn unturned() -> Quaternion {
     [0.0, 0.0, 0.0, 1.0]
 }
 
+/// Whether a field may be left out, for it has the value that it has where it is missing.
+pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+/// Whether a rotation turns nothing.
+pub(super) fn is_unturned(value: &Quaternion) -> bool {
+    *value == unturned()
+}
+
 /// A vector, to compute with.
 pub(crate) fn vector(value: Vector) -> DVec3 {
     DVec3::from_array(value)

@@ -8,7 +8,7 @@
 //!
 //! Things go by the numbers of their ids. TOML gives every number back to the bit.
 
-use carom::{ColliderId, DQuat, DVec3, EmitterId, ForceId, Mass, SphereId};
+use carom::{ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Mass, SOLID_BALL, SphereId};
 use carom_scene::scene::{Color, Force, Quaternion, Simulation, Vector};
 use serde::{Deserialize, Serialize};
 
@@ -91,6 +91,16 @@ struct Sphere {
     radius: f64,
     mass: WrittenMass,
     restitution: f64,
+    friction: Option<f64>,
+    rolling_friction: Option<f64>,
+    spinning_friction: Option<f64>,
+    tangential_restitution: Option<f64>,
+    /// Where it is turned.
+    orientation: Option<Quaternion>,
+    /// Where it turns.
+    angular_velocity: Option<Vector>,
+    /// Where it is no solid ball.
+    inertia_factor: Option<f64>,
 }
 
 /// [`Mass`], written.
@@ -210,12 +220,29 @@ impl From<&carom::Sphere> for Sphere {
                 Mass::Density(density) => WrittenMass::Density(density),
             },
             restitution: sphere.restitution,
+            friction: sphere.friction.sliding,
+            rolling_friction: sphere.friction.rolling,
+            spinning_friction: sphere.friction.spinning,
+            tangential_restitution: sphere.friction.tangential_restitution,
+            orientation: unusual(sphere.orientation, DQuat::IDENTITY).map(|it| it.to_array()),
+            angular_velocity: unusual(sphere.angular_velocity, DVec3::ZERO).map(|it| it.to_array()),
+            inertia_factor: unusual(sphere.inertia_factor, SOLID_BALL),
         }
     }
 }
 
+/// A value that has to be written, for it is not the usual one.
+fn unusual<T: PartialEq>(value: T, usual: T) -> Option<T> {
+    (value != usual).then_some(value)
+}
+
 impl From<Sphere> for carom::Sphere {
     fn from(sphere: Sphere) -> Self {
+        let mut friction = Friction::default();
+        friction.sliding = sphere.friction;
+        friction.rolling = sphere.rolling_friction;
+        friction.spinning = sphere.spinning_friction;
+        friction.tangential_restitution = sphere.tangential_restitution;
         let mass = match sphere.mass {
             WrittenMass::Kilograms(mass) => Mass::Kilograms(mass),
             WrittenMass::Density(density) => Mass::Density(density),
@@ -224,6 +251,10 @@ impl From<Sphere> for carom::Sphere {
             .with_velocity(DVec3::from_array(sphere.velocity))
             .with_mass(mass)
             .with_restitution(sphere.restitution)
+            .with_friction(friction)
+            .with_orientation(sphere.orientation.map_or(DQuat::IDENTITY, DQuat::from_array))
+            .with_angular_velocity(sphere.angular_velocity.map_or(DVec3::ZERO, DVec3::from_array))
+            .with_inertia_factor(sphere.inertia_factor.unwrap_or(SOLID_BALL))
     }
 }
 

@@ -1,7 +1,6 @@
 //! Sources of balls.
 
-use carom::{DQuat, DVec3, Emitter, Mass, Sphere};
-use carom_scene::scene;
+use carom::{DVec3, Mass};
 use carom_session::{Command, Edit, View};
 use egui::{DragValue, Ui};
 
@@ -13,7 +12,8 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             if !described.name.is_empty() {
                 ui.strong(&described.name);
             }
-            let before = emitter(described);
+            // One that makes no sense is in no world.
+            let Ok(before) = described.emitter() else { return };
             let mut after = before;
             // With another period it starts anew, and emits at once.
             number_at_last(ui, Field::positive("period", "s"), &mut after.period);
@@ -47,23 +47,4 @@ fn most(ui: &mut Ui, max_spheres: &mut Option<u32>) {
             None => ui.weak("any number"),
         };
     });
-}
-
-/// An emitter as the physics knows it, from its description.
-fn emitter(described: &scene::Emitter) -> Emitter {
-    let sphere = &described.sphere;
-    let radius = sphere.radius.or(sphere.diameter.map(|it| 0.5 * it)).unwrap_or_default();
-    let mass = match (sphere.mass, sphere.density) {
-        (Some(mass), _) => Mass::Kilograms(mass),
-        (None, Some(density)) => Mass::Density(density),
-        (None, None) => Mass::Kilograms(1.0),
-    };
-    let emitted = Sphere::new(DVec3::from_array(sphere.position), radius)
-        .with_velocity(DVec3::from_array(sphere.velocity))
-        .with_mass(mass)
-        .with_restitution(sphere.restitution);
-    Emitter::new(emitted, described.period)
-        .with_position(DVec3::from_array(described.position))
-        .with_rotation(DQuat::from_array(described.rotation))
-        .with_max_spheres(described.max_spheres)
 }

@@ -4,12 +4,16 @@ use carom_scene::scene::{CombineRule, ImpactLaw, Integrator, Rule, Simulation};
 use carom_session::{Command, Edit, View};
 use egui::{ComboBox, Ui};
 
-use super::value::{Field, name, number};
+use super::value::{Field, count, name, number};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     let mut simulation: Simulation = view.setup.simulation.clone();
-    const RULES: [(Rule, &str); 3] =
-        [(Rule::Exact, "exact"), (Rule::Bisect, "bisect"), (Rule::Discrete, "discrete")];
+    const RULES: [(Rule, &str); 4] = [
+        (Rule::Exact, "exact"),
+        (Rule::Contact, "contact"),
+        (Rule::Bisect, "bisect"),
+        (Rule::Discrete, "discrete"),
+    ];
     const INTEGRATORS: [(Integrator, &str); 4] = [
         (Integrator::SemiImplicitEuler, "semi-implicit Euler"),
         (Integrator::ExplicitEuler, "explicit Euler"),
@@ -21,11 +25,12 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         (ImpactLaw::Simultaneous, "simultaneous"),
         (ImpactLaw::Sequential, "sequential"),
     ];
-    const RESTITUTIONS: [(CombineRule, &str); 4] = [
+    const COMBINE_RULES: [(CombineRule, &str); 5] = [
         (CombineRule::Product, "product"),
         (CombineRule::Minimum, "minimum"),
         (CombineRule::Maximum, "maximum"),
         (CombineRule::Average, "average"),
+        (CombineRule::GeometricMean, "geometric mean"),
     ];
     if view.other.is_none() {
         choice(ui, "rule", &RULES, &mut simulation.rule);
@@ -38,9 +43,14 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         Rule::Discrete => {
             choice(ui, "integrator", &INTEGRATORS, &mut simulation.discrete.integrator);
         }
+        Rule::Contact => {
+            count(ui, "sub-steps", &mut simulation.contact.sub_steps);
+            count(ui, "sweeps", &mut simulation.contact.sweeps);
+            choice(ui, "friction", &COMBINE_RULES, &mut simulation.friction_combine_rule);
+        }
     }
     number(ui, Field::positive("frame time", "s"), &mut simulation.frame_time);
-    choice(ui, "restitution", &RESTITUTIONS, &mut simulation.combine_rule);
+    choice(ui, "restitution", &COMBINE_RULES, &mut simulation.combine_rule);
     ui.checkbox(&mut simulation.spheres_collide, "balls collide with each other");
     if simulation != view.setup.simulation {
         commands.push(Command::Edit(Edit::Simulation(Box::new(simulation))));

@@ -38,6 +38,23 @@ pub(super) fn number(ui: &mut Ui, field: Field, value: &mut f64) -> bool {
     row(ui, field, |ui| drag(ui, field, value))
 }
 
+/// Most that a count can be dragged to: more sub-steps or sweeps than that are typed into scene files.
+const MOST: u32 = 1000;
+
+/// A row with a whole number, at least 1. Returns whether it was changed.
+pub(super) fn count(ui: &mut Ui, name: &str, value: &mut u32) -> bool {
+    row(ui, Field::any(name, ""), |ui| {
+        let before = *value;
+        let drag = DragValue::new(value).speed(0.1).range(1..=MOST.max(before));
+        let response: Response = ui.add(drag.update_while_editing(false));
+        response.widget_info(|| egui::WidgetInfo {
+            label: Some(name.to_owned()),
+            ..egui::WidgetInfo::drag_value(true, f64::from(*value))
+        });
+        *value != before
+    })
+}
+
 /// A row with three numbers. Returns whether any was changed.
 pub(super) fn vector(ui: &mut Ui, field: Field, value: &mut [f64; 3]) -> bool {
     row(ui, field, |ui| value.iter_mut().fold(false, |changed, it| drag(ui, field, it) | changed))
