@@ -241,11 +241,23 @@ impl Names<'_> {
             let path = [&bound[..], rest].concat();
             return self.definer(place, &path, depth + 1);
         }
-        let of_glob = |glob: &Vec<String>| {
+        // Another crate brings no name of this one: to look there for a path through its own glob, and
+        // so on, would take ages where there are several.
+        let mut globs = module.globs.iter().filter(|glob| self.is_of_crate(place, glob));
+        globs.find_map(|glob| {
             let path = [&glob[..], path].concat();
             self.definer(place, &path, depth + 1)
-        };
-        module.globs.iter().find_map(of_glob)
+        })
+    }
+
+    /// Whether a path that this module names may lead to a module of the crate.
+    fn is_of_crate(&self, place: usize, path: &[String]) -> bool {
+        let Some(first) = path.first() else { return false };
+        let bound = self.modules[place].bindings.get(first);
+        let child = [&self.sources[place].module[..], std::slice::from_ref(first)].concat();
+        matches!(first.as_str(), "crate" | "self" | "super")
+            || bound.is_some_and(|bound| bound.first() != Some(first))
+            || self.places.contains_key(&child[..])
     }
 }
 
