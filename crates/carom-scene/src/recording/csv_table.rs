@@ -6,39 +6,68 @@ use std::path::Path;
 
 use carom::World;
 
-use super::csv_file::{csv_file, digits};
+use super::csv_file::digits;
 use super::format::Format;
+use super::rotation;
 
 /// Columns: time at the end of the frame \[s\], number of the sphere in order of appearance,
 /// position \[m\], velocity \[m/s\].
 pub(super) const HEADER: [&str; 8] = ["t", "ball", "x", "y", "z", "vx", "vy", "vz"];
 
-pub(super) struct CsvTable(csv::Writer<File>);
+/// Further columns where spheres turn: orientation as a quaternion, angular velocity \[rad/s\].
+const ROTATION: [&str; 7] = ["qx", "qy", "qz", "qw", "wx", "wy", "wz"];
+
+pub(super) struct CsvTable {
+    writer: csv::Writer<File>,
+    /// Whether there are the columns of rotation; unknown before the first frame.
+    has_rotation: Option<bool>,
+}
 
 impl CsvTable {
     pub fn create(path: &Path) -> io::Result<Self> {
-        Ok(Self(csv_file(path, &HEADER)?))
+        let writer = csv::Writer::from_writer(File::create(path)?);
+        Ok(Self { writer, has_rotation: None })
+    }
+
+    /// Writes the names of the columns, unless they are there; returns whether rotation is among
+    /// them.
+    fn begin(&mut self, has_rotation: impl FnOnce() -> bool) -> io::Result<bool> {
+        if let Some(has_rotation) = self.has_rotation {
+            return Ok(has_rotation);
+        }
+        let has_rotation = *self.has_rotation.insert(has_rotation());
+        let more: &[&str] = if has_rotation { &ROTATION } else { &[] };
+        self.writer.write_record(HEADER.iter().chain(more))?;
+        Ok(has_rotation)
+    }
+
+    fn write_numbers(&mut self, values: &[f64]) -> io::Result<()> {
+        values.iter().try_for_each(|&value| Ok(self.writer.write_field(digits(value))?))
     }
 }
 
 impl Format for CsvTable {
     fn write(&mut self, world: &World) -> io::Result<()> {
+        let has_rotation = self.begin(|| rotation::has_rotation(world))?;
         let spheres = world.spheres();
         let time = digits(world.time());
         for (i, id) in spheres.ids().iter().enumerate() {
-            self.0.write_field(&time)?;
-            self.0.write_field(id.number().to_string())?;
-            for value in [spheres.positions()[i], spheres.velocities()[i]] {
-                for part in value.to_array() {
-                    self.0.write_field(digits(part))?;
-                }
+            self.writer.write_field(&time)?;
+            self.writer.write_field(id.number().to_string())?;
+            self.write_numbers(&spheres.positions()[i].to_array())?;
+            self.write_numbers(&spheres.velocities()[i].to_array())?;
+            if has_rotation {
+                self.write_numbers(&rotation::orientation(world, i))?;
+                self.write_numbers(&rotation::angular_velocity(world, i))?;
             }
-            self.0.write_record(None::<&[u8]>)?;
+            self.writer.write_record(None::<&[u8]>)?;
         }
         Ok(())
     }
 
     fn finish(mut self: Box<Self>) -> io::Result<()> {
-        self.0.flush()
+        // Without a frame there is nothing that could turn.
+        self.begin(|| false)?;
+        self.writer.flush()
     }
 }

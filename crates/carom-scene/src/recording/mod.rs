@@ -1,5 +1,6 @@
 //! Recordings on disk: trajectories as CSV, NPZ or VTK, impacts as CSV. Trajectories in CSV can be
-//! played again.
+//! played again. Where spheres turn, or friction can make them turn, trajectories have orientations
+//! and angular velocities, too; the first frame decides.
 
 mod csv_file;
 mod csv_table;
@@ -10,6 +11,7 @@ mod ledger;
 mod npz;
 mod playback;
 mod replay;
+mod rotation;
 mod vtk;
 
 use std::io;

@@ -1,17 +1,19 @@
 //! Trajectories as NPZ, for NumPy: one array per quantity, one row per sphere and frame.
 //!
 //! Arrays: `t` and `ball` (rows), `position` and `velocity` (rows, 3), and `frame_start`
-//! (frames + 1): the rows of frame k are `frame_start[k] .. frame_start[k + 1]`.
+//! (frames + 1): the rows of frame k are `frame_start[k] .. frame_start[k + 1]`. Where spheres turn,
+//! `orientation` (rows, 4; x, y, z, w) and `angular_velocity` (rows, 3), too.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use carom::World;
 use npyz::WriterBuilder;
 use zip::write::SimpleFileOptions;
 
 use super::format::Format;
+use super::rotation::{angular_velocity, has_rotation, orientation};
 
 /// An NPZ file holds one array after the other, frames come one after the other: columns wait in
 /// temporary files (beside the result, where there is room for it) until all frames are known.
@@ -21,7 +23,16 @@ pub(super) struct Npz {
     ball: Column,
     position: Column,
     velocity: Column,
+    /// Where spheres turn.
+    rotation: Option<Rotation>,
+    /// For temporary files.
+    folder: PathBuf,
     frame_start: Vec<u64>,
+}
+
+struct Rotation {
+    orientation: Column,
+    angular_velocity: Column,
 }
 
 struct Column {
@@ -38,6 +49,10 @@ impl Column {
     fn push(&mut self, word: u64) -> io::Result<()> {
         self.file.write_all(&word.to_le_bytes())
     }
+
+    fn push_all(&mut self, values: &[f64]) -> io::Result<()> {
+        values.iter().try_for_each(|value| self.push(value.to_bits()))
+    }
 }
 
 impl Npz {
@@ -51,6 +66,8 @@ impl Npz {
             ball: Column::create("ball", 1, folder)?,
             position: Column::create("position", 3, folder)?,
             velocity: Column::create("velocity", 3, folder)?,
+            rotation: None,
+            folder: folder.to_owned(),
             frame_start: vec![0],
         })
     }
@@ -63,14 +80,19 @@ impl Npz {
 impl Format for Npz {
     fn write(&mut self, world: &World) -> io::Result<()> {
         let spheres = world.spheres();
+        if self.frame_start.len() == 1 && has_rotation(world) {
+            let orientation = Column::create("orientation", 4, &self.folder)?;
+            let angular_velocity = Column::create("angular_velocity", 3, &self.folder)?;
+            self.rotation = Some(Rotation { orientation, angular_velocity });
+        }
         for (i, id) in spheres.ids().iter().enumerate() {
             self.time.push(world.time().to_bits())?;
             self.ball.push(id.number())?;
-            for part in spheres.positions()[i].to_array() {
-                self.position.push(part.to_bits())?;
-            }
-            for part in spheres.velocities()[i].to_array() {
-                self.velocity.push(part.to_bits())?;
+            self.position.push_all(&spheres.positions()[i].to_array())?;
+            self.velocity.push_all(&spheres.velocities()[i].to_array())?;
+            if let Some(rotation) = &mut self.rotation {
+                rotation.orientation.push_all(&orientation(world, i))?;
+                rotation.angular_velocity.push_all(&angular_velocity(world, i))?;
             }
         }
         self.frame_start.push(self.rows() + spheres.len() as u64);
@@ -79,10 +101,14 @@ impl Format for Npz {
 
     fn finish(self: Box<Self>) -> io::Result<()> {
         let rows = self.rows();
-        let Self { file, time, ball, position, velocity, frame_start } = *self;
+        let Self { file, time, ball, position, velocity, rotation, frame_start, .. } = *self;
         let mut zip = zip::ZipWriter::new(BufWriter::new(file));
         for column in [time, position, velocity] {
             append(&mut zip, column, rows, f64::from_le_bytes)?;
+        }
+        if let Some(Rotation { orientation, angular_velocity }) = rotation {
+            append(&mut zip, orientation, rows, f64::from_le_bytes)?;
+            append(&mut zip, angular_velocity, rows, f64::from_le_bytes)?;
         }
         append(&mut zip, ball, rows, |bytes| u64::from_le_bytes(bytes) as i64)?;
         start(&mut zip, "frame_start")?;

@@ -11,16 +11,20 @@ use vtkio::model::{
 };
 
 use super::format::Format;
+use super::rotation::{angular_velocity, has_rotation, orientation};
 
 /// Files `NAME.pvd` and `NAME_000000.vtp`, `NAME_000001.vtp`, ...
 pub(super) struct Series {
     path: PathBuf,
     times: Vec<f64>,
+    /// Whether spheres turn; known from the first frame on.
+    has_rotation: bool,
 }
 
 impl Series {
     pub fn create(path: &Path) -> io::Result<Self> {
-        let series = Self { path: path.with_extension("pvd"), times: Vec::new() };
+        let series =
+            Self { path: path.with_extension("pvd"), times: Vec::new(), has_rotation: false };
         series.write_list()?;
         Ok(series)
     }
@@ -48,9 +52,12 @@ impl Series {
 
 impl Format for Series {
     fn write(&mut self, world: &World) -> io::Result<()> {
+        if self.times.is_empty() {
+            self.has_rotation = has_rotation(world);
+        }
         let path = self.frame_path(self.times.len());
         let mut text = Vec::new();
-        frame(world).write_xml(&mut text).map_err(io::Error::other)?;
+        frame(world, self.has_rotation).write_xml(&mut text).map_err(io::Error::other)?;
         std::fs::write(&path, text).map_err(|error| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             io::Error::new(error.kind(), format!("{name}: {error}"))
@@ -65,19 +72,30 @@ impl Format for Series {
 }
 
 /// The spheres as points, with what belongs to each; in ParaView, glyphs of the `diameter` show
-/// them as they are.
-fn frame(world: &World) -> Vtk {
+/// them as they are. Where spheres turn, orientations are quaternions w, x, y, z, as VTK has them.
+fn frame(world: &World, has_rotation: bool) -> Vtk {
     let spheres = world.spheres();
     let count = spheres.len() as u64;
     let vectors = |values: &[DVec3]| values.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
     let balls: Vec<u64> = spheres.ids().iter().map(|id| id.number()).collect();
     let diameters: Vec<f64> = spheres.radii().iter().map(|radius| 2.0 * radius).collect();
-    let point = vec![
+    let mut point = vec![
         Attribute::scalars("ball", 1).with_data(balls),
         Attribute::scalars("diameter", 1).with_data(diameters),
         Attribute::scalars("mass", 1).with_data(spheres.masses().to_vec()),
         Attribute::vectors("velocity").with_data(vectors(spheres.velocities())),
     ];
+    if has_rotation {
+        let quaternions = (0..spheres.len()).flat_map(|i| {
+            let [x, y, z, w] = orientation(world, i);
+            [w, x, y, z]
+        });
+        let velocities = (0..spheres.len()).flat_map(|i| angular_velocity(world, i));
+        let orientations = Attribute::generic("orientation", 4);
+        point.push(orientations.with_data(quaternions.collect::<Vec<f64>>()));
+        let angular = Attribute::vectors("angular_velocity");
+        point.push(angular.with_data(velocities.collect::<Vec<f64>>()));
+    }
     let verts =
         VertexNumbers::XML { connectivity: (0..count).collect(), offsets: (1..=count).collect() };
     Vtk {
