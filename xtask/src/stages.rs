@@ -1,26 +1,35 @@
-//! Keeps the stages of the rule `exact` under one name in code, documents and reports.
+//! Keeps the stages of the rules `exact` and `contact` under one name in code, documents and reports.
 
 use std::fs;
 
 use crate::shell::{Outcome, root};
 
-const DOCUMENT: &str = "docs/physics/exact.md";
-const CODE: &str = "crates/carom/src/rule/exact/mod.rs";
+/// Of each rule, the document that describes its stages, and the code that puts them together.
+const RULES: [[&str; 2]; 2] = [
+    ["docs/physics/exact.md", "crates/carom/src/rule/exact/mod.rs"],
+    ["docs/physics/contact.md", "crates/carom/src/rule/contact/mod.rs"],
+];
 const REPORT: &str = "crates/carom/src/report.rs";
 
 /// Compares the stages that the document describes with those of the code, and with what the report
 /// counts.
 pub fn check() -> Outcome {
-    let [document, code, report] = [read(DOCUMENT)?, read(CODE)?, read(REPORT)?];
-    let (described, coded) = (stages(&document), stages(&code));
-    if described.is_empty() || described != coded {
-        return Err(format!("{DOCUMENT} has the stages {described:?}, but {CODE} has {coded:?}"));
+    let mut known = Vec::new();
+    for [document, code] in RULES {
+        let (described, coded) = (stages(&read(document)?), stages(&read(code)?));
+        if described.is_empty() || described != coded {
+            return Err(format!(
+                "{document} has the stages {described:?}, but {code} has {coded:?}"
+            ));
+        }
+        known.extend(coded);
     }
+    let report = read(REPORT)?;
     let counted = counted_stages(&report);
-    let unknown = counted.iter().find(|stage| !coded.contains(stage));
+    let unknown = counted.iter().find(|stage| !known.contains(stage));
     match unknown {
         Some(stage) => {
-            Err(format!("{REPORT} counts work of the stage {stage:?}, which {CODE} lacks"))
+            Err(format!("{REPORT} counts work of the stage {stage:?}, which no rule has"))
         }
         None if counted.is_empty() => Err(format!("{REPORT} counts no work of stages")),
         None => Ok(()),

@@ -96,7 +96,7 @@ pub struct StageCounts {
     pub searches: u64,
     /// Sweep: how often all contacts were gone through, under the rule `contact`.
     pub sweeps: u64,
-    /// Contacts that a sweep goes through at the end of the step, under the rule `contact`.
+    /// Sweep: contacts that it goes through at the end of the step, under the rule `contact`.
     pub contacts: u64,
 }
 

@@ -1,8 +1,9 @@
 //! The beginning and the end of a frame: from the world to the solver, and back.
 
 use super::batch::ContactKinds;
+use super::found::Found;
 use super::kept::Kept;
-use super::slab::{Found, Slabs};
+use super::slab::Slabs;
 use super::sleep;
 use super::slots::AWAKE;
 use super::solver::Solver;

@@ -6,8 +6,8 @@
 use fearless_simd::{Level, Simd, SimdMask, dispatch};
 
 use super::batch::{Batches, FrictionBatch, PairBatch, Quad, RollingBatch};
+use super::found::Found;
 use super::row::Row;
-use super::slab::Found;
 use super::slots::Run;
 use super::sub_step::{GROWTH, RELAXATION, SLOP, SubStep};
 use super::swept;
@@ -324,12 +324,12 @@ fn correct_all<S: Simd>(simd: S, run: &mut Run, batches: &Batches) -> f64 {
         let effective_mass = Lanes::each(simd, batch.effective_mass);
         let push = overlap * effective_mass * RELAXATION / length.max(Lanes::all(simd, TINY));
         let rows = rows_of(simd, offset * push);
-        for lane in 0..LANES {
+        for (lane, row) in rows.into_iter().enumerate() {
             let (first, second) = (batch.first[lane] as usize, batch.second[lane] as usize);
             let of_first = -run.velocity[first].number();
-            shift(simd, &mut run.position[first], rows[lane] * of_first);
+            shift(simd, &mut run.position[first], row * of_first);
             let of_second = run.velocity[second].number();
-            shift(simd, &mut run.position[second], rows[lane] * of_second);
+            shift(simd, &mut run.position[second], row * of_second);
         }
     }
     largest.largest()
@@ -384,11 +384,11 @@ fn gathered<S: Simd>(simd: S, all: &[Row], slots: &[u32; LANES]) -> [Lanes<S>; L
 #[inline(always)]
 fn apply<S: Simd>(simd: S, velocities: &mut [Row], batch: &PairBatch, impulse: Vector<Lanes<S>>) {
     let rows = rows_of(simd, impulse);
-    for lane in 0..LANES {
+    for (lane, row) in rows.into_iter().enumerate() {
         let first = &mut velocities[batch.first[lane] as usize];
-        shift(simd, first, rows[lane] * -first.number());
+        shift(simd, first, row * -first.number());
         let second = &mut velocities[batch.second[lane] as usize];
-        shift(simd, second, rows[lane] * second.number());
+        shift(simd, second, row * second.number());
     }
 }
 
@@ -397,10 +397,10 @@ fn apply<S: Simd>(simd: S, velocities: &mut [Row], batch: &PairBatch, impulse: V
 #[inline(always)]
 fn apply_spin<S: Simd>(simd: S, spins: &mut [Row], batch: &PairBatch, turn: Vector<Lanes<S>>) {
     let rows = rows_of(simd, turn);
-    for lane in 0..LANES {
+    for (lane, row) in rows.into_iter().enumerate() {
         for slot in [batch.first[lane], batch.second[lane]] {
             let spin = &mut spins[slot as usize];
-            shift(simd, spin, rows[lane] * -spin.number());
+            shift(simd, spin, row * -spin.number());
         }
     }
 }
@@ -415,11 +415,11 @@ fn turn<S: Simd>(
     angular: Vector<Lanes<S>>,
 ) {
     let rows = rows_of(simd, angular);
-    for lane in 0..LANES {
+    for (lane, row) in rows.into_iter().enumerate() {
         let first = &mut spins[batch.first[lane] as usize];
-        shift(simd, first, rows[lane] * -(first.number() * rolling.curvature[0][lane]));
+        shift(simd, first, row * -(first.number() * rolling.curvature[0][lane]));
         let second = &mut spins[batch.second[lane] as usize];
-        shift(simd, second, rows[lane] * (second.number() * rolling.curvature[1][lane]));
+        shift(simd, second, row * (second.number() * rolling.curvature[1][lane]));
     }
 }
 

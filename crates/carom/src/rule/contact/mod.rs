@@ -3,19 +3,20 @@
 //!
 //! A frame is cut into sub-steps of equal length. Each goes through these stages:
 //!
-//! 1. *Accelerate*: velocities gain what forces give them.
-//! 2. *Search*: where a sphere may leave the margin of the last search, neighbours are found anew.
-//! 3. *Prepare*: normals, gaps and impacts; contacts begin with the impulses of the sub-step before.
-//! 4. *Sweep*: each contact in turn gets the impulse that it needs, by Gauss and Seidel.
-//! 5. *Keep energy*: where impulses would add kinetic energy, less of them is taken.
-//! 6. *Advance*: positions follow the velocities.
-//! 7. *Correct*: overlaps are reduced, without a change of velocities.
+//! 1. **Accelerate.** Velocities gain what forces give them.
+//! 2. **Search.** Where a sphere may leave the margin of the last search, neighbours are found anew.
+//! 3. **Prepare.** Normals, gaps and impacts; contacts begin with the impulses of the sub-step before.
+//! 4. **Sweep.** Each contact in turn gets the impulse that it needs, by Gauss and Seidel.
+//! 5. **Keep energy.** Where impulses would add kinetic energy, less of them is taken.
+//! 6. **Advance.** Positions follow the velocities.
+//! 7. **Correct.** Overlaps are reduced, without a change of velocities.
 
 mod accelerate;
 mod advance;
 mod batch;
 mod dormant;
 mod energy;
+mod found;
 mod frame;
 mod impacts;
 mod kept;

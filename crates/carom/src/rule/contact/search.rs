@@ -129,8 +129,8 @@ impl Search {
             let [layer, row, column] = grid.cell_of(center);
             let mut scan = |from: usize, to: usize| {
                 *tests += (to - from) as u64;
-                for second in from..to {
-                    let offset = position[second].vector() - center;
+                for (second, row) in (from..to).zip(&position[from..to]) {
+                    let offset = row.vector() - center;
                     let other_reach = reach(second);
                     let sum = own_reach + other_reach;
                     if offset.length_squared() < sum * sum && other_reach <= widest {

@@ -6,6 +6,7 @@
 //! are follows from the spheres, never from the threads.
 
 use super::batch::Batches;
+use super::found::Found;
 use super::slots::{Run, Slots};
 use super::surfaces::SurfaceContact;
 use crate::parallel;
@@ -24,27 +25,6 @@ pub(super) struct Slab {
     pub surfaces: Vec<SurfaceContact>,
     /// What a stage found in this slab.
     pub found: Found,
-}
-
-/// What a stage finds in a slab, to be put together in the order of slabs.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Found {
-    /// A sum \[J\].
-    pub energy: f64,
-    /// Largest change of a normal impulse \[N s\].
-    pub change: f64,
-    /// Largest normal impulse \[N s\].
-    pub impulse: f64,
-    /// Largest overlap, as a part of the sum of radii.
-    pub overlap: f64,
-}
-
-impl Found {
-    /// The larger changes and impulses of two parts.
-    pub fn or_larger(self, other: Self) -> Self {
-        let change = self.change.max(other.change);
-        Self { change, impulse: self.impulse.max(other.impulse), ..self }
-    }
 }
 
 /// How many slabs so many spheres are to have.

@@ -1,7 +1,8 @@
 //! The stages that work on contacts, slab by slab.
 
+use super::found::Found;
 use super::kernel;
-use super::slab::{Direction, Found};
+use super::slab::Direction;
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use super::surfaces;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::batch::Impulses;
-use super::slab::Found;
+use super::found::Found;
 use super::slots::Run;
 use super::sub_step::{GROWTH, RELAXATION, SLOP, SubStep};
 use super::swept::{FAR, FREE};

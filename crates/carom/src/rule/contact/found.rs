@@ -1,0 +1,22 @@
+//! What a stage finds in a slab.
+
+/// What a stage finds in a slab, to be put together in the order of slabs.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Found {
+    /// A sum \[J\].
+    pub energy: f64,
+    /// Largest change of a normal impulse \[N s\].
+    pub change: f64,
+    /// Largest normal impulse \[N s\].
+    pub impulse: f64,
+    /// Largest overlap, as a part of the sum of radii.
+    pub overlap: f64,
+}
+
+impl Found {
+    /// The larger changes and impulses of two parts.
+    pub fn or_larger(self, other: Self) -> Self {
+        let change = self.change.max(other.change);
+        Self { change, impulse: self.impulse.max(other.impulse), ..self }
+    }
+}
