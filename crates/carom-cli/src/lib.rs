@@ -7,6 +7,7 @@ mod args;
 mod bench;
 mod choice;
 mod compare;
+mod contact_totals;
 mod failure;
 mod gas;
 mod interruption;

@@ -8,6 +8,7 @@ use carom_scene::scene::{ImpactLaw, Integrator, Rule, WindBack};
 use carom_session::{Replay, SessionError};
 use serde::Serialize;
 
+use crate::contact_totals::ContactTotals;
 use crate::stage_work::StageWork;
 
 /// Watches a run.
@@ -27,6 +28,8 @@ pub struct Observer {
     /// In any group of impacts, under rules that keep a ledger.
     largest_momentum_error: f64,
     largest_energy_error: f64,
+    /// Under the rule `contact`.
+    contact: ContactTotals,
 }
 
 impl Observer {
@@ -46,6 +49,7 @@ impl Observer {
             largest_overlap: 0.0,
             largest_momentum_error: 0.0,
             largest_energy_error: 0.0,
+            contact: ContactTotals::default(),
         }
     }
 
@@ -62,6 +66,7 @@ impl Observer {
         self.retired += report.retired.len() as u64;
         self.unfinished_islands += u64::from(report.unfinished_islands);
         self.work += report.work;
+        self.contact.add(report);
         for group in &report.groups {
             self.largest_momentum_error = self.largest_momentum_error.max(group.momentum_error());
             self.largest_energy_error = self.largest_energy_error.max(group.energy_error());
@@ -83,6 +88,9 @@ pub struct Summary {
     integrator: Option<Integrator>,
     /// Under the rule `exact`.
     impact_law: Option<ImpactLaw>,
+    /// Under the rule `contact`: sub-steps of a frame, and sweeps of a sub-step.
+    sub_steps: Option<u32>,
+    sweeps: Option<u32>,
     frame_time: f64,
     frames: u64,
     /// Made on the way, where a link says so.
@@ -108,6 +116,8 @@ pub struct Summary {
     /// Change of energy of any group of impacts against what restitution demands, relative to the
     /// energy at work; under the rule `exact`.
     largest_energy_error: Option<f64>,
+    /// Under the rule `contact`.
+    contact: Option<ContactTotals>,
     wall_time: f64,
     stepping_time: f64,
     state_hash: String,
@@ -118,6 +128,7 @@ impl Summary {
         let (world, simulation) = (replay.world(), replay.simulation());
         let is_bisect = simulation.rule == Rule::Bisect;
         let is_exact = simulation.rule == Rule::Exact;
+        let is_contact = simulation.rule == Rule::Contact;
         Self {
             scene: replay.scene().name.clone(),
             rule: simulation.rule,
@@ -128,6 +139,8 @@ impl Summary {
                 Rule::Exact | Rule::Contact => None,
             },
             impact_law: is_exact.then_some(simulation.exact.impact_law),
+            sub_steps: is_contact.then_some(simulation.contact.sub_steps),
+            sweeps: is_contact.then_some(simulation.contact.sweeps),
             frame_time: simulation.frame_time,
             frames: observer.frames,
             edits: replay.edits(),
@@ -146,6 +159,7 @@ impl Summary {
             largest_overlap: observer.largest_overlap,
             largest_momentum_error: is_exact.then_some(observer.largest_momentum_error),
             largest_energy_error: is_exact.then_some(observer.largest_energy_error),
+            contact: is_contact.then_some(observer.contact),
             wall_time: observer.began.elapsed().as_secs_f64(),
             stepping_time: observer.stepping.as_secs_f64(),
             state_hash: world.state_hash().to_string(),
@@ -165,6 +179,20 @@ impl Summary {
         Ok(())
     }
 
+    /// The rule and its method, in words.
+    fn rule(&self) -> String {
+        let rule = match self.wind_back {
+            Some(wind_back) => format!("{}, winding back {}", name(self.rule), name(wind_back)),
+            None => name(self.rule),
+        };
+        let method = match (self.impact_law, self.sub_steps, self.sweeps) {
+            (Some(law), ..) => format!("impact law {}", name(law)),
+            (_, Some(sub_steps), Some(sweeps)) => format!("sub-steps {sub_steps}, sweeps {sweeps}"),
+            _ => name(self.integrator),
+        };
+        format!("{rule}, {method}, frames of {:.6} s", self.frame_time)
+    }
+
     fn rows(&self) -> Vec<(&'static str, String)> {
         let start = DVec3::from_array(self.momentum_at_start);
         let end = DVec3::from_array(self.momentum_at_end);
@@ -172,21 +200,13 @@ impl Summary {
             (0, 0) => String::new(),
             (emitted, retired) => format!(" ({emitted} emitted, {retired} retired)"),
         };
-        let rule = match self.wind_back {
-            Some(wind_back) => format!("{}, winding back {}", name(self.rule), name(wind_back)),
-            None => name(self.rule),
-        };
-        let method = match self.impact_law {
-            Some(law) => format!("impact law {}", name(law)),
-            None => name(self.integrator),
-        };
         let mut energy = energy_change(self.energy_at_start, self.energy_at_end);
         if self.emitted > 0 {
             energy.push_str(", what was emitted included");
         }
         let mut rows = vec![
             ("scene", self.scene.clone()),
-            ("rule", format!("{rule}, {method}, frames of {:.6} s", self.frame_time)),
+            ("rule", self.rule()),
             ("simulated time", format!("{:.3} s in {} frames", self.simulated_time, self.frames)),
             ("spheres", format!("{}{came_and_went}", self.spheres)),
             ("impacts", self.impacts.to_string()),
@@ -199,6 +219,10 @@ impl Summary {
             ),
             ("state hash", self.state_hash.clone()),
         ];
+        if let Some(contact) = &self.contact {
+            // Before the momentum.
+            rows.splice(6..6, contact.rows());
+        }
         if let (Some(momentum), Some(energy)) =
             (self.largest_momentum_error, self.largest_energy_error)
         {

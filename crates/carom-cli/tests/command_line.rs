@@ -340,6 +340,41 @@ fn ctrl_c_ends_the_run_with_what_was_written_readable() {
     }
 }
 
+/// A ball with backspin that is dropped on a floor with friction.
+const BACKSPIN: &str = r#"
+name = "backspin"
+forces = [{ gravity = { acceleration = [0.0, -9.81, 0.0] } }]
+spheres = [{ position = [0, 0.3, 0], velocity = [2, 0, 0], angular_velocity = [0, 0, 60], radius = 0.1 }]
+colliders = [{ shape = "half-space", restitution = 0.5, friction = 0.3 }]
+"#;
+
+#[test]
+fn the_rule_contact_tells_what_it_did_to_energy() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = path(&folder, "backspin.toml");
+    std::fs::write(&scene, BACKSPIN).unwrap();
+    let run = ["run", &scene, "--rule", "contact", "--seconds", "1"];
+    let figures = summary(&run);
+    let contact = &figures["contact"];
+    let number = |value: &Value| value.as_f64().unwrap();
+    let taken = -number(&contact["impulse_work"]);
+    assert!(taken > 0.1, "{contact}");
+    // What falls is in free flight exact, so that the account is closed.
+    let lost = number(&figures["energy_at_start"]) - number(&figures["energy_at_end"]);
+    let accounted = taken - number(&contact["surface_work"]) - number(&contact["correction_work"]);
+    assert!((lost - accounted).abs() < 0.01 * lost, "{lost} J, but {accounted} J: {contact}");
+    assert!(number(&contact["residual"]) >= 0.0 && number(&contact["largest_overlap"]) < 0.1);
+    assert_eq!((&figures["sub_steps"], &figures["sweeps"]), (&8.into(), &2.into()));
+    assert!(figures["work"]["sweeps"].as_u64().unwrap() > 0);
+    let text = good(&run);
+    for line in ["sub-steps 8, sweeps 2", "energy taken", "energy added", "overlap ", "residual "] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    assert!(summary(&["run", &scene, "--seconds", "0.1"])["contact"].is_null());
+    let compared = good(&["compare", &scene, "--rules", "exact,contact", "--seconds", "0.1"]);
+    assert!(compared.contains("\ncontact "), "{compared}");
+}
+
 /// A pile whose one frame would take minutes.
 #[cfg(unix)]
 const PILE: &str = r#"
