@@ -75,13 +75,13 @@ fn a_ball_on_an_incline_rolls_or_slides_by_its_friction() {
     let angle = 0.5_f64;
     // It rolls while tan(angle) <= 7/2 mu, with 5/7 of the acceleration of sliding freely.
     for (mu, expected) in [
-        (0.5, 5.0 / 7.0 * G * angle.sin()),
-        (0.16, 5.0 / 7.0 * G * angle.sin()),
-        (0.1, G * (angle.sin() - 0.1 * angle.cos())),
-        (0.0, G * angle.sin()),
+        (0.5, 5.0 / 7.0 * G * libm::sin(angle)),
+        (0.16, 5.0 / 7.0 * G * libm::sin(angle)),
+        (0.1, G * (libm::sin(angle) - 0.1 * libm::cos(angle))),
+        (0.0, G * libm::sin(angle)),
     ] {
         let mut world = on_plane(angle, mu);
-        let normal = DVec3::new(-angle.sin(), angle.cos(), 0.0);
+        let normal = DVec3::new(-libm::sin(angle), libm::cos(angle), 0.0);
         let id = world.add_sphere(Sphere::new(0.1 * normal, 0.1)).unwrap();
         run(&mut world, 60);
         let ball = world.sphere(id).unwrap();
@@ -96,11 +96,11 @@ fn a_hollow_ball_rolls_down_more_slowly_than_a_solid_one() {
     let angle = 0.3_f64;
     for factor in [carom::SOLID_BALL, carom::THIN_SHELL] {
         let mut world = on_plane(angle, 1.0);
-        let normal = DVec3::new(-angle.sin(), angle.cos(), 0.0);
+        let normal = DVec3::new(-libm::sin(angle), libm::cos(angle), 0.0);
         let ball = Sphere::new(0.1 * normal, 0.1).with_inertia_factor(factor);
         let id = world.add_sphere(ball).unwrap();
         run(&mut world, 60);
-        let expected = G * angle.sin() / (1.0 + factor) * world.time();
+        let expected = G * libm::sin(angle) / (1.0 + factor) * world.time();
         assert_close(world.sphere(id).unwrap().velocity.length(), expected, 1e-9 * expected);
     }
 }
@@ -175,7 +175,7 @@ fn oblique_bounces_stick_or_slide_as_rigid_balls_do() {
             .with_restitution(e)
             .with_friction(mu);
         world.add_collider(plate).unwrap();
-        let velocity = speed * DVec3::new(angle.sin(), -angle.cos(), 0.0);
+        let velocity = speed * DVec3::new(libm::sin(angle), -libm::cos(angle), 0.0);
         let ball = Sphere::new(DVec3::new(0.0, 0.01, 0.0), radius)
             .with_velocity(velocity)
             .with_density(4000.0);

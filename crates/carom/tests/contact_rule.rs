@@ -286,7 +286,7 @@ fn a_pyramid_of_four_stands_from_its_friction_on() {
         let ring = 2.0 / 3.0_f64.sqrt() * radius;
         for number in 0..3 {
             let angle = f64::from(number) * std::f64::consts::TAU / 3.0;
-            let place = DVec3::new(ring * angle.cos(), radius, ring * angle.sin());
+            let place = DVec3::new(ring * libm::cos(angle), radius, ring * libm::sin(angle));
             world.add_sphere(Sphere::new(place, radius).with_friction(balls)).unwrap();
         }
         let top = DVec3::new(0.0, radius + height, 0.0);
@@ -409,7 +409,7 @@ fn a_turning_drum_takes_balls_along() {
     for number in 0..12 {
         let angle = f64::from(number) * std::f64::consts::TAU / 12.0;
         let plate = Shape::Box { size: DVec3::new(0.7, 0.1, 1.0) };
-        let place = 1.2 * DVec3::new(angle.sin(), -angle.cos(), 0.0);
+        let place = 1.2 * DVec3::new(libm::sin(angle), -libm::cos(angle), 0.0);
         // Each plate turns about its own centre and moves about the axis of the drum.
         let spin = 1.0 * DVec3::Z;
         let pose = Pose::at(place).rotated(DQuat::from_rotation_z(angle));
@@ -457,7 +457,7 @@ fn a_turning_drum_takes_balls_along() {
     }
     // The floor goes towards +x: the heap leans there, up to the angle of repose.
     let mean = world.spheres().positions().iter().sum::<DVec3>() / 40.0;
-    let angle = mean.x.atan2(-mean.y).to_degrees();
+    let angle = libm::atan2(mean.x, -mean.y).to_degrees();
     assert!((10.0..50.0).contains(&angle), "{angle}");
     assert!(world.report().contact_account.surface_work != 0.0);
 }
