@@ -214,10 +214,10 @@ pub struct Bench {
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub runs: u32,
     /// What to measure.
-    #[arg(long, value_parser = ["gas", "scenes", "all"], default_value = "all")]
+    #[arg(long, value_parser = ["gas", "heaps", "scenes", "all"], default_value = "all")]
     #[arg(conflicts_with = "n")]
     pub set: String,
-    /// Measure the gas of a million spheres, too.
+    /// Measure the gas of a million spheres and the heap of a hundred thousand, too.
     #[arg(long, conflicts_with = "n")]
     pub full: bool,
     /// Print JSON instead of a table.

@@ -9,6 +9,10 @@ macro_rules! embed {
 }
 
 embed!(
+    "pour.toml",
+    "billiards.toml",
+    "galton.toml",
+    "granular-column.toml",
     "simtest1.toml",
     "simtest2.toml",
     "simtest3.toml",

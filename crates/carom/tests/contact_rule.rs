@@ -383,7 +383,7 @@ fn bits_depend_on_no_thread() {
             .unwrap();
     }
     run(&mut world, 60);
-    assert_eq!(world.state_hash().to_string(), "6cda9e3a97623840");
+    assert_eq!(world.state_hash().to_string(), "e9257eabb2536df6");
 }
 
 #[test]

@@ -1,6 +1,7 @@
-//! The command `bench`: how fast gases and scenes run on one core.
+//! The command `bench`: how fast gases, heaps and scenes run.
 
 mod gases;
+mod heaps;
 mod median;
 mod scenes;
 mod work_columns;
@@ -14,19 +15,29 @@ use crate::failure::Failure;
 use crate::gas::Filling;
 use crate::machine::Machine;
 use gases::GasRow;
+use heaps::HeapRow;
 use scenes::SceneRow;
 
 /// Measures and prints what came out.
 pub fn bench(args: &Bench) -> Result<(), Failure> {
-    let mut figures = Figures { machine: Machine::this(), gases: Vec::new(), scenes: Vec::new() };
+    let mut figures = Figures {
+        machine: Machine::this(),
+        gases: Vec::new(),
+        heaps: Vec::new(),
+        scenes: Vec::new(),
+    };
     if let (Some(count), Some(packing_fraction)) = (args.n, args.packing_fraction) {
         let filling = Filling { count: count as usize, packing_fraction };
         figures.gases.push(gases::measure(filling, args)?);
     } else {
-        if args.set != "scenes" {
+        let is_wanted = |set: &str| args.set == "all" || args.set == set;
+        if is_wanted("gas") {
             figures.gases = gases::measure_set(args)?;
         }
-        if args.set != "gas" {
+        if is_wanted("heaps") {
+            figures.heaps = heaps::measure_set(args.runs, args.full)?;
+        }
+        if is_wanted("scenes") {
             figures.scenes = scenes::measure_set(args.runs)?;
         }
     }
@@ -39,6 +50,7 @@ pub fn bench(args: &Bench) -> Result<(), Failure> {
 struct Figures {
     machine: Machine,
     gases: Vec<GasRow>,
+    heaps: Vec<HeapRow>,
     scenes: Vec<SceneRow>,
 }
 
@@ -52,6 +64,11 @@ impl Figures {
         if !self.gases.is_empty() {
             gases::table(&self.gases).write(&mut out)?;
             writeln!(out, "{}", gases::NOTE)?;
+            writeln!(out)?;
+        }
+        if !self.heaps.is_empty() {
+            heaps::table(&self.heaps).write(&mut out)?;
+            writeln!(out, "{}", heaps::NOTE)?;
             writeln!(out)?;
         }
         if !self.scenes.is_empty() {

@@ -8,6 +8,7 @@ mod claim;
 mod conservation;
 mod course;
 mod fluid;
+mod friction;
 mod granular;
 mod motion;
 mod report;
@@ -61,6 +62,7 @@ fn claims() -> Vec<Claim> {
         granular::claims,
         conservation::claims,
         resting::claims,
+        friction::claims,
         course::claims,
     ];
     topics.iter().flat_map(|claims| claims()).collect()

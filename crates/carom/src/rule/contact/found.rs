@@ -7,6 +7,9 @@ pub(super) struct Found {
     pub energy: f64,
     /// Largest change of a normal impulse \[N s\].
     pub change: f64,
+    /// Largest speed that a contact had to be kept from \[m/s\]: in the last sweep, by how much it still
+    /// closed too fast.
+    pub excess: f64,
     /// Largest normal impulse \[N s\].
     pub impulse: f64,
     /// Largest overlap, as a part of the sum of radii.
@@ -14,9 +17,10 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// The larger changes and impulses of two parts.
+    /// The larger changes, excesses and impulses of two parts.
     pub fn or_larger(self, other: Self) -> Self {
         let change = self.change.max(other.change);
-        Self { change, impulse: self.impulse.max(other.impulse), ..self }
+        let excess = self.excess.max(other.excess);
+        Self { change, excess, impulse: self.impulse.max(other.impulse), ..self }
     }
 }

@@ -36,6 +36,7 @@ pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
         motion.spin.make_room(ids.len());
     }
     solver.slots.read(system, motion, kinds.friction);
+    solver.smallest_radius = system.spheres.radius.iter().copied().fold(f64::INFINITY, f64::min);
     solver.has_other_forces = solver.slots.read_forces(system);
     let accelerations = &solver.slots.acceleration;
     let is_one = accelerations.windows(2).all(|two| two[0] == two[1]);

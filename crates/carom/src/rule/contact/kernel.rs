@@ -206,12 +206,12 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
     backwards: bool,
 ) -> Found {
     let Batches { pairs, frictions, rollings, .. } = batches;
-    let [mut largest_change, mut largest_impulse] = [Lanes::all(simd, 0.0); 2];
+    let [mut largest_change, mut largest_impulse, mut least_room] = [Lanes::all(simd, 0.0); 3];
     let count = pairs.len();
     for step in 0..count {
         let number = if backwards { count - 1 - step } else { step };
         let batch = &mut pairs[number];
-        let change = if FRICTION {
+        let Solved { change, room } = if FRICTION {
             let rolling = if ROLLING { rollings.get_mut(number) } else { None };
             solve_with_friction(simd, run, batch, &mut frictions[number], rolling)
         } else {
@@ -219,30 +219,39 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
         };
         largest_change = largest_change.max(change.abs());
         largest_impulse = largest_impulse.max(Lanes::each(simd, batch.impulse));
+        least_room = smaller(least_room, room);
     }
+    let excess = (Lanes::all(simd, 0.0) - least_room).largest();
     let [change, impulse] = [largest_change, largest_impulse].map(Lanes::largest);
-    Found { change, impulse, ..Found::default() }
+    Found { change, excess, impulse, ..Found::default() }
 }
 
-/// Gives each contact of a batch its normal impulse. Gives the changes.
+/// What solving a batch comes to.
+struct Solved<S: Simd> {
+    /// Changes of the normal impulses \[N s\].
+    change: Lanes<S>,
+    /// By how much normal velocities were above their bounds \[m/s\]; negative below.
+    room: Lanes<S>,
+}
+
+/// Gives each contact of a batch its normal impulse.
 #[inline(always)]
-fn solve<S: Simd>(simd: S, run: &mut Run, batch: &mut PairBatch) -> Lanes<S> {
+fn solve<S: Simd>(simd: S, run: &mut Run, batch: &mut PairBatch) -> Solved<S> {
     let zero = Lanes::all(simd, 0.0);
     let normal = vector(simd, &batch.normal);
     let speed = xyz(difference(simd, run.velocity, batch)).dot(normal);
     let impulse = Lanes::each(simd, batch.impulse);
-    let excess = Lanes::each(simd, batch.effective_mass) * (speed + Lanes::each(simd, batch.bias));
-    let solved = (impulse - excess).max(zero);
+    let room = speed + Lanes::each(simd, batch.bias);
+    let solved = (impulse - Lanes::each(simd, batch.effective_mass) * room).max(zero);
     let change = solved - impulse;
     if is_any(simd, change) {
         batch.impulse = solved.to_array();
         apply(simd, run.velocity, batch, normal * change);
     }
-    change
+    Solved { change, room }
 }
 
 /// Gives each contact of a batch its normal and then its tangential impulse, which lies on Coulomb's disc.
-/// Gives the changes of the normal ones.
 ///
 /// An impulse along the normal changes no slip, and one across it no normal speed: so both follow in
 /// closed form.
@@ -253,17 +262,17 @@ fn solve_with_friction<S: Simd>(
     batch: &mut PairBatch,
     friction: &mut FrictionBatch,
     rolling: Option<&mut RollingBatch>,
-) -> Lanes<S> {
+) -> Solved<S> {
     let zero = Lanes::all(simd, 0.0);
     let normal = vector(simd, &batch.normal);
     let velocity = xyz(difference(simd, run.velocity, batch));
     let speed = velocity.dot(normal);
     let impulse = Lanes::each(simd, batch.impulse);
-    let excess = Lanes::each(simd, batch.effective_mass) * (speed + Lanes::each(simd, batch.bias));
-    let solved = (impulse - excess).max(zero);
+    let room = speed + Lanes::each(simd, batch.bias);
+    let solved = (impulse - Lanes::each(simd, batch.effective_mass) * room).max(zero);
     let change = solved - impulse;
     if !is_any(simd, solved.max(impulse)) {
-        return change;
+        return Solved { change, room };
     }
     batch.impulse = solved.to_array();
 
@@ -280,7 +289,7 @@ fn solve_with_friction<S: Simd>(
     if let Some(rolling) = rolling {
         solve_rolling(simd, run, batch, rolling);
     }
-    change
+    Solved { change, room }
 }
 
 /// Gives each contact of a batch its angular impulses against rolling and spinning.

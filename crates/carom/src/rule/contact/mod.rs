@@ -66,7 +66,7 @@ pub(crate) fn step(
             neighbours::search(system, frame, &sub_step, solver, scratch, report);
         }
         solve::prepare(solver, &sub_step);
-        solve::sweep(solver, parameters, report);
+        solve::sweep(solver, &sub_step, parameters, report);
         energy::keep(system, frame, solver, &sub_step, report);
         impacts::report(system, solver, &sub_step, report);
         impacts::note_bounces(solver, &sub_step);

@@ -12,6 +12,10 @@ use crate::settings::Contact;
 /// Largest change of an impulse in a sweep, as a part of the largest impulse: with `converged`, sweeps
 /// end there.
 const CONVERGED: f64 = 1e-10;
+/// Overlap that a sub-step may add, as a part of the smallest radius, before there are more sweeps.
+const TOLERABLE: f64 = 0.01;
+/// Sweeps are this many times as many as the parameters say, at most.
+const MORE: u32 = 8;
 /// Sweeps at most with `converged`.
 const MOST_SWEEPS: u32 = 20_000;
 
@@ -24,13 +28,27 @@ pub(super) fn prepare(solver: &mut Solver, sub_step: &SubStep) {
     });
 }
 
-/// Sweeps over all contacts, each time in the other direction.
-pub(super) fn sweep(solver: &mut Solver, parameters: Contact, report: &mut StepReport) {
-    let most = if parameters.converged { MOST_SWEEPS } else { parameters.sweeps };
+/// Sweeps over all contacts, each time in the other direction: as often as the parameters say, and on
+/// while bodies would come to overlap by more than [`TOLERABLE`].
+pub(super) fn sweep(
+    solver: &mut Solver,
+    sub_step: &SubStep,
+    parameters: Contact,
+    report: &mut StepReport,
+) {
+    let least = parameters.sweeps;
+    let most = if parameters.converged { MOST_SWEEPS } else { MORE * least };
     let mut residual = 0.0;
     for number in 0..most {
-        residual = sweep_once(solver, number % 2 == 0, report);
-        if parameters.converged && residual <= CONVERGED {
+        let found = sweep_once(solver, number % 2 == 0, report);
+        residual = if found.impulse > 0.0 { found.change / found.impulse } else { 0.0 };
+        let is_done = if parameters.converged {
+            residual <= CONVERGED
+        } else {
+            let overlap = sub_step.h * found.excess;
+            number + 1 >= least && overlap <= TOLERABLE * solver.smallest_radius
+        };
+        if is_done {
             break;
         }
     }
@@ -38,23 +56,22 @@ pub(super) fn sweep(solver: &mut Solver, parameters: Contact, report: &mut StepR
     account.residual = account.residual.max(residual);
 }
 
-/// Sweeps over all contacts once. Gives the residual.
-pub(super) fn sweep_once(solver: &mut Solver, backwards: bool, report: &mut StepReport) -> f64 {
+/// Sweeps over all contacts once.
+pub(super) fn sweep_once(solver: &mut Solver, backwards: bool, report: &mut StepReport) -> Found {
     let Solver { slots, slabs, .. } = solver;
     let direction = if backwards { Direction::Backwards } else { Direction::Forwards };
     slabs.each_contact(slots, direction, |run, slab| {
-        let Found { change, impulse, .. } = if backwards {
+        let Found { change, excess, impulse, .. } = if backwards {
             let surfaces = surfaces::sweep(run, &mut slab.surfaces, backwards);
             kernel::sweep(run, &mut slab.batches, backwards).or_larger(surfaces)
         } else {
             let pairs = kernel::sweep(run, &mut slab.batches, backwards);
             surfaces::sweep(run, &mut slab.surfaces, backwards).or_larger(pairs)
         };
-        (slab.found.change, slab.found.impulse) = (change, impulse);
+        slab.found = Found { change, excess, impulse, ..slab.found };
     });
     report.work.sweeps += 1;
-    let found = slabs.iter().fold(Found::default(), |all, slab| all.or_larger(slab.found));
-    if found.impulse > 0.0 { found.change / found.impulse } else { 0.0 }
+    slabs.iter().fold(Found::default(), |all, slab| all.or_larger(slab.found))
 }
 
 /// Has bounces give back only this part of what they would.

@@ -30,6 +30,8 @@ pub(crate) struct Solver {
     pub(super) has_moving_surfaces: bool,
     /// Kinetic energy before the impulses of the sub-step \[J\].
     pub(super) energy_before: f64,
+    /// Of all spheres \[m\].
+    pub(super) smallest_radius: f64,
     /// Length of the sub-steps of the last frame \[s\].
     pub(super) h: f64,
     /// Whether a search is due whatever the spheres do.

@@ -178,7 +178,8 @@ impl SurfaceContact {
 
     /// Has the contact wait for the impact that the sphere comes to within the sub-step, wherever on the
     /// surface that is; if it comes to none, the contact bears nothing.
-    fn aim_at_impact(&mut self, run: &Run, (form, motion): &Place, sub_step: &SubStep) {
+    fn aim_at_impact(&mut self, run: &Run, place: &Place, sub_step: &SubStep) {
+        let (form, motion) = place;
         let slot = self.slot as usize;
         let radius = run.position[slot].number();
         let flight = Flight {
@@ -189,7 +190,7 @@ impl SurfaceContact {
         };
         (self.bias, self.approach) = (FREE, 0.0);
         let time = contact_time::sphere_surface(&flight, radius, form, motion, sub_step.h);
-        let Some(time) = time else { return };
+        let Some(time) = time else { return self.aim_at_end(&flight, radius, place, sub_step) };
         // Seen from where the surface is now.
         let (there, velocity) = flight.after(time);
         let moved = there - time * motion.velocity_at(there);
@@ -200,6 +201,20 @@ impl SurfaceContact {
         let pressing = -flight.acceleration.dot(self.normal).min(0.0);
         self.bias = approach.max(0.0) * time / sub_step.h;
         self.note_impact(approach.max(0.0), pressing, time, sub_step);
+    }
+
+    /// Has the contact keep a sphere that meets nothing out of the surface near the end of its way, should
+    /// others push it there.
+    fn aim_at_end(&mut self, flight: &Flight, radius: f64, place: &Place, sub_step: &SubStep) {
+        let (form, motion) = place;
+        let (there, velocity) = flight.after(sub_step.h);
+        let moved = there - sub_step.h * motion.velocity_at(there);
+        let separation = sphere_surface(form, moved, radius);
+        let Some(Separation { distance, normal, point }) = separation else { return };
+        self.normal = normal;
+        self.velocity = motion.velocity_at(point);
+        let leaving = (velocity - self.velocity).dot(normal);
+        self.bias = distance.max(0.0) / sub_step.h - leaving;
     }
 
     /// Notes an impact after a `time` \[s\] with this speed of approach \[m/s\]; it is a bounce if the
@@ -222,17 +237,24 @@ impl SurfaceContact {
         *normal = if self.bias == FREE { 0.0 } else { carried.min(most) };
     }
 
-    /// Gives the sphere the impulses that it needs. Gives the change of the normal one \[N s\].
-    fn solve(&mut self, run: &mut Run) -> f64 {
+    /// Gives the sphere the impulses that it needs.
+    fn solve(&mut self, run: &mut Run) -> Found {
         let slot = self.slot as usize;
         let inverse_mass = run.velocity[slot].number();
         let velocity = run.velocity[slot].vector() - self.velocity;
         let speed = velocity.dot(self.normal);
         let Impulses { normal: impulse, tangential, angular, .. } = self.impulses;
-        let solved = (impulse - (speed + self.bias) / inverse_mass).max(0.0);
+        let room = speed + self.bias;
+        let solved = (impulse - room / inverse_mass).max(0.0);
         let change = solved - impulse;
+        let found = Found {
+            change: change.abs(),
+            excess: (-room).max(0.0),
+            impulse: solved,
+            ..Found::default()
+        };
         if solved == 0.0 && impulse == 0.0 {
-            return change;
+            return found;
         }
         self.impulses.normal = solved;
         let mut across = DVec3::ZERO;
@@ -249,7 +271,7 @@ impl SurfaceContact {
         if !run.spin.is_empty() && (self.friction.rolling > 0.0 || self.friction.spinning > 0.0) {
             self.solve_rolling(run, DVec3::from_array(angular));
         }
-        change
+        found
     }
 
     /// Gives the sphere the angular impulses against rolling and spinning on the surface.
@@ -268,13 +290,10 @@ impl SurfaceContact {
 }
 
 /// Sweeps over the contacts of a run: each gets the impulses that it needs with the others as they are.
-/// Finds the largest change of a normal impulse, and the largest one.
+/// Finds the largest change of a normal impulse, and the like.
 pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: bool) -> Found {
     let mut found = Found::default();
-    let mut solve = |contact: &mut SurfaceContact| {
-        let change = contact.solve(run).abs();
-        found = found.or_larger(Found { change, impulse: contact.impulses.normal, ..found });
-    };
+    let mut solve = |contact: &mut SurfaceContact| found = found.or_larger(contact.solve(run));
     if backwards {
         contacts.iter_mut().rev().for_each(&mut solve);
     } else {

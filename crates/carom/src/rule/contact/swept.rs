@@ -39,7 +39,9 @@ pub(super) fn aim_pair(run: &Run, batch: &mut PairBatch, lane: usize, sub_step: 
     }
     let time = contact_time::sphere_sphere_linear(offset, velocity, radius_sum);
     let Some(time) = time.filter(|&time| time <= sub_step.h) else {
-        (batch.bias[lane], batch.approach[lane]) = (FREE, 0.0);
+        let passage = Passage::of(offset, velocity, radius_sum, sub_step.h);
+        set(&mut batch.normal, lane, passage.normal.to_array());
+        (batch.bias[lane], batch.approach[lane]) = (passage.bias, 0.0);
         return;
     };
     let normal = (offset + time * velocity) / radius_sum;
@@ -48,6 +50,30 @@ pub(super) fn aim_pair(run: &Run, batch: &mut PairBatch, lane: usize, sub_step: 
     set(&mut batch.normal, lane, normal.to_array());
     batch.bias[lane] = if rebound > 0.0 { -rebound } else { approach * time / sub_step.h };
     batch.approach[lane] = approach;
+}
+
+/// How two spheres pass each other that do not meet within a sub-step.
+struct Passage {
+    /// From the first to the second, where they are nearest.
+    normal: DVec3,
+    /// What the normal velocity is to be at least, with the opposite sign \[m/s\], for others not to push
+    /// them together.
+    bias: f64,
+}
+
+impl Passage {
+    /// With the gap c and the normal n where they are nearest, after a time t, a change of their velocity v
+    /// by d leaves the gap `c + t n·d`, which is not to be negative: `n·(v + d) >= n·v - c/t`.
+    fn of(offset: DVec3, velocity: DVec3, radius_sum: f64, h: f64) -> Self {
+        let nearest = -offset.dot(velocity) / velocity.length_squared();
+        let time = nearest.clamp(0.0, h);
+        let there = offset + time * velocity;
+        let length = there.length();
+        let normal = there / length;
+        let gap = (length - radius_sum).max(0.0);
+        let bias = if time > 0.0 { gap / time - normal.dot(velocity) } else { gap / h };
+        Self { normal, bias }
+    }
 }
 
 /// Whether spheres meet no faster than contacts are shaken by the others of a heap.
