@@ -60,6 +60,12 @@ impl Friction {
         Self { tangential_restitution: Some(coefficient), ..self }
     }
 
+    /// Whether there is any: a tangential force or a torque.
+    pub(crate) fn acts(&self) -> bool {
+        let coefficients = [self.sliding, self.rolling, self.spinning];
+        coefficients.iter().flatten().any(|&coefficient| coefficient > 0.0)
+    }
+
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         let non_negative = |field, value: Option<f64>| {
             value.map_or(Ok(()), |value| validate::non_negative(field, value))

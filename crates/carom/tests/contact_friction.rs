@@ -245,3 +245,19 @@ fn a_conveyor_belt_takes_a_ball_along() {
     let velocity = world.sphere(ball).unwrap().velocity;
     assert_close(velocity.x, 2.0 * 2.0 / 7.0, 1e-9);
 }
+
+#[test]
+fn only_friction_or_a_turned_sphere_gives_a_world_spin() {
+    assert!(on_plane(0.0, 0.5).has_spin());
+    let mut smooth = on_plane(0.0, 0.0);
+    let ball = Sphere::new(DVec3::new(0.0, 1.0, 0.0), 1.0);
+    smooth.add_sphere(ball).unwrap();
+    assert!(!smooth.has_spin());
+    let mut rough = smooth.clone();
+    rough.add_sphere(ball.with_position(4.0 * DVec3::Y).with_friction(0.5)).unwrap();
+    assert!(rough.has_spin());
+    rough.set_settings(Settings::default()).unwrap();
+    assert!(!rough.has_spin(), "only the rule `contact` lets friction act");
+    smooth.add_sphere(ball.with_position(4.0 * DVec3::Y).with_angular_velocity(DVec3::X)).unwrap();
+    assert!(smooth.has_spin());
+}

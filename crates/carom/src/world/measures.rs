@@ -6,6 +6,7 @@ use super::World;
 use crate::detect::contacts::{self, Search};
 use crate::invariants;
 use crate::report::Overlap;
+use crate::settings::Rule;
 
 impl World {
     /// Kinetic energy \[J\], that of rotation included.
@@ -36,6 +37,21 @@ impl World {
     /// Angular momentum about the origin \[kg m²/s\], that of spin included.
     pub fn angular_momentum(&self) -> DVec3 {
         invariants::angular_momentum(self.spheres())
+    }
+
+    /// Whether spheres have orientations, or may get them: under the rule `contact` friction of a
+    /// sphere, an emitter or a solid collider turns them.
+    pub fn has_spin(&self) -> bool {
+        let spheres = self.spheres();
+        let is_rough = || {
+            let colliders = self.colliders().filter(|(_, collider)| !collider.trigger);
+            let of_colliders = colliders.map(|(_, collider)| collider.friction);
+            let emitted = self.emitters().map(|(_, emitter)| emitter.sphere.friction);
+            let of_spheres = spheres.frictions().iter().copied();
+            of_spheres.chain(of_colliders).chain(emitted).any(|friction| friction.acts())
+        };
+        !spheres.orientations().is_empty()
+            || (matches!(self.settings().rule, Rule::Contact(_)) && is_rough())
     }
 
     /// Spheres that overlap each other (where spheres collide) or a solid collider by more than
