@@ -27,8 +27,10 @@ pub enum Material {
     /// Smooth.
     #[default]
     Plain,
-    /// With bands that show how it is turned.
+    /// With white bands and caps that show how it is turned, for a ball that stands out.
     Patterned,
+    /// With a band in another tone of its colour that shows how it is turned, for many balls.
+    Banded,
     /// Dull, with fine rings: it never gives way.
     Fixed,
     /// Its own colour, whatever the light: for marks.
@@ -48,6 +50,15 @@ pub struct Ball {
     pub rotation: DQuat,
     /// What it is made of.
     pub material: Material,
+}
+
+impl Ball {
+    /// A sphere at this place \[m\] with this radius \[m\] and colour: banded where it has an
+    /// orientation, else plain.
+    pub fn of_sphere(center: DVec3, radius: f64, color: Color, orientation: Option<DQuat>) -> Self {
+        let material = if orientation.is_some() { Material::Banded } else { Material::Plain };
+        Self { center, radius, color, rotation: orientation.unwrap_or_default(), material }
+    }
 }
 
 /// A surface of a collider.

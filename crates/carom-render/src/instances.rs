@@ -96,6 +96,7 @@ fn packed_ball(ball: &Ball, eye: DVec3) -> PackedBall {
         Material::Patterned => 1.0,
         Material::Fixed => 2.0,
         Material::Glowing => 3.0,
+        Material::Banded => 4.0,
     };
     joined(&[
         four(ball.center - eye, ball.radius),

@@ -6,7 +6,8 @@ use carom_scene::{Palette, Scene};
 use crate::drawing::{Ball, Drawing, Light, Material};
 
 /// Draws a world that was made of this scene, or that has the same colliders in the same order,
-/// with every ball turned as `rotation` says of its number where it has a pattern.
+/// with a ball in white bands where `rotation` says of its number how it is turned. Other balls are
+/// banded where the world knows how they are turned ([`World::has_spin`]), else plain.
 pub fn draw_world(
     scene: &Scene,
     world: &World,
@@ -21,21 +22,21 @@ pub fn draw_world(
             drawing.add_collider(now.shape, now.pose, palette.collider(i), now.trigger);
         }
     }
-    let spheres = world.spheres();
+    let (spheres, has_spin) = (world.spheres(), world.has_spin());
     for (i, id) in spheres.ids().iter().enumerate() {
-        let rotation = rotation(id.number());
-        drawing.balls.push(Ball {
-            center: spheres.positions()[i],
-            radius: spheres.radii()[i],
-            color: palette.sphere(id.number(), spheres.radii()[i], spheres.masses()[i]),
-            rotation: rotation.unwrap_or(DQuat::IDENTITY),
-            material: if rotation.is_some() { Material::Patterned } else { Material::Plain },
+        let (radius, mass) = (spheres.radii()[i], spheres.masses()[i]);
+        let color = palette.sphere(id.number(), radius, mass);
+        let orientation = has_spin.then(|| spheres.get(i).orientation);
+        let ball = Ball::of_sphere(spheres.positions()[i], radius, color, orientation);
+        drawing.balls.push(match rotation(id.number()) {
+            Some(rotation) => Ball { rotation, material: Material::Patterned, ..ball },
+            None => ball,
         });
     }
 }
 
-/// How a ball is turned that rolls without slipping: the physics knows no spin, so this is for the
-/// eye alone.
+/// How a ball is turned that rolls without slipping: for the eye alone, under rules that know no
+/// friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Roll {
     /// From the ball's frame to the world.

@@ -201,3 +201,39 @@ fn far_from_the_origin_nothing_trembles() {
     };
     assert_eq!(at(DVec3::ZERO).pixels, at(far).pixels);
 }
+
+/// A ball of this radius \[m\] before the camera, turned like this.
+fn turned_ball(radius: f64, rotation: DQuat, material: Material) -> Picture {
+    let mut drawing = Drawing::default();
+    let ball = ball(DVec3::ZERO, radius, [0.2, 0.45, 0.75]);
+    drawing.balls.push(Ball { rotation, material, ..ball });
+    drawn(&drawing, &camera_in_front(4.0), Quality::DRAFT)
+}
+
+#[test]
+fn a_banded_ball_shows_a_turn_about_any_axis_and_a_plain_one_none() {
+    let [banded, plain] = [Material::Banded, Material::Plain]
+        .map(|material| turned_ball(1.0, DQuat::IDENTITY, material));
+    for axis in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
+        let turn = DQuat::from_axis_angle(axis, 0.5 * PI);
+        let turned = turned_ball(1.0, turn, Material::Banded);
+        let differs = turned.pixels.chunks(4).zip(banded.pixels.chunks(4)).filter(|(a, b)| a != b);
+        // A spot covers some 400 pixels of the ball's 25 000.
+        let count = differs.count();
+        assert!(count > 600, "about {axis}: {count}");
+        assert_eq!(turned_ball(1.0, turn, Material::Plain), plain);
+    }
+    // As a whole, it keeps half of its surface and more in its own colour.
+    let same = banded.pixels.chunks(4).zip(plain.pixels.chunks(4)).filter(|(a, b)| a == b).count();
+    let outside = (SIZE[0] * SIZE[1]) as usize - same;
+    assert!(outside < 12_500, "{outside}");
+}
+
+#[test]
+fn a_banded_ball_of_a_pixel_does_not_flicker_as_it_turns() {
+    // Of a radius of 1.2 pixels.
+    let turned = |angle| turned_ball(0.0135, DQuat::from_rotation_y(angle), Material::Banded);
+    let first = turned(0.0);
+    assert_eq!(turned(0.7), first);
+    assert_eq!(turned(1.5), first);
+}

@@ -20,6 +20,12 @@ struct Varying {
 const PATTERNED: f32 = 1.0;
 const FIXED: f32 = 2.0;
 const GLOWING: f32 = 3.0;
+const BANDED: f32 = 4.0;
+
+// Of the pattern of a banded ball, in radii from the centre: half the height of the band, and where
+// its spots and the caps at its poles begin.
+const BAND: f32 = 0.32;
+const SPOT: f32 = 0.97;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, sphere: Instance) -> Varying {
@@ -74,6 +80,12 @@ fn fragment(in: Varying) -> Pixel {
     surface.color = in.color.rgb;
     surface.gloss = 1.0;
     let material = in.color.w;
+    if material == BANDED {
+        let pixel = 2.0 * length(globals.up.xyz) * along / (globals.picture.y * radius);
+        let inverse = vec4<f32>(-in.rotation.xyz, in.rotation.w);
+        let local = rotate(inverse, surface.normal);
+        surface.color = banded(surface.color, local, rotate(inverse, -direction), pixel);
+    }
     if material == PATTERNED || material == FIXED {
         let inverse = vec4<f32>(-in.rotation.xyz, in.rotation.w);
         let local = rotate(inverse, surface.normal);
@@ -100,6 +112,32 @@ fn patterned(color: vec3<f32>, local: vec3<f32>, blur: f32) -> vec3<f32> {
     let other = 1.0 - smoothstep(0.05 - blur, 0.05 + blur, abs(local.z));
     let light = mix(color, vec3<f32>(0.92, 0.92, 0.90), 0.85);
     return mix(mix(color, color * 0.45, other), light, max(band, caps));
+}
+
+// A broad band with two spots, and small caps at its poles: whichever axis a ball turns about, one of
+// them is in sight, and moves. `pixel`: size of a pixel in radii.
+fn banded(color: vec3<f32>, local: vec3<f32>, to_eye: vec3<f32>, pixel: f32) -> vec3<f32> {
+    // How much each coordinate changes across a pixel: without end at the outline.
+    let slope = to_eye / max(dot(local, to_eye), 0.05);
+    let change = sqrt(max(1.0 - 2.0 * slope * local + slope * slope, vec3<f32>(0.0)));
+    let soft = clamp(1.3 * pixel * change, vec3<f32>(0.012), vec3<f32>(2.0));
+    let band = inside(local.x + BAND, soft.x) - inside(local.x - BAND, soft.x);
+    let caps = inside(abs(local.x) - SPOT, soft.x);
+    let spots = inside(abs(local.z) - SPOT, soft.z);
+    // Of a ball of a few pixels, the mean is seen; spots and caps are of the same size.
+    let shown = mix(band + caps - spots, BAND, smoothstep(0.2, 0.6, pixel));
+    return mix(color, other_tone(color), shown);
+}
+
+// Part of a pixel beyond an edge at a distance, where pixels are so wide.
+fn inside(distance: f32, width: f32) -> f32 {
+    return clamp(distance / width + 0.5, 0.0, 1.0);
+}
+
+// A lighter tone of a colour, of a light colour a darker one.
+fn other_tone(color: vec3<f32>) -> vec3<f32> {
+    let luminance = dot(color, vec3<f32>(0.2126, 0.7152, 0.0722));
+    return select(mix(color, vec3<f32>(1.0), 0.28), color * 0.55, luminance > 0.4);
 }
 
 // Fine parallels: what is fixed looks turned on a lathe.
