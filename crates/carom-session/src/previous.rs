@@ -1,21 +1,27 @@
-//! Where spheres were a frame ago, for pictures between two frames.
+//! Where spheres were a frame ago, and how they were turned, for pictures between two frames.
 
-use carom::{Boundary, DVec3, SphereId, World};
+use carom::{Boundary, DQuat, DVec3, SphereId, World};
 
 use crate::periodic;
 
-/// Positions a frame ago, one for each sphere there is now.
+/// Positions and orientations a frame ago, one for each sphere there is now.
 #[derive(Debug, Clone)]
 pub(crate) struct Previous {
     ids: Vec<SphereId>,
     positions: Vec<DVec3>,
+    /// Empty while no sphere was ever turned.
+    orientations: Vec<DQuat>,
 }
 
 impl Previous {
     /// The present.
     pub fn new(world: &World) -> Self {
         let spheres = world.spheres();
-        Self { ids: spheres.ids().to_vec(), positions: spheres.positions().to_vec() }
+        Self {
+            ids: spheres.ids().to_vec(),
+            positions: spheres.positions().to_vec(),
+            orientations: spheres.orientations().to_vec(),
+        }
     }
 
     /// Takes over the present, without allocating where there is place.
@@ -24,11 +30,16 @@ impl Previous {
         self.ids.extend_from_slice(world.spheres().ids());
         self.positions.clear();
         self.positions.extend_from_slice(world.spheres().positions());
+        self.orientations.clear();
+        self.orientations.extend_from_slice(world.spheres().orientations());
     }
 
     /// Fits what was remembered to the spheres after a frame: a new one was where it is now, and
     /// one that crossed a periodic boundary was beyond it.
     pub fn align(&mut self, world: &World) {
+        if !world.spheres().orientations().is_empty() {
+            self.orientations.resize(self.ids.len(), DQuat::IDENTITY);
+        }
         if self.ids != world.spheres().ids() {
             self.fit(world);
         }
@@ -40,22 +51,33 @@ impl Previous {
     }
 
     fn fit(&mut self, world: &World) {
-        let (ids, now) = (world.spheres().ids(), world.spheres().positions());
-        let mut old = self.ids.iter().zip(&self.positions).peekable();
-        let mut positions = Vec::with_capacity(ids.len());
-        for (id, now) in ids.iter().zip(now) {
+        let spheres = world.spheres();
+        let mut old = self.ids.iter().enumerate().peekable();
+        let old_index_of = |id: &SphereId| {
             // Both lists are ascending.
-            while old.next_if(|(old, _)| *old < id).is_some() {}
-            let before = old.next_if(|(old, _)| *old == id).map(|(_, before)| *before);
-            positions.push(before.unwrap_or(*now));
-        }
-        self.positions = positions;
+            while old.next_if(|(_, old)| *old < id).is_some() {}
+            old.next_if(|(_, old)| *old == id).map(|(index, _)| index)
+        };
+        let old: Vec<_> = spheres.ids().iter().map(old_index_of).collect();
+        self.positions = fitted(&old, &self.positions, spheres.positions());
+        self.orientations = fitted(&old, &self.orientations, spheres.orientations());
         self.ids.clear();
-        self.ids.extend_from_slice(ids);
+        self.ids.extend_from_slice(spheres.ids());
     }
 
     /// \[m\]
     pub fn positions(&self) -> &[DVec3] {
         &self.positions
     }
+
+    /// From the coordinate system of each sphere to the world's; empty while no sphere was ever
+    /// turned.
+    pub fn orientations(&self) -> &[DQuat] {
+        &self.orientations
+    }
+}
+
+/// The values before, in the order of the values now; of a sphere without an old index, the value now.
+fn fitted<T: Copy>(old: &[Option<usize>], before: &[T], now: &[T]) -> Vec<T> {
+    old.iter().zip(now).map(|(old, now)| old.map_or(*now, |index| before[index])).collect()
 }

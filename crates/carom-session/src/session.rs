@@ -1,8 +1,9 @@
 //! A session: a scene with its past and its edits.
 
+use std::iter;
 use std::sync::Arc;
 
-use carom::{DVec3, SphereId, StateHash, StopRequest, World};
+use carom::{DQuat, DVec3, SphereId, StateHash, StopRequest, World};
 use carom_scene::SceneError;
 use carom_scene::scene::Scene;
 
@@ -404,6 +405,11 @@ impl Session {
         replace(&mut arrays.orientations, spheres.orientations().iter().copied());
         replace(&mut arrays.angular_velocities, spheres.angular_velocities().iter().copied());
         replace(&mut arrays.previous_positions, self.previous_positions().iter().copied());
+        // At the start there may be none yet, though the first frame will turn spheres.
+        let before =
+            self.previous.orientations().iter().copied().chain(iter::repeat(DQuat::IDENTITY));
+        let count = if self.world.has_spin() { spheres.len() } else { 0 };
+        replace(&mut arrays.previous_orientations, before.take(count));
     }
 
     fn fill_readings(&self, view: &mut View) {

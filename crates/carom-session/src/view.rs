@@ -85,6 +85,8 @@ pub struct SphereArrays {
     /// Rotations from the coordinate system of each sphere to the world's; empty while no sphere was
     /// ever turned.
     pub orientations: Vec<DQuat>,
+    /// Orientations a frame ago; empty where nothing can turn a sphere ([`carom::World::has_spin`]).
+    pub previous_orientations: Vec<DQuat>,
     /// Angular velocities \[rad/s\]; empty while no sphere was ever turned.
     pub angular_velocities: Vec<DVec3>,
     /// Colours of their own or of their density.
@@ -184,6 +186,13 @@ impl SphereArrays {
     /// Index of a sphere in the arrays.
     pub fn index_of(&self, id: SphereId) -> Option<usize> {
         self.ids.binary_search(&id).ok()
+    }
+
+    /// How a sphere is turned when it is so far (`blend` in \[0, 1\]) on the shorter way from a frame
+    /// ago to now; `None` where nothing can turn a sphere.
+    pub fn orientation(&self, index: usize, blend: f64) -> Option<DQuat> {
+        let before = self.previous_orientations.get(index)?;
+        Some(before.lerp(or(&self.orientations, index, DQuat::IDENTITY), blend))
     }
 
     /// A sphere as scene files write it.

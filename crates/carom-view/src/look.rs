@@ -103,14 +103,9 @@ fn add_spheres(view: &View, look: &Look, drawing: &mut Drawing) {
     for i in 0..spheres.ids.len() {
         let center = place(view, i, look.blend);
         let color = spheres.colors[i].unwrap_or(common);
-        let ball = Ball {
-            center,
-            radius: spheres.radii[i],
-            color: if picked == Some(i) { PICKED } else { color },
-            rotation: DQuat::IDENTITY,
-            material: Material::Plain,
-        };
-        drawing.balls.push(ball);
+        let color = if picked == Some(i) { PICKED } else { color };
+        let orientation = spheres.orientation(i, look.blend);
+        drawing.balls.push(Ball::of_sphere(center, spheres.radii[i], color, orientation));
         if look.marks.velocities {
             let way = look.marks.velocity_scale * spheres.velocities[i];
             let Some(ahead) = way.try_normalize() else { continue };
@@ -171,4 +166,38 @@ pub fn sphere_at(view: &View, blend: f64, origin: DVec3, direction: DVec3) -> Op
         }
     }
     first.1
+}
+
+#[cfg(test)]
+mod tests {
+    use carom::DQuat;
+    use carom_scene::Scene;
+    use carom_session::{Edit, Session};
+
+    use super::*;
+
+    #[test]
+    fn spheres_with_spin_are_banded_and_turn_between_two_frames() {
+        let mut session = Session::new(Scene::new("spin")).unwrap();
+        let mut ball = |angular_velocity| {
+            let sphere =
+                carom::Sphere::new(DVec3::ZERO, 1.0).with_angular_velocity(angular_velocity);
+            session.edit(Edit::Throw { sphere, color: None }).unwrap();
+            session.step().unwrap();
+            let mut view = View::default();
+            session.fill(&mut view);
+            let look = Look { marks: Marks::default(), dark: false, blend: 0.5 };
+            let mut drawing = Drawing::default();
+            draw(&view, &look, &mut drawing);
+            let half_frame = 0.5 * session.frame_time();
+            session.edit(Edit::RemoveSphere(view.spheres.ids[0])).unwrap();
+            (drawing.balls[0], half_frame)
+        };
+        let (plain, _) = ball(DVec3::ZERO);
+        assert_eq!((plain.material, plain.rotation), (Material::Plain, DQuat::IDENTITY));
+        let (banded, time) = ball(DVec3::X);
+        assert_eq!(banded.material, Material::Banded);
+        // An angle of zero, from a cosine rounded.
+        assert!(banded.rotation.angle_between(DQuat::from_rotation_x(time)) < 1e-6);
+    }
 }

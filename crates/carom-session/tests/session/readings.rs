@@ -1,6 +1,6 @@
 //! What is measured.
 
-use carom::{BodyPair, DVec3, StageCounts};
+use carom::{BodyPair, DQuat, DVec3, StageCounts};
 use carom_scene::scene::{Rule, Scene, Sphere};
 use carom_session::{Edit, MARKED, MAX_POINTS, REMEMBERED, Session, SphereChange, View};
 
@@ -214,4 +214,36 @@ fn a_view_filled_again_and_again_is_like_a_fresh_one() {
     other.step().unwrap();
     other.fill(&mut reused);
     assert_eq!(reused.spheres, view(&other).spheres);
+}
+
+#[test]
+fn previous_orientations_are_those_a_frame_ago_for_the_spheres_that_were_there() {
+    let mut session = busy();
+    session.step().unwrap();
+    let spheres = view(&session).spheres;
+    assert!(spheres.orientations.is_empty() && spheres.previous_orientations.is_empty());
+    assert_eq!(spheres.orientation(0, 0.5), None);
+    // Far from all others, so that it turns on and on.
+    let speed = 3.0;
+    let sphere = carom::Sphere::new(DVec3::splat(1e3), 0.1).with_angular_velocity(speed * DVec3::Z);
+    session.edit(Edit::Throw { sphere, color: None }).unwrap();
+    let mut before = view(&session).spheres;
+    let thrown = *before.ids.last().unwrap();
+    for frame in 0..60 {
+        session.step().unwrap();
+        let now = view(&session).spheres;
+        assert_eq!(now.orientations, session.world().spheres().orientations());
+        for (i, id) in now.ids.iter().enumerate() {
+            let expected = match before.index_of(*id) {
+                Some(place) => before.orientations[place],
+                None => now.orientations[i],
+            };
+            assert_eq!(now.previous_orientations[i], expected);
+        }
+        let halfway = now.orientation(now.index_of(thrown).unwrap(), 0.5).unwrap();
+        let angle = speed * session.frame_time() * (f64::from(frame) + 0.5);
+        // Half way on the chord is half way on the arc; some sixty roundings.
+        assert!(halfway.angle_between(DQuat::from_rotation_z(angle)) < 1e-6, "frame {frame}");
+        before = now;
+    }
 }
