@@ -1,7 +1,6 @@
 //! Draws a running world, its spheres from there or from elsewhere.
 
-use carom::DQuat;
-use carom_render::{Ball, Drawing, Light, Material};
+use carom_render::{Ball, Drawing, Light};
 use carom_scene::{Palette, Scene};
 
 use super::running::{Running, Seen};
@@ -23,11 +22,8 @@ pub fn draw(
             drawing.add_collider(now.shape, pose, palette.collider(i), now.trigger);
         }
     }
-    drawing.balls.extend(spheres.iter().map(|&Seen { number, position, radius, mass }| Ball {
-        center: position,
-        radius,
-        color: palette.sphere(number, radius, mass),
-        rotation: DQuat::IDENTITY,
-        material: Material::Plain,
+    drawing.balls.extend(spheres.iter().map(|seen| {
+        let color = palette.sphere(seen.number, seen.radius, seen.mass);
+        Ball::of_sphere(seen.position, seen.radius, color, seen.orientation)
     }));
 }

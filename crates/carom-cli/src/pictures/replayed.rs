@@ -75,5 +75,6 @@ impl Footage for Replayed {
 
 fn seen(ball: &ReplayBall) -> Seen {
     let ReplayBall { number, position, radius, mass, .. } = *ball;
-    Seen { number, position, radius, mass }
+    // Tables do not say how balls are turned.
+    Seen { number, position, radius, mass, orientation: None }
 }

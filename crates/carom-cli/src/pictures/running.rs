@@ -1,6 +1,6 @@
 //! A world on its way: stepped by frames, seen at any time.
 
-use carom::{Boundary, DVec3, Pose, SphereId, StopRequest, World};
+use carom::{Boundary, DQuat, DVec3, Pose, SphereId, StopRequest, World};
 use carom_scene::{Scene, SceneError};
 
 /// A frame counts as that of a time if it is no farther away than this \[s\]: sums of frame times
@@ -18,13 +18,16 @@ pub struct Seen {
     pub radius: f64,
     /// In kg.
     pub mass: f64,
+    /// From its own coordinate system to the world's; `None` where spheres have no spin.
+    pub orientation: Option<DQuat>,
 }
 
 /// A world that is stepped by the frames of its scene, and seen at times between them, too.
 ///
 /// At the time of a frame everything is exactly where the frame has it. In between, spheres and
-/// surfaces are on the straight way from the frame before to the one after; a sphere that is not in
-/// both is seen until the one before it is gone, and not before the first one it is in.
+/// surfaces are on the straight way from the frame before to the one after, and turn the shorter
+/// way; a sphere that is not in both is seen until the one before it is gone, and not before the
+/// first one it is in.
 pub struct Running {
     world: World,
     frame_time: f64,
@@ -92,10 +95,14 @@ impl Running {
         let now = self.world.spheres();
         let boundary = self.world.settings().boundary;
         let between = |&(id, seen): &(SphereId, Seen)| {
-            let way = now.index_of(id).map_or(DVec3::ZERO, |index| {
-                nearest(now.positions()[index] - seen.position, boundary)
-            });
-            Seen { position: seen.position + part * way, ..seen }
+            let Some(index) = now.index_of(id) else { return seen };
+            let way = nearest(now.positions()[index] - seen.position, boundary);
+            let turned = |before: DQuat| before.lerp(now.get(index).orientation, part);
+            Seen {
+                position: seen.position + part * way,
+                orientation: seen.orientation.map(turned),
+                ..seen
+            }
         };
         self.before.spheres.iter().map(between).collect()
     }
@@ -115,11 +122,12 @@ impl Running {
 }
 
 fn spheres(world: &World) -> impl Iterator<Item = (SphereId, Seen)> + '_ {
-    let spheres = world.spheres();
-    spheres.ids().iter().enumerate().map(|(i, &id)| {
+    let (spheres, has_spin) = (world.spheres(), world.has_spin());
+    spheres.ids().iter().enumerate().map(move |(i, &id)| {
         let position = spheres.positions()[i];
         let (radius, mass) = (spheres.radii()[i], spheres.masses()[i]);
-        (id, Seen { number: id.number(), position, radius, mass })
+        let orientation = has_spin.then(|| spheres.get(i).orientation);
+        (id, Seen { number: id.number(), position, radius, mass, orientation })
     })
 }
 
@@ -169,6 +177,24 @@ mod tests {
         // The frame before is 1e-8 s away, at speeds of a few m/s.
         assert!((at(0.75) - 0.5 * (before + now)).length() < 1e-6);
         assert!(before != now);
+    }
+
+    #[test]
+    fn between_two_frames_spheres_turn_the_shorter_way() {
+        let mut running = running("tutorial2", &["simulation.frame_time=0.5"]);
+        assert_eq!(running.spheres(0.0)[0].orientation, None);
+        let ball = carom::Sphere::new(DVec3::new(1e3, 0.0, 0.0), 1.0)
+            .with_orientation(DQuat::from_rotation_y(3.0))
+            .with_angular_velocity(DVec3::Y);
+        running.world.add_sphere(ball).unwrap();
+        running.go_to(0.75).unwrap();
+        let at = |time| running.spheres(time).last().unwrap().orientation.unwrap();
+        // From 3.5 to 4 rad, across the turn at which the sign of a rotation changes.
+        for (time, angle) in [(0.75, 3.75), (1.0, 4.0)] {
+            let expected = DQuat::from_rotation_y(angle);
+            // An angle of zero, from a cosine rounded.
+            assert!(at(time).angle_between(expected) < 1e-6, "{time}: {}", at(time));
+        }
     }
 
     #[test]
