@@ -10,6 +10,7 @@ Right-handed frame, y up, SI units, float64. The same input gives the same bits 
 
 from carom._batch import Batch
 from carom._carom import Snapshot
+from carom._contact_account import ContactAccount
 from carom._library import Listed, load, scene, scenes
 from carom._parts import (
     Ball,
@@ -19,6 +20,7 @@ from carom._parts import (
     Collider,
     Colors,
     ConstantForce,
+    Contact,
     DensityColor,
     Discrete,
     Emitter,
@@ -68,6 +70,8 @@ __all__ = [
     "Collider",
     "Colors",
     "ConstantForce",
+    "Contact",
+    "ContactAccount",
     "DensityColor",
     "Discrete",
     "Emitter",

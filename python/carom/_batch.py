@@ -21,8 +21,9 @@ class Batch(BatchEngine):
     """Worlds with the same number of spheres that step together, on all cores.
 
     Each world is, to the bit, what it would be alone, however many there are and on however many
-    threads. Arrays have a row for each world: ``positions``, ``velocities`` and ``applied_forces``
-    (n, spheres, 3); ``radii``, ``masses`` and ``restitutions`` (n, spheres). They are kept as those
+    threads. Arrays have a row for each world: ``positions``, ``velocities``, ``angular_velocities``
+    and ``applied_forces`` (n, spheres, 3); ``orientations`` (n, spheres, 4); ``radii``, ``masses``,
+    ``restitutions``, ``inertia_factors`` and ``frictions`` (n, spheres). They are kept as those
     of a `World` are: made at the first read, written anew by every step, read without copying.
     To set one, assign to it: ``batch.velocities = 0``.
 

@@ -53,6 +53,16 @@ class Sphere(Part):
         mass: Mass [kg], > 0; 1 unless this or ``density`` is given.
         density: Density [kg/m³], > 0.
         restitution: Coefficient of restitution in [0, 1].
+        friction: Coulomb's coefficient of friction, >= 0, under the rule ``contact``; where it is
+            missing, here and in the next three, the value of what is touched counts.
+        rolling_friction: Coefficient of rolling friction, >= 0.
+        spinning_friction: Coefficient of spinning friction, >= 0.
+        tangential_restitution: Coefficient of tangential restitution in [0, 1].
+        orientation: How it is turned.
+        angular_velocity: How fast it turns, along the axis [rad/s]; in an emitter in the emitter's
+            frame.
+        inertia_factor: Moment of inertia divided by mass and square of the radius, > 0: 2/5 for a
+            solid ball, 2/3 for a thin shell.
         color: Colour; by density or the scene's own where it is missing.
     """
 
@@ -63,6 +73,13 @@ class Sphere(Part):
     mass: float | None = None
     density: float | None = None
     restitution: float = 1.0
+    friction: float | None = None
+    rolling_friction: float | None = None
+    spinning_friction: float | None = None
+    tangential_restitution: float | None = None
+    orientation: Quaternion = _UNTURNED
+    angular_velocity: Vector = _ORIGIN
+    inertia_factor: float = 0.4
     color: Color | None = None
 
 
@@ -170,6 +187,11 @@ class Collider(Part):
         name: What it is called.
         visible: Whether it is drawn.
         color: Its colour; the scene's own for surfaces where it is missing.
+        friction: Coulomb's coefficient of friction, >= 0, under the rule ``contact``; where it is
+            missing, here and in the next three, the value of what is touched counts.
+        rolling_friction: Coefficient of rolling friction, >= 0.
+        spinning_friction: Coefficient of spinning friction, >= 0.
+        tangential_restitution: Coefficient of tangential restitution in [0, 1].
     """
 
     shape: Shape
@@ -182,6 +204,10 @@ class Collider(Part):
     name: str = ""
     visible: bool = True
     color: Color | None = None
+    friction: float | None = None
+    rolling_friction: float | None = None
+    spinning_friction: float | None = None
+    tangential_restitution: float | None = None
 
 
 @dataclass(frozen=True)
@@ -323,6 +349,21 @@ class Discrete(Part):
     integrator: Integrator = "semi-implicit-euler"
 
 
+@dataclass(frozen=True, kw_only=True)
+class Contact(Part):
+    """Parameters of the rule ``contact``.
+
+    Attributes:
+        sub_steps: Sub-steps of a frame, >= 1: overlaps fall with the square of their length.
+        sweeps: Sweeps over all contacts in a sub-step, >= 1.
+        converged: Whether sweeps go on until the solution has converged: slow, to compare with.
+    """
+
+    sub_steps: int = 8
+    sweeps: int = 2
+    converged: bool = False
+
+
 @dataclass(frozen=True)
 class Periodic(Part):
     """A box about the origin that repeats itself without end; only with the rule ``exact``.
@@ -335,10 +376,10 @@ class Periodic(Part):
     size: Vector = (math.inf, math.inf, math.inf)
 
 
-Rule: TypeAlias = Literal["exact", "bisect", "discrete"]
+Rule: TypeAlias = Literal["exact", "contact", "bisect", "discrete"]
 """A step rule."""
-CombineRule: TypeAlias = Literal["product", "minimum", "maximum", "average"]
-"""Restitution of a contact from that of its two bodies."""
+CombineRule: TypeAlias = Literal["product", "minimum", "maximum", "average", "geometric-mean"]
+"""Coefficient of a contact from those of its two bodies."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -351,11 +392,13 @@ class Simulation(Part):
         duration: Time worth watching [s], > 0: what a run takes by default.
         spheres_collide: Whether spheres collide with one another; with colliders they always do.
         combine_rule: Restitution of a contact from that of its two bodies.
+        friction_combine_rule: Friction of a contact from that of its two bodies.
         allow_overlap: Whether spheres may overlap each other or colliders at the start.
         boundary: What is around the spheres, besides colliders.
         exact: Parameters of the rule ``exact``.
         bisect: Parameters of the rule ``bisect``.
         discrete: Parameters of the rule ``discrete``.
+        contact: Parameters of the rule ``contact``.
     """
 
     rule: Rule = "exact"
@@ -363,11 +406,13 @@ class Simulation(Part):
     duration: float = 10.0
     spheres_collide: bool = True
     combine_rule: CombineRule = "product"
+    friction_combine_rule: CombineRule = "geometric-mean"
     allow_overlap: bool = False
     boundary: Literal["open"] | Periodic = "open"
     exact: Exact = field(default_factory=Exact)
     bisect: Bisect = field(default_factory=Bisect)
     discrete: Discrete = field(default_factory=Discrete)
+    contact: Contact = field(default_factory=Contact)
 
 
 @dataclass(frozen=True)

@@ -20,3 +20,9 @@ class StageCounts(NamedTuple):
     """Groups of touching bodies that were answered as a whole, under the rule ``exact``."""
     solver_iterations: int
     """Iterations of the solvers of these groups, each counted once for every contact."""
+    searches: int
+    """How often neighbours were found anew, under the rule ``contact``."""
+    sweeps: int
+    """How often all contacts were gone through, under the rule ``contact``."""
+    contacts: int
+    """Contacts that a sweep goes through at the end of the frame, under the rule ``contact``."""

@@ -76,6 +76,8 @@ CONTACT = np.dtype(
         ("normal", "f8", (3,)),
         ("gap", "f8"),
         ("normal_force", "f8"),
+        ("tangential_force", "f8", (3,)),
+        ("is_sliding", "i8"),
     ]
 )
 """A contact that persists, in the order of ids, pairs of spheres first.
@@ -86,8 +88,10 @@ CONTACT = np.dtype(
 ``sphere_2``                 id of body 2
 ``point``                    where on the surface of body 1 [m]
 ``normal``                   unit normal from body 1 to body 2
-``gap``                      distance of the two surfaces [m], zero but for rounding
+``gap``                      distance of the two surfaces [m], negative where they overlap
 ``normal_force``             on body 2 along the normal, and against it on body 1 [N], >= 0
+``tangential_force``         of friction on body 2, and against it on body 1 [N]
+``is_sliding``               1 where friction is as large as it can be, else 0
 ============================ ===============================================================
 """
 

@@ -81,6 +81,7 @@ _KINDS: dict[str, type[parts.Part]] = {
     "camera": parts.Camera,
     "colliders": parts.Collider,
     "colors": parts.Colors,
+    "contact": parts.Contact,
     "densities": parts.DensityColor,
     "discrete": parts.Discrete,
     "emitters": parts.Emitter,

@@ -13,6 +13,7 @@ from carom import _parts as parts
 from carom import _pictures as pictures
 from carom import _tables as tables
 from carom._carom import Engine
+from carom._contact_account import ContactAccount
 from carom._stage_counts import StageCounts
 from carom._text import read_part, read_parts, toml_of, toml_value
 from carom._trajectory import Trajectory
@@ -25,7 +26,8 @@ class World(Engine):
     """Spheres that move.
 
     A world is made from a scene, and then has a life of its own. Arrays of spheres (``positions``,
-    ``velocities``, ``radii``, ``masses``, ``restitutions``, ``ids``) are in ascending order of id:
+    ``velocities``, ``radii``, ``masses``, ``restitutions``, ``orientations``,
+    ``angular_velocities``, ``inertia_factors``, ``frictions``, ``ids``) are in ascending order of id:
 
     - To read one copies nothing: it is the same object for as long as no sphere comes or goes, and
       every frame writes the new state into it. Take ``world.positions.copy()`` to keep a state.
@@ -153,14 +155,19 @@ class World(Engine):
         """The work of the last frame, counted by stage."""
         return StageCounts(*self._work())
 
+    @property
+    def contact_account(self) -> ContactAccount:
+        """What contacts did to energy in the last frame, under the rule ``contact``."""
+        return ContactAccount(*self._contact_account())
+
     # What holds now
 
     @property
     def contacts(self) -> NDArray[np.void]:
         """The contacts that persist, with their forces: records of `carom.CONTACT`. A copy.
 
-        Known under the rule ``exact`` after a step; none where something was changed since, or
-        under other rules. To ask for them solves for the forces.
+        Known under the rules ``exact`` and ``contact`` after a step; none where something was
+        changed since, or under other rules. Under ``exact``, reading them solves for the forces.
         """
         return tables.records(self._contact_words(), tables.CONTACT)
 

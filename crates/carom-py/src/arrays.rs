@@ -6,7 +6,7 @@
 //! or go, the world lets go of its arrays and makes others at the next read; the old ones keep the
 //! last values of their spheres.
 
-use carom::{DVec3, SphereId, Spheres};
+use carom::{DQuat, DVec3, Friction, SOLID_BALL, SphereId, Spheres};
 use numpy::{PyArray, PyArray1, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
@@ -20,21 +20,30 @@ pub enum Quantity {
     Masses,
     Restitutions,
     AppliedForces,
+    Orientations,
+    AngularVelocities,
+    InertiaFactors,
+    Frictions,
 }
 
 impl Quantity {
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 10] = [
         Self::Positions,
         Self::Velocities,
         Self::Radii,
         Self::Masses,
         Self::Restitutions,
         Self::AppliedForces,
+        Self::Orientations,
+        Self::AngularVelocities,
+        Self::InertiaFactors,
+        Self::Frictions,
     ];
 
     /// Those that a frame changes.
-    pub const MOTION: [Self; 2] = [Self::Positions, Self::Velocities];
-    /// Those that make a sphere.
+    pub const MOTION: [Self; 4] =
+        [Self::Positions, Self::Velocities, Self::Orientations, Self::AngularVelocities];
+    /// Those that spheres are added with as arrays; the first of all.
     pub const OF_A_SPHERE: [Self; 5] =
         [Self::Positions, Self::Velocities, Self::Radii, Self::Masses, Self::Restitutions];
 
@@ -47,17 +56,40 @@ impl Quantity {
             Self::Masses => "masses",
             Self::Restitutions => "restitutions",
             Self::AppliedForces => "applied_forces",
+            Self::Orientations => "orientations",
+            Self::AngularVelocities => "angular_velocities",
+            Self::InertiaFactors => "inertia_factors",
+            Self::Frictions => "frictions",
         }
     }
 
-    /// Whether a sphere has one number of it, not three.
-    pub fn is_number(self) -> bool {
-        matches!(self, Self::Radii | Self::Masses | Self::Restitutions)
+    /// How many numbers of it a sphere has.
+    pub fn width(self) -> usize {
+        match self {
+            Self::Positions | Self::Velocities => 3,
+            Self::AppliedForces | Self::AngularVelocities => 3,
+            Self::Orientations => 4,
+            Self::Radii | Self::Masses | Self::Restitutions => 1,
+            Self::InertiaFactors | Self::Frictions => 1,
+        }
+    }
+
+    /// Whether a world can refuse finite numbers of it: then those set before have to be taken back.
+    pub fn is_bounded(self) -> bool {
+        matches!(self, Self::Orientations) || self.width() == 1
+    }
+
+    /// Whether this number can be one of it, whatever its bounds: nan is what says nothing of friction.
+    pub fn may_be(self, value: f64) -> bool {
+        value.is_finite() || (self == Self::Frictions && value.is_nan())
     }
 
     /// The shape of its array for `count` spheres.
     pub fn shape(self, count: usize) -> Vec<usize> {
-        if self.is_number() { vec![count] } else { vec![count, 3] }
+        match self.width() {
+            1 => vec![count],
+            width => vec![count, width],
+        }
     }
 
     /// Writes its values of all spheres one after another.
@@ -70,13 +102,39 @@ impl Quantity {
                 [] => return place.fill(0.0),
                 forces => forces,
             },
+            Self::AngularVelocities => match spheres.angular_velocities() {
+                // No sphere was ever turned.
+                [] => return place.fill(0.0),
+                angular_velocities => angular_velocities,
+            },
+            Self::Orientations => return write_orientations(spheres.orientations(), place),
             Self::Radii => return write_numbers(spheres.radii(), place),
             Self::Masses => return write_numbers(spheres.masses(), place),
             Self::Restitutions => return write_numbers(spheres.restitutions(), place),
+            Self::InertiaFactors => {
+                // Where all are solid balls, there are none.
+                place.fill(SOLID_BALL);
+                return write_numbers(spheres.inertia_factors(), place);
+            }
+            Self::Frictions => {
+                // Where none says anything, there are none.
+                place.fill(f64::NAN);
+                let said = |friction: &Friction| friction.sliding.unwrap_or(f64::NAN);
+                let frictions = spheres.frictions().iter().map(said);
+                return place.iter_mut().zip(frictions).for_each(|(place, it)| *place = it);
+            }
         };
         for (place, vector) in place.chunks_exact_mut(3).zip(vectors) {
             place.copy_from_slice(&vector.to_array());
         }
+    }
+}
+
+/// Writes quaternions x, y, z, w; without any, no sphere was ever turned.
+fn write_orientations(orientations: &[DQuat], place: &mut [f64]) {
+    for (index, place) in place.chunks_exact_mut(4).enumerate() {
+        let orientation = orientations.get(index).copied().unwrap_or(DQuat::IDENTITY);
+        place.copy_from_slice(&orientation.to_array());
     }
 }
 

@@ -5,7 +5,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use carom::{DVec3, Sphere, SphereId, World};
+use carom::{ContactAccount, DQuat, DVec3, Sphere, SphereId, World};
 use carom_scene::{Palette, Scene};
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
@@ -206,7 +206,7 @@ fn step(inner: &mut Inner, dt: f64, frames: u64) -> Result<(), Failure> {
     Ok(())
 }
 
-sphere_properties!(Engine, numbers "(n,)", vectors "(n, 3)");
+sphere_properties!(Engine, numbers "(n,)", vectors "(n, 3)", rotations "(n, 4)");
 
 #[pymethods]
 impl Engine {
@@ -262,10 +262,11 @@ pub fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<
             let forces: Vec<DVec3> = vectors().collect();
             world.set_applied_forces(&forces).map_err(about)
         }
-        Quantity::Radii | Quantity::Masses | Quantity::Restitutions => {
+        _ => {
             let before = world.snapshot();
-            for (index, (id, &value)) in ids.into_iter().zip(values).enumerate() {
-                let sphere = changed(world.spheres().get(index), quantity, value);
+            let values = values.chunks_exact(quantity.width());
+            for (index, (id, values)) in ids.into_iter().zip(values).enumerate() {
+                let sphere = changed(world.spheres().get(index), quantity, values);
                 if let Err(error) = world.set_sphere(id, sphere) {
                     world.restore(&before);
                     return Err(about(error));
@@ -276,12 +277,21 @@ pub fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<
     }
 }
 
-/// A sphere with another property.
-fn changed(sphere: Sphere, quantity: Quantity, value: f64) -> Sphere {
+/// A sphere with another property, of as many values as it has.
+fn changed(sphere: Sphere, quantity: Quantity, values: &[f64]) -> Sphere {
+    let value = values[0];
     match quantity {
         Quantity::Radii => sphere.with_radius(value),
         Quantity::Masses => sphere.with_mass(value),
         Quantity::Restitutions => sphere.with_restitution(value),
+        Quantity::InertiaFactors => sphere.with_inertia_factor(value),
+        Quantity::Frictions => {
+            let mut friction = sphere.friction;
+            friction.sliding = (!value.is_nan()).then_some(value);
+            sphere.with_friction(friction)
+        }
+        Quantity::Orientations => sphere.with_orientation(DQuat::from_slice(values)),
+        Quantity::AngularVelocities => sphere.with_angular_velocity(DVec3::from_slice(values)),
         Quantity::Positions | Quantity::Velocities | Quantity::AppliedForces => sphere,
     }
 }
@@ -289,10 +299,16 @@ fn changed(sphere: Sphere, quantity: Quantity, value: f64) -> Sphere {
 /// Sums over all spheres.
 #[pymethods]
 impl Engine {
-    /// Kinetic energy [J], the sum of m v² / 2.
+    /// Kinetic energy [J], the sum of m v² / 2 and, where spheres turn, I ω² / 2.
     #[getter]
     fn kinetic_energy(&self, py: Python<'_>) -> PyResult<f64> {
         Ok(self.lock(py)?.world.kinetic_energy())
+    }
+
+    /// Energy of rotation [J], the sum of I ω² / 2.
+    #[getter]
+    fn rotational_energy(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.lock(py)?.world.rotational_energy())
     }
 
     /// Potential energy [J] in all forces that have one.
@@ -314,7 +330,8 @@ impl Engine {
         Ok(PyArray1::from_slice(py, &momentum.to_array()))
     }
 
-    /// Angular momentum about the origin [kg m²/s], the sum of m x × v, shape (3,).
+    /// Angular momentum about the origin [kg m²/s], the sum of m x × v and, where
+    /// spheres turn, I ω, shape (3,).
     #[getter]
     fn angular_momentum<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let momentum = self.lock(py)?.world.angular_momentum();
@@ -362,9 +379,9 @@ impl Engine {
     }
 
     /// The work by stage: predictions, pair tests, events, cell crossings, groups, iterations of
-    /// solvers.
+    /// solvers, searches, sweeps, contacts.
     #[pyo3(name = "_work")]
-    fn work(&self, py: Python<'_>) -> PyResult<[u64; 6]> {
+    fn work(&self, py: Python<'_>) -> PyResult<[u64; 9]> {
         let work = self.lock(py)?.world.report().work;
         Ok([
             work.predictions,
@@ -373,7 +390,34 @@ impl Engine {
             work.cell_crossings,
             work.groups,
             work.solver_iterations,
+            work.searches,
+            work.sweeps,
+            work.contacts,
         ])
+    }
+
+    /// What became of kinetic energy under the rule `contact`: work of impulses, of moving colliders
+    /// and of the correction of overlaps [J]; sub-steps with fewer impulses, residual, largest
+    /// overlap.
+    #[pyo3(name = "_contact_account")]
+    fn contact_account(&self, py: Python<'_>) -> PyResult<(f64, f64, f64, u32, f64, f64)> {
+        let ContactAccount {
+            impulse_work,
+            surface_work,
+            correction_work,
+            limited_sub_steps,
+            residual,
+            largest_overlap,
+            ..
+        } = self.lock(py)?.world.report().contact_account;
+        Ok((
+            impulse_work,
+            surface_work,
+            correction_work,
+            limited_sub_steps,
+            residual,
+            largest_overlap,
+        ))
     }
 
     /// Ids of the spheres that emitters put into the world in the last frame, ascending.

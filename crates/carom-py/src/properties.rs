@@ -3,9 +3,14 @@
 /// Gives an engine a property for each quantity of spheres, by its methods `quantity` and
 /// `set_quantity`.
 ///
-/// `numbers` and `vectors` are the shapes of its arrays, as its users read them.
+/// `numbers`, `vectors` and `rotations` are the shapes of its arrays, as its users read them.
 macro_rules! sphere_properties {
-    ($engine:ident, numbers $numbers:literal, vectors $vectors:literal) => {
+    (
+        $engine:ident,
+        numbers $numbers:literal,
+        vectors $vectors:literal,
+        rotations $rotations:literal
+    ) => {
         sphere_properties! { $engine;
             positions, set_positions, Positions:
                 concat!("Centres [m], shape ", $vectors, ".");
@@ -22,6 +27,20 @@ macro_rules! sphere_properties {
                     "Forces applied to single spheres [N], shape ", $vectors, ", besides those \
                      that act on all; held until they are set again. Spheres that come into the \
                      world have none."
+                );
+            orientations, set_orientations, Orientations:
+                concat!(
+                    "How spheres are turned, quaternions x, y, z, w, shape ", $rotations, "; those \
+                     assigned may have any length but zero."
+                );
+            angular_velocities, set_angular_velocities, AngularVelocities:
+                concat!("Angular velocities, along the axes [rad/s], shape ", $vectors, ".");
+            inertia_factors, set_inertia_factors, InertiaFactors:
+                concat!("Moments of inertia divided by m r², shape ", $numbers, ".");
+            frictions, set_frictions, Frictions:
+                concat!(
+                    "Coefficients of friction, >= 0, shape ", $numbers, ". nan where a sphere says \
+                     nothing of it: then the coefficient of what it touches counts."
                 );
         }
     };

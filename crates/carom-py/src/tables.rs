@@ -48,6 +48,8 @@ impl Table {
             self.numbers(contact.point.to_array());
             self.numbers(contact.normal.to_array());
             self.numbers([contact.gap, contact.normal_force]);
+            self.numbers(contact.tangential_force.to_array());
+            self.integers([i64::from(contact.is_sliding)]);
         }
     }
 

@@ -153,15 +153,14 @@ impl Members {
     /// [`Failure`] for a number that makes no sense.
     pub fn set(&mut self, quantity: Quantity, values: &[f64]) -> Result<(), Failure> {
         let row = quantity.shape(self.spheres).iter().product::<usize>().max(1);
-        if let Some(place) = values.iter().position(|value| !value.is_finite()) {
+        if let Some(place) = values.iter().position(|&value| !quantity.may_be(value)) {
             let (number, own) = (place / row, place / row * row);
             let world = &mut self.members[number].now.world;
             return engine::set_all(world, quantity, &values[own..own + row]);
         }
         let mut before = Vec::new();
         for (member, own) in self.members.iter_mut().zip(values.chunks_exact(row)) {
-            // Vectors are good if they are finite; only numbers may have to be taken back.
-            if quantity.is_number() {
+            if quantity.is_bounded() {
                 before.push(member.world().snapshot());
             }
             if let Err(failure) = engine::set_all(&mut member.now.world, quantity, own) {

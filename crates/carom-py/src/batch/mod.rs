@@ -194,4 +194,4 @@ impl BatchEngine {
     }
 }
 
-sphere_properties!(BatchEngine, numbers "(n, s)", vectors "(n, s, 3)");
+sphere_properties!(BatchEngine, numbers "(n, s)", vectors "(n, s, 3)", rotations "(n, s, 4)");

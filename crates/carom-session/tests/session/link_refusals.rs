@@ -31,7 +31,8 @@ fn every_mistake_is_told() {
     let empty = "the link says nothing: after # it needs scene=NAME or file=...";
     let time =
         |t| format!("the link says t={t}; the time must be a number of seconds, zero or positive");
-    let rule = |it| format!("the link says rule={it}; the rules are exact, bisect, discrete");
+    let rule =
+        |it| format!("the link says rule={it}; the rules are exact, contact, bisect, discrete");
     let unknown = |it| format!("the link has a part \"{it}\"; links know only {parts}");
     let long = format!("{}...", "x".repeat(40));
     let cases = [
