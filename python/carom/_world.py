@@ -27,7 +27,8 @@ class World(Engine):
 
     A world is made from a scene, and then has a life of its own. Arrays of spheres (``positions``,
     ``velocities``, ``radii``, ``masses``, ``restitutions``, ``orientations``,
-    ``angular_velocities``, ``inertia_factors``, ``frictions``, ``ids``) are in ascending order of id:
+    ``angular_velocities``, ``inertia_factors``, ``frictions``, ``ids``) are in ascending order of
+    id:
 
     - To read one copies nothing: it is the same object for as long as no sphere comes or goes, and
       every frame writes the new state into it. Take ``world.positions.copy()`` to keep a state.

@@ -33,6 +33,20 @@ export interface SphereDescription {
   density?: number;
   /** Coefficient of restitution in [0, 1]; 1 unless given. */
   restitution?: number;
+  /** Coulomb's coefficient of friction, >= 0, by `contact`; that of what it touches unless given. */
+  friction?: number;
+  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  rollingFriction?: number;
+  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  spinningFriction?: number;
+  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  tangentialRestitution?: number;
+  /** How it is turned, x, y, z, w; not turned unless given. */
+  orientation?: Quaternion;
+  /** Along the axis [rad/s]; it does not turn unless given. */
+  angularVelocity?: Vector;
+  /** Moment of inertia divided by m r², > 0; 0.4, that of a solid ball, unless given. */
+  inertiaFactor?: number;
   /** By density, or the scene's own, unless given. */
   color?: Iterable<number>;
 }
@@ -49,6 +63,20 @@ export interface Sphere {
   mass: number;
   /** Coefficient of restitution in [0, 1]. */
   restitution: number;
+  /** Coulomb's coefficient of friction, >= 0, by `contact`; that of what it touches unless given. */
+  friction?: number;
+  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  rollingFriction?: number;
+  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  spinningFriction?: number;
+  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  tangentialRestitution?: number;
+  /** How it is turned, x, y, z, w; not turned unless given. */
+  orientation?: [number, number, number, number];
+  /** Along the axis [rad/s]; it does not turn unless given. */
+  angularVelocity?: [number, number, number];
+  /** Moment of inertia divided by m r², > 0; 0.4, that of a solid ball, unless given. */
+  inertiaFactor?: number;
   /** Red, green, blue (sRGB). */
   color: Color;
 }
@@ -93,6 +121,14 @@ export interface ColliderDescription {
   angularVelocity?: Vector;
   /** Coefficient of restitution in [0, 1]; 1 unless given. */
   restitution?: number;
+  /** Coulomb's coefficient of friction, >= 0, by `contact`; that of what it touches unless given. */
+  friction?: number;
+  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  rollingFriction?: number;
+  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  spinningFriction?: number;
+  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  tangentialRestitution?: number;
   /** A trigger reports contact and deflects nothing. */
   trigger?: boolean;
   /** Whether it is to be drawn. */
@@ -115,6 +151,14 @@ export interface Collider {
   /** [rad/s] */
   angularVelocity: [number, number, number];
   restitution: number;
+  /** Coulomb's coefficient of friction, >= 0, by `contact`; that of what it touches unless given. */
+  friction?: number;
+  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  rollingFriction?: number;
+  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  spinningFriction?: number;
+  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  tangentialRestitution?: number;
   trigger: boolean;
   visible: boolean;
   color: Color;
@@ -133,10 +177,13 @@ export type Force =
 export type Integrator =
   "semi-implicit-euler" | "explicit-euler" | "velocity-verlet" | "runge-kutta-4";
 
+/** Coefficient of a contact from those of its two bodies. */
+export type CombineRule = "product" | "minimum" | "maximum" | "average" | "geometric-mean";
+
 /** How a world is stepped. */
 export interface Simulation {
   /** `exact` (the default) finds every impact at its own time. */
-  rule: "exact" | "bisect" | "discrete";
+  rule: "exact" | "contact" | "bisect" | "discrete";
   /** Length of a frame [s], > 0; 1/60 unless given. */
   frameTime: number;
   /** Time worth watching [s], > 0. */
@@ -144,7 +191,9 @@ export interface Simulation {
   /** Whether spheres collide with one another; with colliders they always do. */
   spheresCollide: boolean;
   /** Restitution of a contact from that of its two bodies. */
-  combineRule: "product" | "minimum" | "maximum" | "average";
+  combineRule: CombineRule;
+  /** Friction of a contact from that of its two bodies; `geometric-mean` unless given. */
+  frictionCombineRule?: CombineRule;
   /** Whether spheres may overlap at the start. */
   allowOverlap: boolean;
   /** A box about the origin that repeats itself [m], `Infinity` along an open axis; by `exact`. */
@@ -166,13 +215,19 @@ export interface Simulation {
   };
   /** Parameters of `discrete`. */
   discrete: { integrator: Integrator };
+  /** Parameters of `contact`: sub-steps of a frame, sweeps over all contacts in each, and whether
+   *  sweeps go on until the solution has converged; 8, 2 and false unless given. */
+  contact?: { subSteps: number; sweeps: number; converged: boolean };
 }
 
 /** New values for how a world is stepped; what is not named stays. */
-export type SimulationChanges = Partial<Omit<Simulation, "exact" | "bisect" | "discrete">> & {
+export type SimulationChanges = Partial<
+  Omit<Simulation, "exact" | "bisect" | "discrete" | "contact">
+> & {
   exact?: Partial<Simulation["exact"]>;
   bisect?: Partial<Simulation["bisect"]>;
   discrete?: Partial<Simulation["discrete"]>;
+  contact?: Partial<NonNullable<Simulation["contact"]>>;
 };
 
 /** What a scene says besides what there is in its world. */

@@ -266,7 +266,8 @@ export class World {
     const exact = { ...now.exact, ...changes.exact };
     const bisect = { ...now.bisect, ...changes.bisect };
     const discrete = { ...now.discrete, ...changes.discrete };
-    const text = tables({ simulation: { ...now, ...changes, exact, bisect, discrete } });
+    const contact = { ...now.contact, ...changes.contact };
+    const text = tables({ simulation: { ...now, ...changes, exact, bisect, discrete, contact } });
     attemptPart(() => this.#world.setSimulation(text));
   }
 
