@@ -28,7 +28,7 @@ pub enum Edit {
     /// A new sphere; it may overlap others.
     Throw {
         /// As it starts.
-        sphere: carom::Sphere,
+        sphere: Box<carom::Sphere>,
         /// Its colour; by density or the scene's own without one.
         color: Option<Color>,
     },

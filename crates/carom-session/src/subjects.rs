@@ -60,7 +60,7 @@ impl Subjects<'_> {
             }
             Edit::Throw { sphere, color } => {
                 check_writable(scene, setup, sphere.radius)?;
-                let id = world.add_sphere(*sphere)?;
+                let id = world.add_sphere(**sphere)?;
                 looks.paint(id, color.or_else(|| looks::color_of(scene, sphere)));
                 Ok(())
             }

@@ -182,7 +182,7 @@ mod tests {
         let mut ball = |angular_velocity| {
             let sphere =
                 carom::Sphere::new(DVec3::ZERO, 1.0).with_angular_velocity(angular_velocity);
-            session.edit(Edit::Throw { sphere, color: None }).unwrap();
+            session.edit(Edit::Throw { sphere: Box::new(sphere), color: None }).unwrap();
             session.step().unwrap();
             let mut view = View::default();
             session.fill(&mut view);

@@ -141,6 +141,11 @@ impl Sphere {
         }
     }
 
+    /// Whether it is turned, or turns.
+    pub(crate) fn is_turned(&self) -> bool {
+        self.orientation != DQuat::IDENTITY || self.angular_velocity != DVec3::ZERO
+    }
+
     pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
         validate::finite("position", self.position)?;
         validate::finite("velocity", self.velocity)?;

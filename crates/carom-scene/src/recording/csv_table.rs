@@ -48,7 +48,7 @@ impl CsvTable {
 
 impl Format for CsvTable {
     fn write(&mut self, world: &World) -> io::Result<()> {
-        let has_rotation = self.begin(|| rotation::has_rotation(world))?;
+        let has_rotation = self.begin(|| world.has_spin())?;
         let spheres = world.spheres();
         let time = digits(world.time());
         for (i, id) in spheres.ids().iter().enumerate() {

@@ -13,7 +13,7 @@ use npyz::WriterBuilder;
 use zip::write::SimpleFileOptions;
 
 use super::format::Format;
-use super::rotation::{angular_velocity, has_rotation, orientation};
+use super::rotation::{angular_velocity, orientation};
 
 /// An NPZ file holds one array after the other, frames come one after the other: columns wait in
 /// temporary files (beside the result, where there is room for it) until all frames are known.
@@ -80,7 +80,7 @@ impl Npz {
 impl Format for Npz {
     fn write(&mut self, world: &World) -> io::Result<()> {
         let spheres = world.spheres();
-        if self.frame_start.len() == 1 && has_rotation(world) {
+        if self.frame_start.len() == 1 && world.has_spin() {
             let orientation = Column::create("orientation", 4, &self.folder)?;
             let angular_velocity = Column::create("angular_velocity", 3, &self.folder)?;
             self.rotation = Some(Rotation { orientation, angular_velocity });

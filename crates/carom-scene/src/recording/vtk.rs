@@ -11,7 +11,7 @@ use vtkio::model::{
 };
 
 use super::format::Format;
-use super::rotation::{angular_velocity, has_rotation, orientation};
+use super::rotation::{angular_velocity, orientation};
 
 /// Files `NAME.pvd` and `NAME_000000.vtp`, `NAME_000001.vtp`, ...
 pub(super) struct Series {
@@ -53,7 +53,7 @@ impl Series {
 impl Format for Series {
     fn write(&mut self, world: &World) -> io::Result<()> {
         if self.times.is_empty() {
-            self.has_rotation = has_rotation(world);
+            self.has_rotation = world.has_spin();
         }
         let path = self.frame_path(self.times.len());
         let mut text = Vec::new();

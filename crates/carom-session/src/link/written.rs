@@ -159,7 +159,7 @@ impl From<&Change> for Written {
                 Self::Sphere { sphere: id.number(), changes: Box::new(change.into()) }
             }
             Edit::Throw { sphere, color } => {
-                Self::Throw { sphere: Box::new(sphere.into()), color: *color }
+                Self::Throw { sphere: Box::new((&**sphere).into()), color: *color }
             }
             Edit::RemoveSphere(id) => Self::RemoveSphere(id.number()),
         }
@@ -187,7 +187,9 @@ impl From<Written> for Change {
             Written::Sphere { sphere, changes } => {
                 Edit::Sphere(SphereId::from_number(sphere), (*changes).into())
             }
-            Written::Throw { sphere, color } => Edit::Throw { sphere: (*sphere).into(), color },
+            Written::Throw { sphere, color } => {
+                Edit::Throw { sphere: Box::new((*sphere).into()), color }
+            }
             Written::RemoveSphere(sphere) => Edit::RemoveSphere(SphereId::from_number(sphere)),
         })
     }

@@ -108,7 +108,7 @@ fn if_one_cannot_go_on_neither_does() {
     assert_eq!((both.first().frame(), both.second().frame()), (frame, frame));
     // Both can still be edited and viewed.
     let sphere = Sphere::new(DVec3::new(0.0, 99.0, 0.0), 0.1);
-    both.edit(&Edit::Throw { sphere, color: None }).unwrap();
+    both.edit(&Edit::Throw { sphere: Box::new(sphere), color: None }).unwrap();
     let mut view = View::default();
     both.fill(&mut view);
     assert_eq!(view.other.unwrap().spheres.ids.len(), view.spheres.ids.len());

@@ -164,10 +164,10 @@ fn the_colour_of_an_emitted_sphere_is_that_of_its_emitter() {
 fn a_thrown_sphere_is_there_with_its_colour() {
     let mut session = busy();
     let sphere = Sphere::new(DVec3::new(0.0, 50.0, 0.0), 0.1).with_density(800.0);
-    session.edit(Edit::Throw { sphere, color: None }).unwrap();
-    session.edit(Edit::Throw { sphere, color: RED }).unwrap();
+    session.edit(Edit::Throw { sphere: Box::new(sphere), color: None }).unwrap();
+    session.edit(Edit::Throw { sphere: Box::new(sphere), color: RED }).unwrap();
     assert_eq!(view(&session).spheres.colors.as_slice()[13..], [BLUE, RED]);
     let nowhere = Sphere::new(DVec3::NAN, 0.1);
-    assert!(session.edit(Edit::Throw { sphere: nowhere, color: RED }).is_err());
+    assert!(session.edit(Edit::Throw { sphere: Box::new(nowhere), color: RED }).is_err());
     assert_eq!(view(&session).spheres.colors.len(), 15);
 }

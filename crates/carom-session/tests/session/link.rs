@@ -160,8 +160,8 @@ fn edits() -> Vec<Edit> {
         ),
         Edit::Sphere(SphereId::from_number(u64::MAX / 2), all),
         Edit::Sphere(SphereId::from_number(0), SphereChange::default()),
-        Edit::Throw { sphere, color: None },
-        Edit::Throw { sphere: sphere.with_mass(c), color: Some([a, b, e]) },
+        Edit::Throw { sphere: Box::new(sphere), color: None },
+        Edit::Throw { sphere: Box::new(sphere.with_mass(c)), color: Some([a, b, e]) },
         Edit::RemoveSphere(SphereId::from_number(12)),
     ]
 }
@@ -197,7 +197,10 @@ fn edited() -> Session {
     edit(13, Edit::Sphere(SphereId::from_number(2), push));
     edit(0, Edit::Sphere(SphereId::from_number(2), push));
     edit(7, Edit::FrameTime(0.01));
-    edit(11, Edit::Throw { sphere: Sphere::new(DVec3::new(0.0, 5.0, 0.0), 0.3), color: None });
+    edit(
+        11,
+        Edit::Throw { sphere: Box::new(Sphere::new(DVec3::new(0.0, 5.0, 0.0), 0.3)), color: None },
+    );
     edit(5, Edit::AddForce(Force::Constant { force: [0.5, 0.0, 0.0] }));
     edit(5, Edit::RemoveForce(ForceId::from_number(1)));
     edit(

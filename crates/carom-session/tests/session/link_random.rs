@@ -34,7 +34,7 @@ fn edit() -> impl Strategy<Value = Edit> {
             Edit::Sphere(SphereId::from_number(id), push(DVec3::new(it, 2.0, -it)))
         }),
         (0..30_u64).prop_map(|id| Edit::RemoveSphere(SphereId::from_number(id))),
-        (-3.0..3.0).prop_map(move |x| Edit::Throw { sphere: ball(x), color: None }),
+        (-3.0..3.0).prop_map(move |x| Edit::Throw { sphere: Box::new(ball(x)), color: None }),
         (0..3_usize, 2..9_u32).prop_map(move |(rule, max_impacts)| {
             let mut simulation = busy_scene().simulation;
             simulation.rule = rules[rule];

@@ -226,7 +226,7 @@ fn previous_orientations_are_those_a_frame_ago_for_the_spheres_that_were_there()
     // Far from all others, so that it turns on and on.
     let speed = 3.0;
     let sphere = carom::Sphere::new(DVec3::splat(1e3), 0.1).with_angular_velocity(speed * DVec3::Z);
-    session.edit(Edit::Throw { sphere, color: None }).unwrap();
+    session.edit(Edit::Throw { sphere: Box::new(sphere), color: None }).unwrap();
     let mut before = view(&session).spheres;
     let thrown = *before.ids.last().unwrap();
     for frame in 0..60 {

@@ -51,7 +51,8 @@ impl Watching {
                 .with_velocity(direction * speed)
                 .with_mass(mass)
                 .with_restitution(restitution);
-            self.commands.push(Command::Edit(Edit::Throw { sphere, color: None }));
+            self.commands
+                .push(Command::Edit(Edit::Throw { sphere: Box::new(sphere), color: None }));
             return;
         }
         let blend = self.driver.blend();

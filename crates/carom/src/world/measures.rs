@@ -39,19 +39,22 @@ impl World {
         invariants::angular_momentum(self.spheres())
     }
 
-    /// Whether spheres have orientations, or may get them: under the rule `contact` friction of a
-    /// sphere, an emitter or a solid collider turns them.
+    /// Whether spheres are turned or turn, or may come to: an emitter emits such, or friction of a sphere,
+    /// an emitter or a solid collider acts, which it does under the rule `contact`.
     pub fn has_spin(&self) -> bool {
-        let spheres = self.spheres();
-        let is_rough = || {
-            let colliders = self.colliders().filter(|(_, collider)| !collider.trigger);
-            let of_colliders = colliders.map(|(_, collider)| collider.friction);
-            let emitted = self.emitters().map(|(_, emitter)| emitter.sphere.friction);
-            let of_spheres = spheres.frictions().iter().copied();
-            of_spheres.chain(of_colliders).chain(emitted).any(|friction| friction.acts())
-        };
-        !spheres.orientations().is_empty()
-            || (matches!(self.settings().rule, Rule::Contact(_)) && is_rough())
+        let emitted = || self.emitters().map(|(_, emitter)| emitter.sphere);
+        self.state.spheres.motion.spin.is_any()
+            || emitted().any(|sphere| sphere.is_turned())
+            || (matches!(self.settings().rule, Rule::Contact(_)) && self.is_rough())
+    }
+
+    /// Whether there is friction.
+    fn is_rough(&self) -> bool {
+        let colliders = self.colliders().filter(|(_, collider)| !collider.trigger);
+        let of_colliders = colliders.map(|(_, collider)| collider.friction);
+        let of_emitted = self.emitters().map(|(_, emitter)| emitter.sphere.friction);
+        let of_spheres = self.spheres().frictions().iter().copied();
+        of_spheres.chain(of_colliders).chain(of_emitted).any(|friction| friction.acts())
     }
 
     /// Spheres that overlap each other (where spheres collide) or a solid collider by more than

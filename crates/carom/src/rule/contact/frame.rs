@@ -61,11 +61,10 @@ fn kinds_of(system: &System) -> ContactKinds {
     };
     let is_some = |coefficient: Option<f64>| coefficient.is_some_and(|it| it > 0.0);
     let rolls = |it: Friction| is_some(it.rolling) || is_some(it.spinning);
-    let rolling = frictions().any(rolls);
     ContactKinds {
         bounce: system.settings.combine_rule.combine(largest, largest) > 0.0,
-        friction: rolling || frictions().any(|it| is_some(it.sliding)),
-        rolling,
+        friction: frictions().any(|it| it.acts()),
+        rolling: frictions().any(rolls),
     }
 }
 
