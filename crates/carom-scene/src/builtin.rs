@@ -9,10 +9,6 @@ macro_rules! embed {
 }
 
 embed!(
-    "pour.toml",
-    "billiards.toml",
-    "galton.toml",
-    "granular-column.toml",
     "simtest1.toml",
     "simtest2.toml",
     "simtest3.toml",
@@ -24,4 +20,8 @@ embed!(
     "tutorial2.toml",
     "tutorial3.toml",
     "tutorial4.toml",
+    "pour.toml",
+    "billiards.toml",
+    "galton.toml",
+    "granular-column.toml",
 );

@@ -7,8 +7,9 @@
 mod common;
 
 use carom::{
-    Bisect, Collider, CombineRule, ConstantForce, DQuat, DVec3, Discrete, Emitter, Error, Exact,
-    Gravity, Integrator, Pose, Rule, Settings, Shape, Sphere, ViscousDrag, WindBack, World,
+    Bisect, Collider, CombineRule, ConstantForce, Contact, DQuat, DVec3, Discrete, Emitter, Error,
+    Exact, Friction, Gravity, Integrator, Pose, Rule, Settings, Shape, Sphere, ViscousDrag,
+    WindBack, World,
 };
 use proptest::prelude::*;
 
@@ -24,14 +25,31 @@ fn rotation() -> impl Strategy<Value = DQuat> {
 /// Radii and masses over six orders of magnitude, speeds from rest to absurd.
 fn sphere() -> impl Strategy<Value = Sphere> {
     let velocity = prop_oneof![Just(DVec3::ZERO), vector(1.0), vector(1e4)];
-    (vector(5.0), velocity, -3.0..0.5, -3.0..3.0, 0.0..=1.0).prop_map(
-        |(position, velocity, radius, mass, restitution)| {
+    let rest = (0.0..=1.0, friction(), vector(10.0));
+    (vector(5.0), velocity, -3.0..0.5, -3.0..3.0, rest).prop_map(
+        |(position, velocity, radius, mass, (restitution, friction, angular_velocity))| {
             Sphere::new(position, 10f64.powf(radius))
                 .with_velocity(velocity)
+                .with_angular_velocity(angular_velocity)
                 .with_mass(10f64.powf(mass))
                 .with_restitution(restitution)
+                .with_friction(friction)
         },
     )
+}
+
+fn friction() -> impl Strategy<Value = Friction> {
+    let coefficient = 0.0..2.0;
+    let all = (coefficient.clone(), coefficient.clone(), coefficient, 0.0..=1.0);
+    prop_oneof![
+        Just(Friction::default()),
+        all.prop_map(|(sliding, rolling, spinning, tangential)| {
+            Friction::sliding(sliding)
+                .with_rolling(rolling)
+                .with_spinning(spinning)
+                .with_tangential_restitution(tangential)
+        }),
+    ]
 }
 
 fn collider() -> impl Strategy<Value = Collider> {
@@ -42,10 +60,11 @@ fn collider() -> impl Strategy<Value = Collider> {
         (0.01..3.0, 0.01..3.0, 0.01..3.0)
             .prop_map(|(x, y, z)| Shape::Box { size: DVec3::new(x, y, z) }),
     ];
-    (shape, vector(5.0), rotation(), 0.0..=1.0, any::<bool>()).prop_map(
-        |(shape, position, rotation, restitution, trigger)| {
+    (shape, vector(5.0), rotation(), (0.0..=1.0, friction()), any::<bool>()).prop_map(
+        |(shape, position, rotation, (restitution, friction), trigger)| {
             let pose = Pose::at(position).rotated(rotation);
             let solid = Collider::new(shape, pose).with_restitution(restitution);
+            let solid = solid.with_friction(friction);
             if trigger { solid.as_trigger() } else { solid }
         },
     )
@@ -61,7 +80,11 @@ fn settings() -> impl Strategy<Value = Settings> {
     );
     // Spheres that overlap from the start may be wedged in, and meet without end.
     let exact = Rule::Exact(Exact::default().with_max_impacts(10_000));
-    let rule = prop_oneof![Just(Rule::Discrete(Discrete::default())), bisect, Just(exact)];
+    let contact = (1..12u32, 1..5u32).prop_map(|(sub_steps, sweeps)| {
+        Rule::Contact(Contact::default().with_sub_steps(sub_steps).with_sweeps(sweeps))
+    });
+    let discrete = Just(Rule::Discrete(Discrete::default()));
+    let rule = prop_oneof![discrete, bisect, Just(exact), contact];
     let integrator = prop::sample::select(vec![
         Integrator::SemiImplicitEuler,
         Integrator::ExplicitEuler,
@@ -73,6 +96,7 @@ fn settings() -> impl Strategy<Value = Settings> {
         CombineRule::Minimum,
         CombineRule::Maximum,
         CombineRule::Average,
+        CombineRule::GeometricMean,
     ]);
     (rule, integrator, combine_rule, any::<bool>()).prop_map(
         |(rule, integrator, combine_rule, spheres_collide)| {
@@ -241,5 +265,37 @@ proptest! {
         // Some hundred impacts, each rounding momenta no larger than all together.
         prop_assert!((world.momentum() - momentum).length() <= 1e-13 * size);
         prop_assert!(world.kinetic_energy() <= energy * (1.0 + 1e-12));
+    }
+
+    #[test]
+    fn under_contact_only_the_correction_of_overlaps_adds_energy(
+        spheres in prop::collection::vec(sphere(), 1..30),
+        colliders in prop::collection::vec(collider(), 0..8),
+        gravity in vector(20.0),
+        frames in prop::collection::vec(0.001..0.05, 1..8),
+    ) {
+        let mut world = World::new(Settings::default().with_rule(Contact::default())).unwrap();
+        world.add_force(Gravity::new(gravity)).unwrap();
+        for collider in colliders {
+            world.add_collider(collider).unwrap();
+        }
+        for sphere in spheres {
+            world.add_sphere(sphere).unwrap();
+        }
+        for dt in frames {
+            let (kinetic, energy) = (world.kinetic_energy(), world.total_energy());
+            let speeds = world.spheres().velocities().iter().map(|v| v.length());
+            let fastest = speeds.fold(1.0, f64::max);
+            let account = world.step(dt).unwrap().contact_account;
+            let scale = kinetic + world.kinetic_energy() + energy.abs() + 1.0;
+            prop_assert!(account.impulse_work <= 1e-12 * scale, "{account:?}");
+            // A sphere that bears something moves by its last velocity over a sub-step of h: its height
+            // is wrong by h times how much that differs from the velocities before.
+            let fall = gravity.length() * dt / 8.0;
+            let speeds = world.spheres().masses().iter().sum::<f64>() * fastest;
+            let error = fall * (8.0 * fall * speeds / fastest + 2.0 * speeds);
+            let gain = world.total_energy() - energy - account.correction_work;
+            prop_assert!(gain <= error + 1e-9 * scale, "{gain} of {scale}, {account:?}");
+        }
     }
 }

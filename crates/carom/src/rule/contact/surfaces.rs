@@ -156,23 +156,24 @@ impl SurfaceContact {
     fn watch_for_impact(&mut self, run: &Run, distance: f64, sub_step: &SubStep) {
         let slot = self.slot as usize;
         let speed = -(run.before[slot].vector() - self.velocity).dot(self.normal);
-        let pressing = -run.acceleration[slot].vector().dot(self.normal).min(0.0);
+        let pressing = -run.acceleration[slot].vector().dot(self.normal);
         let threshold = if self.impulses.normal > 0.0 {
             sub_step.resting_speed
         } else if run.bears[slot] {
-            sub_step.shaken_speed(pressing)
+            sub_step.shaken_speed(pressing.max(0.0))
         } else {
-            sub_step.surface_impact_speed(pressing)
+            sub_step.surface_impact_speed(pressing.max(0.0))
         };
         let fall = 0.5 * pressing * sub_step.h;
         if speed > threshold && distance < sub_step.h * (speed + fall) {
             // gap = s t + a t²/2
             let gap = distance.max(0.0);
-            let time = 2.0 * gap / (speed + (speed * speed + 2.0 * pressing * gap).sqrt());
+            let speed_there = (speed * speed + 2.0 * pressing * gap).max(0.0).sqrt();
+            let time = 2.0 * gap / (speed + speed_there);
             self.note_impact(speed + pressing * time, pressing, time, sub_step);
         } else if self.impulses.normal == 0.0 && distance > sub_step.h * (speed + fall) {
             // On its parabola it does not come so far as its last velocity says.
-            self.bias += fall;
+            self.bias += fall.max(0.0);
         }
     }
 
@@ -198,7 +199,7 @@ impl SurfaceContact {
         self.normal = separation.normal;
         self.velocity = motion.velocity_at(separation.point);
         let approach = -(velocity - self.velocity).dot(self.normal);
-        let pressing = -flight.acceleration.dot(self.normal).min(0.0);
+        let pressing = -flight.acceleration.dot(self.normal);
         self.bias = approach.max(0.0) * time / sub_step.h;
         self.note_impact(approach.max(0.0), pressing, time, sub_step);
     }
