@@ -99,7 +99,7 @@ def test_a_time_that_makes_no_sense_is_refused(within: float) -> None:
 
 def test_the_work_of_a_frame_follows_from_the_world_alone() -> None:
     world = column([1, 2, 4])
-    assert world.work == carom.StageCounts(0, 0, 0, 0, 0, 0)
+    assert not any(world.work)
     world.step(0.5)
     again = column([1, 2, 4])
     again.step(0.5)
