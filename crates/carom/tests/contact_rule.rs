@@ -4,8 +4,8 @@
 //! How fast it is, and how good for large heaps, is measured by `carom bench --set heaps`.
 
 use carom::{
-    BodyPair, Collider, Contact, DQuat, DVec3, Friction, Gravity, Pose, Settings, Shape, Sphere,
-    World,
+    BodyPair, Collider, Contact, DQuat, DVec3, Emitter, Friction, Gravity, Pose, Settings, Shape,
+    Sphere, World,
 };
 
 const G: f64 = 9.81;
@@ -460,4 +460,26 @@ fn a_turning_drum_takes_balls_along() {
     let angle = libm::atan2(mean.x, -mean.y).to_degrees();
     assert!((10.0..50.0).contains(&angle), "{angle}");
     assert!(world.report().contact_account.surface_work != 0.0);
+}
+
+#[test]
+fn a_heap_wakes_when_an_emitter_takes_a_sleeper_out() {
+    // The second ball of an emitter makes the first one go, on which another has fallen asleep.
+    let mut world = under_gravity();
+    add_box(&mut world, 0.1, 0.0);
+    let emitted = Sphere::new(DVec3::new(0.0, 0.1, 0.0), 0.1).with_restitution(0.0);
+    let away = Emitter::new(emitted, 2.5).with_max_spheres(1);
+    let emitter = world.add_emitter(away).unwrap();
+    world.step(FRAME).unwrap();
+    let upper = Sphere::new(DVec3::new(0.0, 0.3, 0.0), 0.1).with_restitution(0.0);
+    let upper = world.add_sphere(upper).unwrap();
+    // The next one comes far away.
+    let place = DVec3::new(0.0, 50.0, 0.0);
+    world.set_emitter(emitter, away.with_sphere(emitted.with_position(place))).unwrap();
+    run(&mut world, 120);
+    assert_eq!(world.report().contact_account.asleep, 2);
+    run(&mut world, 60);
+    assert!(world.contacts().iter().all(|it| it.gap < 1e-3), "what holds it is there");
+    let height = world.sphere(upper).unwrap().position.y;
+    assert!(height < 0.11, "it hangs in the air: {height}");
 }

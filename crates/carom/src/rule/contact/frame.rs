@@ -5,7 +5,6 @@ use super::found::Found;
 use super::kept::Kept;
 use super::slab::Slabs;
 use super::sleep;
-use super::slots::AWAKE;
 use super::solver::Solver;
 use super::surfaces;
 use crate::bodies::Motion;
@@ -13,7 +12,6 @@ use crate::friction::Friction;
 use crate::interval::Interval;
 use crate::report::StepReport;
 use crate::rotation;
-use crate::settings::Contact;
 use crate::system::System;
 
 /// Takes over spheres, forces and surfaces from the world.
@@ -22,15 +20,15 @@ pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
     let kinds = kinds_of(system);
     solver.has_moving_surfaces = system.surfaces.iter().any(|it| !it.motion.is_at_rest());
     if solver.is_changed || solver.has_moving_surfaces || !system.spheres.applied_force.is_empty() {
-        sleep::wake(solver, |_| true);
+        sleep::wake_all(solver);
     }
     if solver.is_changed || !solver.slots.are_of(ids) || solver.kinds != kinds {
         solver.slots.follow(ids);
-        solver.kept = Kept::of(&solver.slots, &solver.slabs, &solver.dormant, ids);
+        sleep::wake_incomplete(solver);
+        solver.kept = Some(Kept::of(&solver.slots, &solver.slabs, &solver.dormant, ids));
         solver.slots.arrange(ids);
         solver.slabs = Slabs::of_one(ids.len());
-        (solver.kinds, solver.is_stale, solver.is_collected) = (kinds, true, true);
-        solver.is_changed = false;
+        (solver.kinds, solver.is_stale, solver.is_changed) = (kinds, true, false);
     }
     if kinds.friction || !motion.spin.angular_velocity.is_empty() {
         motion.spin.make_room(ids.len());
@@ -72,23 +70,20 @@ fn kinds_of(system: &System) -> ContactKinds {
 pub(super) fn end(
     motion: &mut Motion,
     frame: Interval,
-    parameters: Contact,
     solver: &mut Solver,
     report: &mut StepReport,
 ) {
     sleep::wake_moved(solver);
     sleep::fall_asleep(solver, frame.h);
-    let asleep = solver.slots.island.iter().filter(|&&island| island != AWAKE).count();
-    report.contact_account.asleep = asleep as u32;
+    report.contact_account.asleep = solver.slots.asleep().count() as u32;
     solver.slots.write(motion);
-    let h = frame.h / f64::from(parameters.sub_steps);
     if solver.slots.turn.is_empty() {
         motion.spin.advance(frame.h);
     }
     for (slot, turn) in solver.slots.turn.iter().enumerate() {
         let orientation = &mut motion.spin.orientation[solver.slots.index[slot] as usize];
         let radius = solver.slots.position[slot].number();
-        *orientation = rotation::turned(*orientation, turn.vector() / radius, h);
+        *orientation = rotation::turned(*orientation, turn.vector() / radius, solver.h);
     }
     let contacts = solver.slabs.iter().map(|slab| slab.batches.count() + slab.surfaces.len());
     report.work.contacts += contacts.sum::<usize>() as u64;

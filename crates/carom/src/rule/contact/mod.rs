@@ -73,5 +73,5 @@ pub(crate) fn step(
         advance::advance(system, solver, &sub_step);
         solve::correct(solver, report);
     }
-    frame::end(motion, frame, parameters, solver, report);
+    frame::end(motion, frame, solver, report);
 }

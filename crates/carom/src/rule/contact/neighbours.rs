@@ -13,13 +13,14 @@ use super::slots::{AWAKE, Slots};
 use super::solver::{Scratch, Solver};
 use super::sub_step::SubStep;
 use super::surfaces::{Place, SurfaceContact};
-use crate::bodies::Properties;
+use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
 use crate::detect::surface_tree::Bounds;
 use crate::friction::ContactFriction;
 use crate::id::SphereId;
 use crate::interval::Interval;
 use crate::report::StepReport;
+use crate::respond::restitution_of;
 use crate::surface::Role;
 use crate::system::System;
 
@@ -47,11 +48,10 @@ pub(super) fn search(
     scratch: &mut Scratch,
     report: &mut StepReport,
 ) {
-    if !solver.is_collected {
-        solver.kept = Kept::of(&solver.slots, &solver.slabs, &solver.dormant, &system.spheres.id);
-    }
-    let Solver { slots, slabs, kept, watched, dormant, .. } = solver;
-    (solver.is_stale, solver.is_collected) = (false, false);
+    let collect = || Kept::of(&solver.slots, &solver.slabs, &solver.dormant, &system.spheres.id);
+    let kept = &solver.kept.take().unwrap_or_else(collect);
+    let Solver { slots, slabs, watched, dormant, .. } = solver;
+    solver.is_stale = false;
     arrange(slots, [frame.h, sub_step.h], &mut scratch.search);
     divide(slots, slabs, &scratch.search);
     if !dormant.is_empty() {
@@ -155,22 +155,24 @@ fn add_pairs(
             inverse_masses: [first, second].map(|slot| slots.velocity[slot as usize].number()),
             inverse_inertias: [first, second]
                 .map(|slot| slots.spin.get(slot as usize).map_or(0.0, |row| row.number())),
-            restitution: restitution(system, indices.map(|index| index as usize)),
-            friction: friction(system, indices.map(|index| index as usize)),
+            restitution: restitution_of(Bodies::pair(indices), system),
+            friction: friction_of(Bodies::pair(indices), system),
             impulses: kept.of_pair(indices),
         };
         slab.batches.push(&pair, kinds);
     }
 }
 
-fn restitution(system: &System, [first, second]: [usize; 2]) -> f64 {
-    let of = &system.spheres.restitution;
-    system.settings.combine_rule.combine(of[first], of[second])
-}
-
-fn friction(system: &System, [first, second]: [usize; 2]) -> ContactFriction {
-    let of = |index| Properties::friction(system.spheres, index);
-    ContactFriction::of([of(first), of(second)], system.settings.friction_combine_rule)
+/// Friction of a contact, from that of its bodies.
+fn friction_of(bodies: Bodies, system: &System) -> ContactFriction {
+    let of_sphere = |sphere: u32| system.spheres.friction(sphere as usize);
+    let both = match bodies {
+        Bodies::Pair(first, second) => [of_sphere(first), of_sphere(second)],
+        Bodies::Surface { sphere, surface } => {
+            [system.surfaces[surface as usize].friction, of_sphere(sphere)]
+        }
+    };
+    ContactFriction::of(both, system.settings.friction_combine_rule)
 }
 
 /// What contacts with surfaces are made of.
@@ -232,19 +234,12 @@ impl Surfaces<'_> {
     }
 
     fn contact(&self, slot: usize, relative: u32, surface: u32) -> SurfaceContact {
-        let index = self.slots.index[slot] as usize;
-        let Self { system, .. } = *self;
-        let of_surface = &system.surfaces[surface as usize];
-        let restitution = system
-            .settings
-            .combine_rule
-            .combine(of_surface.restitution, system.spheres.restitution[index]);
-        let friction = ContactFriction::of(
-            [of_surface.friction, system.spheres.friction(index)],
-            system.settings.friction_combine_rule,
-        );
+        let sphere = self.slots.index[slot];
+        let bodies = Bodies::Surface { sphere, surface };
+        let restitution = restitution_of(bodies, self.system);
+        let friction = friction_of(bodies, self.system);
         let mut contact = SurfaceContact::new(relative, surface, restitution, friction);
-        contact.impulses = self.kept.of_surface(index as u32, surface);
+        contact.impulses = self.kept.of_surface(sphere, surface);
         contact
     }
 }

@@ -95,9 +95,7 @@ impl Search {
         self.find_in_cells(position, &reach);
         if !self.wide.is_empty() {
             self.find_of_wide(position, &reach);
-        }
-        // Wide ones are found last, but belong in between.
-        if !self.wide.is_empty() {
+            // Wide ones are found last, but belong in between.
             self.pairs.sort_unstable();
         }
     }

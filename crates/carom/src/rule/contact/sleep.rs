@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::dormant::{Dormant, Partner};
-use super::slots::{AWAKE, Slots};
+use super::slots::{AWAKE, GONE, Slots};
 use super::solver::Solver;
 use super::sub_step::SubStep;
 
@@ -18,7 +18,7 @@ const CALM: f64 = 0.02;
 const PATIENCE: f64 = 0.5;
 /// Islands are looked for once in so many frames: to find them costs as much as a sweep.
 const FRAMES: u32 = 16;
-/// A sphere that comes as near as this part of its radius touches.
+/// A sphere that comes nearer than this part of the sum of radii touches.
 const TOUCH: f64 = 1e-3;
 
 /// Has islands fall asleep that have been calm for long enough, at the end of a frame of this length \[s\].
@@ -53,7 +53,6 @@ pub(super) fn fall_asleep(solver: &mut Solver, frame: f64) {
     if has_changed {
         keep_contacts(solver);
         solver.is_stale = true;
-        solver.is_all_asleep = solver.slots.island.iter().all(|&island| island != AWAKE);
     }
 }
 
@@ -126,27 +125,45 @@ pub(super) fn wake_touched(solver: &mut Solver, sub_step: &SubStep) {
             touched.push(island[sleeper]);
         }
     }
-    wake(solver, |island| touched.contains(&island));
+    wake(solver, touched);
 }
 
 /// Wakes islands that something has moved.
 pub(super) fn wake_moved(solver: &mut Solver) {
     let Slots { velocity, island, .. } = &solver.slots;
-    let moves = |slot: &usize| velocity[*slot].vector() != DVec3::ZERO && island[*slot] != AWAKE;
-    let mut moved: Vec<u32> = (0..island.len()).filter(moves).map(|slot| island[slot]).collect();
-    moved.dedup();
-    wake(solver, |island| moved.contains(&island));
+    let islands = velocity.iter().zip(island).filter(|(row, _)| row.vector() != DVec3::ZERO);
+    let moved = islands.map(|(_, &island)| island).filter(|&island| island != AWAKE).collect();
+    wake(solver, moved);
 }
 
-/// Wakes the islands for which this holds.
-pub(super) fn wake(solver: &mut Solver, wakes: impl Fn(u32) -> bool) {
+/// Wakes islands of which a sphere was taken out of the world: it may have borne others.
+pub(super) fn wake_incomplete(solver: &mut Solver) {
+    let Slots { index, island, .. } = &solver.slots;
+    let islands = index.iter().zip(island).filter(|(index, _)| **index == GONE);
+    let incomplete = islands.map(|(_, &island)| island).filter(|&island| island != AWAKE).collect();
+    wake(solver, incomplete);
+}
+
+/// Wakes all islands.
+pub(super) fn wake_all(solver: &mut Solver) {
+    let all = solver.slots.island.iter().copied().filter(|&island| island != AWAKE).collect();
+    wake(solver, all);
+}
+
+/// Wakes islands.
+fn wake(solver: &mut Solver, mut islands: Vec<u32>) {
+    if islands.is_empty() {
+        return;
+    }
+    islands.sort_unstable();
+    islands.dedup();
     let Slots { island, calm, .. } = &mut solver.slots;
     for (island, calm) in island.iter_mut().zip(calm) {
-        if *island != AWAKE && wakes(*island) {
+        if islands.binary_search(island).is_ok() {
             (*island, *calm) = (AWAKE, 0.0);
-            (solver.is_stale, solver.is_all_asleep) = (true, false);
         }
     }
+    solver.is_stale = true;
 }
 
 /// Islands of slots, as a forest: each slot leads to another one of its island, the root to itself.

@@ -7,7 +7,7 @@ use super::dormant::Dormant;
 use super::kept::Kept;
 use super::search::Search;
 use super::slab::Slabs;
-use super::slots::Slots;
+use super::slots::{AWAKE, Slots};
 use super::surfaces::Place;
 
 /// Spheres in their order of memory, their neighbours, and the impulses of their contacts: part of a
@@ -16,7 +16,8 @@ use super::surfaces::Place;
 pub(crate) struct Solver {
     pub(super) slots: Slots,
     pub(super) slabs: Slabs,
-    pub(super) kept: Kept,
+    /// The impulses of contacts that were taken out of [`Self::slabs`], until the next search.
+    pub(super) kept: Option<Kept>,
     /// The spheres that bounce in the sub-step and bear nothing, by slot.
     pub(super) bounces: Vec<Bounce>,
     /// Where surfaces are at the start of the sub-step, and how they move.
@@ -44,12 +45,8 @@ pub(crate) struct Solver {
     pub(super) dormant: Vec<Dormant>,
     /// Whether spheres at rest stay at rest: forces are constant, and surfaces fixed.
     pub(super) may_sleep: bool,
-    /// Whether no sphere is awake.
-    pub(super) is_all_asleep: bool,
     /// Frames since islands were looked for.
     pub(super) frames: u32,
-    /// What was taken out of [`Self::slabs`] is in [`Self::kept`].
-    pub(super) is_collected: bool,
 }
 
 /// What a bounce does to the way of a sphere in a sub-step.
@@ -76,6 +73,7 @@ impl Solver {
 
     /// Whether nothing happens in a frame without emissions and changes from outside: all spheres sleep.
     pub fn is_idle(&self) -> bool {
-        self.is_all_asleep && !self.is_changed
+        let island = &self.slots.island;
+        !self.is_changed && !island.is_empty() && island.iter().all(|&island| island != AWAKE)
     }
 }
