@@ -227,6 +227,19 @@ impl Batches {
         })
     }
 
+    /// The contacts that an impact was found for and that bear something: most batches have none.
+    pub fn impacts(&self) -> impl Iterator<Item = (usize, usize, [u32; 2])> {
+        let batches = self.pairs.iter().enumerate();
+        let hit = batches.filter(|(_, batch)| batch.approach != [0.0; LANES]);
+        hit.flat_map(|(number, batch)| {
+            let is_impact =
+                |lane: &usize| batch.approach[*lane] > 0.0 && batch.impulse[*lane] > 0.0;
+            (0..LANES)
+                .filter(is_impact)
+                .map(move |lane| (number, lane, [batch.first[lane], batch.second[lane]]))
+        })
+    }
+
     /// What a contact keeps from search to search. An impact leaves nothing to start from.
     pub fn impulses(&self, number: usize, lane: usize) -> Impulses {
         let batch = &self.pairs[number];
@@ -239,12 +252,12 @@ impl Batches {
         }
     }
 
-    /// Speed of approach \[m/s\] and impulse on sphere 2 \[N s\] of a bounce, without what others press
-    /// the two together with; `None` without a bounce.
+    /// Speed of approach \[m/s\] and impulse on sphere 2 \[N s\] of an impact that is a bounce, without what
+    /// others press the two together with; `None` without a bounce.
     pub fn bounce(&self, number: usize, lane: usize) -> Option<(f64, DVec3)> {
         let batch = &self.pairs[number];
         let (impulse, approach) = (batch.impulse[lane], batch.approach[lane]);
-        if batch.bias[lane] >= 0.0 || impulse <= 0.0 {
+        if batch.bias[lane] >= 0.0 {
             return None;
         }
         let own = batch.effective_mass[lane] * (1.0 + batch.restitution[lane]) * approach;

@@ -40,7 +40,7 @@ pub(super) fn note_bounces(solver: &mut Solver, sub_step: &SubStep) {
     }
     let slots = &*slots;
     for slab in slabs.iter() {
-        for (number, lane, [first, second]) in slab.batches.contacts() {
+        for (number, lane, [first, second]) in slab.batches.impacts() {
             let Some((approach, impulse)) = slab.batches.bounce(number, lane) else { continue };
             let [first, second] = [first, second].map(|slot| slab.start + slot as usize);
             let pair = &slab.batches.pairs[number];
@@ -80,11 +80,8 @@ fn bounce(
 }
 
 fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) {
-    for (number, lane, slots) in slab.batches.contacts() {
+    for (number, lane, slots) in slab.batches.impacts() {
         let pair = &slab.batches.pairs[number];
-        if pair.approach[lane] <= 0.0 || pair.impulse[lane] <= 0.0 {
-            continue;
-        }
         let mut normal = DVec3::from_array(batch::get(&pair.normal, lane));
         let [mut first, mut second] = slots.map(|slot| slab.start + slot as usize);
         if solver.slots.id[first] > solver.slots.id[second] {
