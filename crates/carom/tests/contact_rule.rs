@@ -483,3 +483,17 @@ fn a_heap_wakes_when_an_emitter_takes_a_sleeper_out() {
     let height = world.sphere(upper).unwrap().position.y;
     assert!(height < 0.11, "it hangs in the air: {height}");
 }
+
+#[test]
+fn a_ball_that_is_emitted_falls_though_all_others_sleep() {
+    let mut world = under_gravity();
+    add_wall(&mut world, DVec3::Y, DVec3::ZERO, 0.0);
+    let ball = Sphere::new(DVec3::new(0.0, 0.1, 0.0), 0.1).with_restitution(0.0);
+    world.add_sphere(ball).unwrap();
+    world.add_emitter(Emitter::new(ball, 3.0).with_position(DVec3::new(5.0, 2.0, 0.0))).unwrap();
+    run(&mut world, 179);
+    assert_eq!(world.report().contact_account.asleep, 2);
+    run(&mut world, 16);
+    let height = world.spheres().positions()[2].y;
+    assert!(height < 2.0, "it hangs where it was emitted: {height}");
+}
