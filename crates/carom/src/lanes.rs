@@ -77,6 +77,13 @@ impl<S: Simd> Lanes<S> {
         self.to_array().into_iter().fold(0.0, Real::max)
     }
 
+    /// Their sum.
+    #[inline(always)]
+    pub fn sum(self) -> f64 {
+        let [a, b, c, d] = self.to_array();
+        (a + b) + (c + d)
+    }
+
     /// From lane 0 on.
     #[inline(always)]
     pub fn to_array(self) -> [f64; LANES] {
@@ -180,6 +187,16 @@ impl<S: Simd> Vector<Lanes<S>> {
             x: Lanes::each(simd, vectors.map(|vector| vector.x)),
             y: Lanes::each(simd, vectors.map(|vector| vector.y)),
             z: Lanes::each(simd, vectors.map(|vector| vector.z)),
+        }
+    }
+
+    /// These where they are chosen, and others elsewhere.
+    #[inline(always)]
+    pub fn select(self, chosen: mask64x4<S>, others: Self) -> Self {
+        Self {
+            x: self.x.select(chosen, others.x),
+            y: self.y.select(chosen, others.y),
+            z: self.z.select(chosen, others.z),
         }
     }
 

@@ -383,7 +383,7 @@ fn bits_depend_on_no_thread() {
             .unwrap();
     }
     run(&mut world, 60);
-    assert_eq!(world.state_hash().to_string(), "e9257eabb2536df6");
+    assert_eq!(world.state_hash().to_string(), "ac42fe80300d1b6e");
 }
 
 #[test]

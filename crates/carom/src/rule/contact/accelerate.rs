@@ -1,18 +1,21 @@
 //! Velocities gain what forces give them.
 
-use glam::DVec3;
+use fearless_simd::{Level, Simd, SimdMask, dispatch};
 
-use super::row::Row;
-use super::slots::{self, AWAKE, Run, Slots};
+use super::found::Found;
+use super::row::{self, Row};
+use super::slots::{AWAKE, Run};
 use super::solver::Solver;
 use super::sub_step::SubStep;
-use crate::forces::{self, SphereState};
 use crate::interval::Interval;
+use crate::lanes::{LANES, Lanes};
+use crate::real::{Real, Vector};
 use crate::settings::Contact;
 use crate::system::System;
 
-/// The world and the time on its clock \[s\], where some forces are not linear.
-pub(super) type Others<'a> = Option<(&'a System<'a>, f64)>;
+/// The number beside the velocity at the start of a sub-step, of a sphere that bears something: its
+/// difference to that of any other sphere is not zero.
+const BEARS: f64 = f64::INFINITY;
 
 /// Changes velocities over a sub-step by all forces, `v' = (v + h a) / (1 + h c)` with the rate c of
 /// linear drag, which so slows down and never turns round.
@@ -26,54 +29,83 @@ pub(super) fn accelerate(
     let h = frame.h / f64::from(parameters.sub_steps);
     let time = f64::from(number) * h;
     solver.h = h;
-    let others = solver.has_other_forces.then_some((system, frame.time + time));
+    if solver.has_other_forces {
+        solver.slots.add_other_forces(system, frame.time + time);
+    }
     solver.slabs.each(&mut solver.slots, |mut run, slab| {
-        accelerate_run(&mut run, h, others);
-        slab.found.energy = run.kinetic_energy();
+        slab.found = dispatch!(Level::new(), simd => accelerate_run(simd, &mut run, h));
     });
     solver.energy_before = solver.slabs.energy();
-    let (fall, difference) = match solver.common_acceleration {
-        Some(acceleration) => (h * acceleration.length(), 0.0),
-        None => {
-            let fall = largest_change(&solver.slots);
-            (fall, 2.0 * fall)
-        }
-    };
-    SubStep::new(time, h, [fall, difference])
+    solver.is_stale |= solver.slabs.list.iter().any(|slab| slab.found.leaves);
+    let change = solver.slabs.list.iter().map(|slab| slab.found.change).fold(0.0, f64::max);
+    SubStep::new(time, h, solver.common_acceleration, change)
 }
 
-/// The largest change of a velocity \[m/s\].
-fn largest_change(slots: &Slots) -> f64 {
-    let velocities = slots.velocity.iter().zip(&slots.before);
-    let changes = velocities.map(|(now, before)| now.vector() - before.vector());
-    changes.map(DVec3::length_squared).fold(0.0, f64::max).sqrt()
-}
-
-fn accelerate_run(run: &mut Run, h: f64, others: Others) {
-    run.before.copy_from_slice(run.velocity);
+/// Accelerates the spheres of a run; one that sleeps stays at rest. Finds their kinetic energy, the
+/// largest change of a velocity, and whether one may leave its margin in the sub-step.
+#[inline(always)]
+fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64) -> Found {
     run.spin_before.copy_from_slice(run.spin);
-    for slot in 0..run.velocity.len() {
-        run.velocity[slot] = accelerated(run, slot, h, others);
+    let zero = Lanes::all(simd, 0.0);
+    let length = Lanes::all(simd, h);
+    let [mut energy, mut change] = [zero; 2];
+    let mut leaves = false;
+    for slot in (0..run.velocity.len()).step_by(LANES) {
+        let (before, inverse_mass) = row::columns(simd, run.velocity, slot);
+        let (acceleration, drag_rate) = row::columns(simd, run.acceleration, slot);
+        let mut now = accelerated(simd, before, (acceleration, drag_rate), h);
+        let sleeps = row::flags(simd, run.island, slot, |island| island != AWAKE);
+        if sleeps.any_true() {
+            now = before.select(sleeps, now);
+        }
+        row::store(run.velocity, slot, (now, inverse_mass));
+        let bears = row::flags(simd, run.bears, slot, |bears| bears);
+        let bears = Lanes::all(simd, BEARS).select(bears, zero);
+        row::store(run.before, slot, (before, bears));
+
+        energy = energy + now.length_squared() / inverse_mass;
+        change = change.max((now - before).length_squared());
+        // A flight ends between where its first velocity takes it and where its last one does.
+        let (position, _) = row::columns(simd, run.position, slot);
+        let (reference, margin) = row::columns(simd, run.reference, slot);
+        let (way, reach) = (position - reference, margin * margin);
+        let first = (way + before * length).length_squared();
+        let last = (way + now * length).length_squared();
+        leaves |= (reach.is_less(first) | reach.is_less(last)).any_true();
+    }
+    let of_spin = kinetic_energy(simd, run.spin);
+    Found {
+        energy: 0.5 * energy.sum() + of_spin,
+        change: change.largest().sqrt(),
+        leaves,
+        ..Found::default()
     }
 }
 
-/// The velocity of a sphere at the end of the sub-step, without contacts. One that sleeps stays at rest.
-pub(super) fn accelerated(run: &Run, slot: usize, h: f64, others: Others) -> Row {
-    let (before, mut acceleration) = (run.before[slot], run.acceleration[slot]);
-    if run.island[slot] != AWAKE {
-        return before;
+/// Velocities at the end of a sub-step of `h` \[s\], without contacts \[m/s\].
+#[inline(always)]
+pub(super) fn accelerated<S: Simd>(
+    simd: S,
+    before: Vector<Lanes<S>>,
+    (acceleration, drag_rate): (Vector<Lanes<S>>, Lanes<S>),
+    h: f64,
+) -> Vector<Lanes<S>> {
+    let gained = before + acceleration * Lanes::all(simd, h);
+    let drag = drag_rate * h;
+    if drag.is_equal(Lanes::all(simd, 0.0)).all_true() {
+        return gained;
     }
-    if let Some((system, time)) = others {
-        let more = of_others(system, run.position[slot], before, time);
-        acceleration = acceleration.with_vector(acceleration.vector() + more);
-    }
-    slots::accelerated(before, acceleration, h)
+    let slowed = Lanes::all(simd, 1.0) + drag;
+    Vector { x: gained.x / slowed, y: gained.y / slowed, z: gained.z / slowed }
 }
 
-/// Acceleration \[m/s²\] by the forces that are not linear.
-fn of_others(system: &System, position: Row, velocity: Row, time: f64) -> DVec3 {
-    let (radius, inverse_mass) = (position.number(), velocity.number());
-    let (position, velocity) = (position.vector(), velocity.vector());
-    let state = SphereState { position, velocity, radius, mass: 1.0 / inverse_mass };
-    forces::total_of_others(system.forces, &state, time) * inverse_mass
+/// Kinetic energy \[J\] of rows of velocities beside 1/m, or of spins beside 1/(k m).
+#[inline(always)]
+pub(super) fn kinetic_energy<S: Simd>(simd: S, rows: &[Row]) -> f64 {
+    let mut energy = Lanes::all(simd, 0.0);
+    for slot in (0..rows.len()).step_by(LANES) {
+        let (velocity, inverse_mass) = row::columns(simd, rows, slot);
+        energy = energy + velocity.length_squared() / inverse_mass;
+    }
+    0.5 * energy.sum()
 }

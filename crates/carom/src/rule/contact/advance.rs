@@ -1,11 +1,15 @@
 //! Positions follow the velocities.
 
+use fearless_simd::{Level, Simd, SimdMask, dispatch};
 use glam::DVec3;
 
+use super::accelerate;
+use super::row;
 use super::slots::Run;
-use super::solver::Solver;
+use super::solver::{Bounce, Solver};
 use super::sub_step::SubStep;
 use super::surfaces;
+use crate::lanes::{LANES, Lanes};
 use crate::system::System;
 
 /// Moves spheres and surfaces over the sub-step.
@@ -17,49 +21,76 @@ use crate::system::System;
 /// is late by the rest of its way.
 pub(super) fn advance(system: &System, solver: &mut Solver, sub_step: &SubStep) {
     let Solver { slots, slabs, bounces, .. } = solver;
-    let h = sub_step.h;
     let flies = !solver.has_other_forces;
     slabs.each(slots, |mut run, slab| {
         let from = bounces.partition_point(|bounce| (bounce.slot as usize) < slab.start);
         let to = bounces.partition_point(|bounce| (bounce.slot as usize) < slab.end);
-        advance_run(&mut run, h, flies);
-        for bounce in &bounces[from..to] {
-            let slot = bounce.slot as usize - slab.start;
-            let position = &mut run.position[slot];
-            *position = position.with_vector(position.vector() + bounce.shift);
-            run.bears[slot] = false;
-        }
-        stay_within_margin(&mut run);
+        let run = &mut run;
+        dispatch!(Level::new(), simd => advance_run(simd, run, sub_step.h, flies));
+        shift_bounced(run, slab.start, &bounces[from..to]);
+        dispatch!(Level::new(), simd => stay_within_margin(simd, run));
         for (turn, spin) in run.turn.iter_mut().zip(&*run.spin) {
             *turn = turn.with_vector(turn.vector() + spin.vector());
         }
     });
     if solver.has_moving_surfaces {
-        let end = sub_step.time + h;
+        let end = sub_step.time + sub_step.h;
         surfaces::places_after(system.surfaces, end, &mut solver.places);
     }
 }
 
-fn advance_run(run: &mut Run, h: f64, flies: bool) {
-    for slot in 0..run.position.len() {
-        let (before, velocity) = (run.before[slot], run.velocity[slot]);
-        let flies = flies && velocity == run.accelerated(slot, h);
-        run.bears[slot] = !flies;
-        let mean =
-            if flies { 0.5 * (before.vector() + velocity.vector()) } else { velocity.vector() };
-        let position = &mut run.position[slot];
-        *position = position.with_vector(position.vector() + h * mean);
+#[inline(always)]
+fn advance_run<S: Simd>(simd: S, run: &mut Run, h: f64, flies: bool) {
+    for slot in (0..run.position.len()).step_by(LANES) {
+        let (before, _) = row::columns(simd, run.before, slot);
+        let (velocity, _) = row::columns(simd, run.velocity, slot);
+        let acceleration = row::columns(simd, run.acceleration, slot);
+        let flown = accelerate::accelerated(simd, before, acceleration, h);
+        let flies = velocity.x.is_equal(flown.x)
+            & velocity.y.is_equal(flown.y)
+            & velocity.z.is_equal(flown.z)
+            & Lanes::all(simd, 0.0).is_less(Lanes::all(simd, f64::from(u8::from(flies))));
+        let bears = Lanes::all(simd, 0.0).select(flies, Lanes::all(simd, 1.0));
+        for (bears, number) in run.bears[slot..].iter_mut().zip(bears.to_array()) {
+            *bears = number > 0.0;
+        }
+        let mean = (before + velocity) * Lanes::all(simd, 0.5);
+        let mean = mean.select(flies, velocity);
+        let (position, radius) = row::columns(simd, run.position, slot);
+        row::store(run.position, slot, (position + mean * Lanes::all(simd, h), radius));
     }
 }
 
-fn stay_within_margin(run: &mut Run) {
-    for (position, reference) in run.position.iter_mut().zip(run.reference) {
-        let (origin, margin) = (reference.vector(), reference.number());
-        let way = position.vector() - origin;
-        let length_squared = way.length_squared();
-        if length_squared > margin * margin {
-            let end: DVec3 = origin + way * (margin / length_squared.sqrt());
-            *position = position.with_vector(end);
+/// Takes spheres that bounce to where that brings them.
+fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) {
+    for bounce in bounces {
+        let slot = bounce.slot as usize - start;
+        let position = &mut run.position[slot];
+        *position = position.with_vector(position.vector() + bounce.shift);
+        run.bears[slot] = false;
+    }
+}
+
+#[inline(always)]
+fn stay_within_margin<S: Simd>(simd: S, run: &mut Run) {
+    for first in (0..run.position.len()).step_by(LANES) {
+        let (position, _) = row::columns(simd, run.position, first);
+        let (reference, margin) = row::columns(simd, run.reference, first);
+        let way = position - reference;
+        if !(margin * margin).is_less(way.length_squared()).any_true() {
+            continue;
+        }
+        let last = run.position.len().min(first + LANES);
+        for (position, reference) in
+            run.position[first..last].iter_mut().zip(&run.reference[first..last])
+        {
+            let (origin, margin) = (reference.vector(), reference.number());
+            let way = position.vector() - origin;
+            let length_squared = way.length_squared();
+            if length_squared > margin * margin {
+                let end: DVec3 = origin + way * (margin / length_squared.sqrt());
+                *position = position.with_vector(end);
+            }
         }
     }
 }

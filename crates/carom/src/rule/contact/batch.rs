@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::friction::ContactFriction;
+use super::materials::ContactMaterial;
 use crate::lanes::LANES;
 
 /// One number of each pair of a batch.
@@ -26,18 +26,29 @@ pub(super) struct PairBatch {
     pub normal: [Quad; 3],
     /// Normal impulses \[N s\].
     pub impulse: Quad,
-    /// The impulses of the sub-step before \[N s\].
-    pub previous: Quad,
     /// What the normal velocity is to be after the sub-step at least, with the opposite sign \[m/s\]: the
     /// gap may close, and a bounce separates.
     pub bias: Quad,
-    /// Speed of approach of an impact \[m/s\]; 0 if there is none.
-    pub approach: Quad,
     /// m1 m2 / (m1 + m2) \[kg\]
     pub effective_mass: Quad,
+}
+
+/// How the pairs of a batch come to touch: what no sweep reads, kept apart for sweeps to stream less memory.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C, align(32))]
+pub(super) struct ApproachBatch {
+    /// The normal impulses of the sub-step before \[N s\].
+    pub previous: Quad,
     /// \[m\]
     pub radius_sum: Quad,
-    pub restitution: Quad,
+}
+
+/// A batch in which an impact was found.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hit {
+    pub batch: u32,
+    /// Speeds of approach \[m/s\]; 0 where there is no impact.
+    pub speed: Quad,
 }
 
 /// Friction of the contacts of a batch.
@@ -105,8 +116,7 @@ pub(super) struct Pair {
     pub inverse_masses: [f64; 2],
     /// 1/(k m) of both \[1/kg\].
     pub inverse_inertias: [f64; 2],
-    pub restitution: f64,
-    pub friction: ContactFriction,
+    pub material: ContactMaterial,
     pub impulses: Impulses,
 }
 
@@ -114,7 +124,13 @@ pub(super) struct Pair {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Batches {
     pub pairs: Vec<PairBatch>,
-    /// As many, or none where there is no friction.
+    /// As many.
+    pub approaches: Vec<ApproachBatch>,
+    /// Coefficients of restitution, as many.
+    pub restitutions: Vec<Quad>,
+    /// The impacts of the sub-step, in order of their batches.
+    pub hits: Vec<Hit>,
+    /// As many as pairs, or none where there is no friction.
     pub frictions: Vec<FrictionBatch>,
     /// As many, or none where there is no rolling friction.
     pub rollings: Vec<RollingBatch>,
@@ -130,6 +146,9 @@ impl Batches {
     /// Makes ready for the pairs of a run of so many slots.
     pub fn clear(&mut self, slots: usize) {
         self.pairs.clear();
+        self.approaches.clear();
+        self.restitutions.clear();
+        self.hits.clear();
         self.frictions.clear();
         self.rollings.clear();
         self.counts.clear();
@@ -161,6 +180,8 @@ impl Batches {
         self.with_room.push(self.pairs.len() as u32);
         self.counts.push(0);
         self.pairs.push(PairBatch::EMPTY);
+        self.approaches.push(ApproachBatch::default());
+        self.restitutions.push([0.0; LANES]);
         if kinds.friction {
             self.frictions.push(FrictionBatch::default());
         }
@@ -195,24 +216,25 @@ impl Batches {
         (batch.first[lane], batch.second[lane]) = (first, second);
         let inverse_mass = pair.inverse_masses[0] + pair.inverse_masses[1];
         batch.effective_mass[lane] = 1.0 / inverse_mass;
-        batch.radius_sum[lane] = pair.radii[0] + pair.radii[1];
-        batch.restitution[lane] = pair.restitution;
         batch.impulse[lane] = pair.impulses.normal;
-        batch.previous[lane] = pair.impulses.previous;
+        let approach = &mut self.approaches[number];
+        approach.previous[lane] = pair.impulses.previous;
+        approach.radius_sum[lane] = pair.radii[0] + pair.radii[1];
+        self.restitutions[number][lane] = pair.material.restitution;
         let inverse_inertia = pair.inverse_inertias[0] + pair.inverse_inertias[1];
         if let Some(friction) = self.frictions.get_mut(number) {
             set(&mut friction.tangential, lane, pair.impulses.tangential);
             friction.tangential_mass[lane] = 1.0 / (inverse_mass + inverse_inertia);
-            friction.sliding[lane] = pair.friction.sliding;
-            friction.tangential_restitution[lane] = pair.friction.tangential_restitution;
+            friction.sliding[lane] = pair.material.friction.sliding;
+            friction.tangential_restitution[lane] = pair.material.friction.tangential_restitution;
         }
         if let Some(rolling) = self.rollings.get_mut(number) {
             let [r1, r2] = pair.radii;
             let radius = r1 * r2 / (r1 + r2);
             let [i1, i2] = pair.inverse_inertias;
             set(&mut rolling.angular, lane, pair.impulses.angular);
-            rolling.rolling[lane] = pair.friction.rolling * radius;
-            rolling.spinning[lane] = pair.friction.spinning * radius;
+            rolling.rolling[lane] = pair.material.friction.rolling * radius;
+            rolling.spinning[lane] = pair.material.friction.spinning * radius;
             rolling.inertia[lane] = 1.0 / (i1 / (r1 * r1) + i2 / (r2 * r2));
             (rolling.curvature[0][lane], rolling.curvature[1][lane]) = (1.0 / r1, 1.0 / r2);
         }
@@ -227,16 +249,14 @@ impl Batches {
         })
     }
 
-    /// The contacts that an impact was found for and that bear something: most batches have none.
-    pub fn impacts(&self) -> impl Iterator<Item = (usize, usize, [u32; 2])> {
-        let batches = self.pairs.iter().enumerate();
-        let hit = batches.filter(|(_, batch)| batch.approach != [0.0; LANES]);
-        hit.flat_map(|(number, batch)| {
-            let is_impact =
-                |lane: &usize| batch.approach[*lane] > 0.0 && batch.impulse[*lane] > 0.0;
-            (0..LANES)
-                .filter(is_impact)
-                .map(move |lane| (number, lane, [batch.first[lane], batch.second[lane]]))
+    /// The contacts that an impact was found for and that bear something, and their speeds of approach
+    /// \[m/s\].
+    pub fn impacts(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        self.hits.iter().flat_map(move |hit| {
+            let number = hit.batch as usize;
+            let bears = move |lane: &usize| self.pairs[number].impulse[*lane] > 0.0;
+            let hits = (0..LANES).filter(|&lane| hit.speed[lane] > 0.0).filter(bears);
+            hits.map(move |lane| (number, lane, hit.speed[lane]))
         })
     }
 
@@ -246,26 +266,26 @@ impl Batches {
         let bounces = batch.bias[lane] < 0.0;
         Impulses {
             normal: if bounces { 0.0 } else { batch.impulse[lane] },
-            previous: batch.previous[lane],
+            previous: self.approaches[number].previous[lane],
             tangential: self.frictions.get(number).map_or([0.0; 3], |it| get(&it.tangential, lane)),
             angular: self.rollings.get(number).map_or([0.0; 3], |it| get(&it.angular, lane)),
         }
     }
 
-    /// Speed of approach \[m/s\] and impulse on sphere 2 \[N s\] of an impact that is a bounce, without what
-    /// others press the two together with; `None` without a bounce.
-    pub fn bounce(&self, number: usize, lane: usize) -> Option<(f64, DVec3)> {
+    /// The impulse on sphere 2 \[N s\] of an impact with this speed of approach \[m/s\] that is a bounce,
+    /// without what others press the two together with; `None` without a bounce.
+    pub fn bounce(&self, number: usize, lane: usize, speed: f64) -> Option<DVec3> {
         let batch = &self.pairs[number];
-        let (impulse, approach) = (batch.impulse[lane], batch.approach[lane]);
         if batch.bias[lane] >= 0.0 {
             return None;
         }
-        let own = batch.effective_mass[lane] * (1.0 + batch.restitution[lane]) * approach;
+        let impulse = batch.impulse[lane];
+        let own = batch.effective_mass[lane] * (1.0 + self.restitutions[number][lane]) * speed;
         let tangential =
             self.frictions.get(number).map_or([0.0; 3], |it| get(&it.tangential, lane));
         let normal = DVec3::from_array(get(&batch.normal, lane));
         let whole = impulse * normal + DVec3::from_array(tangential);
-        Some((approach, whole * (own / impulse).min(1.0)))
+        Some(whole * (own / impulse).min(1.0))
     }
 
     pub fn count(&self) -> usize {
@@ -279,12 +299,8 @@ impl PairBatch {
         second: [0; LANES],
         normal: [[0.0; LANES]; 3],
         impulse: [0.0; LANES],
-        previous: [0.0; LANES],
         bias: [0.0; LANES],
-        approach: [0.0; LANES],
         effective_mass: [0.0; LANES],
-        radius_sum: [0.0; LANES],
-        restitution: [0.0; LANES],
     };
 }
 

@@ -1,15 +1,16 @@
 //! No impulse adds kinetic energy: neither restitution in a group of contacts, nor an impulse to start
 //! from that is no longer needed.
 
-use super::accelerate::{Others, accelerated};
+use fearless_simd::{Level, dispatch};
+use glam::DVec3;
+
+use super::accelerate::kinetic_energy;
 use super::row::Row;
 use super::slots::Run;
 use super::solve;
 use super::solver::Solver;
 use super::sub_step::SubStep;
-use crate::interval::Interval;
 use crate::report::StepReport;
-use crate::system::System;
 
 /// Gains up to this part of the kinetic energy are rounding.
 const ROUNDING: f64 = 1e-14;
@@ -26,13 +27,7 @@ const SOFTENING: u32 = 3;
 /// last resort less of all impulses is taken.
 ///
 /// Moving surfaces do work: where there are any, it is accounted for, and nothing is taken back.
-pub(super) fn keep(
-    system: &System,
-    frame: Interval,
-    solver: &mut Solver,
-    sub_step: &SubStep,
-    report: &mut StepReport,
-) {
+pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) {
     let before = solver.energy_before;
     let mut gain = gain(solver);
     if solver.has_moving_surfaces {
@@ -57,13 +52,16 @@ pub(super) fn keep(
         report.contact_account.impulse_work += gain;
         return;
     }
-    let others = solver.has_other_forces.then_some((system, frame.time + sub_step.time));
-    take_less(solver, gain, (sub_step.h, others));
+    take_less(solver, gain, sub_step.h);
 }
 
 /// What the impulses have added to the kinetic energy \[J\].
 fn gain(solver: &mut Solver) -> f64 {
-    solver.slabs.each(&mut solver.slots, |run, slab| slab.found.energy = run.kinetic_energy());
+    solver.slabs.each(&mut solver.slots, |run, slab| {
+        slab.found.energy = dispatch!(Level::new(), simd => {
+            kinetic_energy(simd, run.velocity) + kinetic_energy(simd, run.spin)
+        });
+    });
     solver.slabs.energy() - solver.energy_before
 }
 
@@ -71,36 +69,33 @@ fn gain(solver: &mut Solver) -> f64 {
 ///
 /// With the velocities v before them and v + d after, the kinetic energy of `v + s d` is a parabola in s
 /// that begins with a descent; s is the largest part that adds nothing. Momentum is kept for any s.
-fn take_less(solver: &mut Solver, gain: f64, (h, others): (f64, Others)) {
-    solver.slabs.each(&mut solver.slots, |run, slab| {
-        slab.found.energy = of_change(&run, h, others);
-    });
+fn take_less(solver: &mut Solver, gain: f64, h: f64) {
+    solver.slabs.each(&mut solver.slots, |run, slab| slab.found.energy = of_change(&run, h));
     // K(s) = K(0) + s slope + s² change, with the energy of the change alone.
     let change = solver.slabs.energy();
     let slope = gain - change;
     let part = if change > 0.0 { (-slope / change).clamp(0.0, 1.0) } else { 0.0 };
-    solver.slabs.each_run(&mut solver.slots, |mut run| take(&mut run, h, others, part));
+    solver.slabs.each_run(&mut solver.slots, |mut run| take(&mut run, h, part));
 }
 
 /// Kinetic energy of what the impulses changed \[J\].
-fn of_change(run: &Run, h: f64, others: Others) -> f64 {
-    let of =
-        |now: Row, before: Row| (now.vector() - before.vector()).length_squared() / now.number();
-    let velocities = (0..run.velocity.len())
-        .map(|slot| of(run.velocity[slot], accelerated(run, slot, h, others)));
-    let spins = run.spin.iter().zip(&*run.spin_before).map(|(now, before)| of(*now, *before));
+fn of_change(run: &Run, h: f64) -> f64 {
+    let of = |now: Row, before: DVec3| (now.vector() - before).length_squared() / now.number();
+    let velocities =
+        (0..run.velocity.len()).map(|slot| of(run.velocity[slot], run.accelerated(slot, h)));
+    let spins =
+        run.spin.iter().zip(&*run.spin_before).map(|(now, before)| of(*now, before.vector()));
     0.5 * (velocities.sum::<f64>() + spins.sum::<f64>())
 }
 
 /// Takes a part of what the impulses changed.
-fn take(run: &mut Run, h: f64, others: Others, part: f64) {
-    let between = |before: Row, now: Row| {
-        now.with_vector(before.vector() + part * (now.vector() - before.vector()))
-    };
+fn take(run: &mut Run, h: f64, part: f64) {
+    let between =
+        |before: DVec3, now: Row| now.with_vector(before + part * (now.vector() - before));
     for slot in 0..run.velocity.len() {
-        run.velocity[slot] = between(accelerated(run, slot, h, others), run.velocity[slot]);
+        run.velocity[slot] = between(run.accelerated(slot, h), run.velocity[slot]);
     }
     for (now, before) in run.spin.iter_mut().zip(&*run.spin_before) {
-        *now = between(*before, *now);
+        *now = between(before.vector(), *now);
     }
 }

@@ -5,7 +5,7 @@
 pub(super) struct Found {
     /// A sum \[J\].
     pub energy: f64,
-    /// Largest change of a normal impulse \[N s\].
+    /// Largest change of a normal impulse \[N s\], or of a velocity \[m/s\].
     pub change: f64,
     /// Largest speed that a contact had to be kept from \[m/s\]: in the last sweep, by how much it still
     /// closed too fast.
@@ -14,6 +14,8 @@ pub(super) struct Found {
     pub impulse: f64,
     /// Largest overlap, as a part of the sum of radii.
     pub overlap: f64,
+    /// Whether a sphere may leave its margin.
+    pub leaves: bool,
 }
 
 impl Found {

@@ -3,8 +3,10 @@
 use super::batch::ContactKinds;
 use super::found::Found;
 use super::kept::Kept;
+use super::materials::Materials;
 use super::slab::Slabs;
 use super::sleep;
+use super::slots::GONE;
 use super::solver::Solver;
 use super::surfaces;
 use crate::bodies::Motion;
@@ -25,9 +27,16 @@ pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
     if solver.is_changed || !solver.slots.are_of(ids) || solver.kinds != kinds {
         solver.slots.follow(ids);
         sleep::wake_incomplete(solver);
-        solver.kept = Some(Kept::of(&solver.slots, &solver.slabs, &solver.dormant, ids));
+        let mut kept = Kept::default();
+        // They are to be in slots by their index.
+        kept.collect(&solver.slabs, ids.len(), |slot| solver.slots.index[slot]);
+        kept.collect_dormant(&solver.dormant, ids.len(), |id| {
+            ids.binary_search(&id).map_or(GONE, |index| index as u32)
+        });
+        solver.kept = Some(kept);
         solver.slots.arrange(ids);
         solver.slabs = Slabs::of_one(ids.len());
+        solver.materials = Materials::of(system);
         (solver.kinds, solver.is_stale, solver.is_changed) = (kinds, true, false);
     }
     if kinds.friction || !motion.spin.angular_velocity.is_empty() {

@@ -40,13 +40,13 @@ pub(super) fn note_bounces(solver: &mut Solver, sub_step: &SubStep) {
     }
     let slots = &*slots;
     for slab in slabs.iter() {
-        for (number, lane, [first, second]) in slab.batches.impacts() {
-            let Some((approach, impulse)) = slab.batches.bounce(number, lane) else { continue };
-            let [first, second] = [first, second].map(|slot| slab.start + slot as usize);
-            let pair = &slab.batches.pairs[number];
+        for (number, lane, approach) in slab.batches.impacts() {
+            let Some(impulse) = slab.batches.bounce(number, lane, approach) else { continue };
+            let [first, second] = slab.slots_of(number, lane);
+            let radius_sum = slab.batches.approaches[number].radius_sum[lane];
             let offset = slots.position[second].vector() - slots.position[first].vector();
-            let normal = DVec3::from_array(batch::get(&pair.normal, lane));
-            let time = (offset.dot(normal) - pair.radius_sum[lane]).max(0.0) / approach;
+            let normal = DVec3::from_array(batch::get(&slab.batches.pairs[number].normal, lane));
+            let time = (offset.dot(normal) - radius_sum).max(0.0) / approach;
             let both = [(first, -impulse), (second, impulse)];
             if let [Some(first), Some(second)] = both.map(|it| bounce(slots, it, time, sub_step)) {
                 bounces.extend([first, second]);
@@ -72,7 +72,7 @@ fn bounce(
 ) -> Option<Bounce> {
     let [velocity, before] = [slots.velocity[slot], slots.before[slot]].map(Row::vector);
     let own = slots.velocity[slot].number() * impulse;
-    let change = velocity - slots.accelerated(slot, sub_step.h).vector();
+    let change = velocity - slots.accelerated(slot, sub_step.h);
     let is_alone =
         (change - own).length_squared() <= (ROUNDING * ROUNDING) * change.length_squared();
     let flight = 0.5 * sub_step.h * (before - (velocity - change));
@@ -80,10 +80,10 @@ fn bounce(
 }
 
 fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) {
-    for (number, lane, slots) in slab.batches.impacts() {
+    for (number, lane, approach_speed) in slab.batches.impacts() {
         let pair = &slab.batches.pairs[number];
         let mut normal = DVec3::from_array(batch::get(&pair.normal, lane));
-        let [mut first, mut second] = slots.map(|slot| slab.start + slot as usize);
+        let [mut first, mut second] = slab.slots_of(number, lane);
         if solver.slots.id[first] > solver.slots.id[second] {
             (first, second, normal) = (second, first, -normal);
         }
@@ -95,7 +95,7 @@ fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) 
             between: BodyPair::Spheres(at.id[first], at.id[second]),
             point: center.vector() + center.number() * normal,
             normal,
-            approach_speed: pair.approach[lane],
+            approach_speed,
             separation_speed: relative.dot(normal),
             impulse: pair.impulse[lane],
         });

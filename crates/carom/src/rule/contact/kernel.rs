@@ -3,9 +3,9 @@
 //!
 //! Every operation is the one that a single contact needs, so no bit depends on the vectors.
 
-use fearless_simd::{Level, Simd, SimdMask, dispatch};
+use fearless_simd::{Level, Simd, SimdMask, dispatch, mask64x4};
 
-use super::batch::{Batches, FrictionBatch, PairBatch, Quad, RollingBatch};
+use super::batch::{ApproachBatch, Batches, FrictionBatch, Hit, PairBatch, Quad, RollingBatch};
 use super::found::Found;
 use super::row::Row;
 use super::slots::Run;
@@ -19,19 +19,12 @@ const TINY: f64 = f64::MIN_POSITIVE;
 
 /// Prepares the contacts of a run: normals, gaps, what velocities must come to, and the impulses to
 /// start from, which it applies.
-pub(super) fn prepare(run: &mut Run, batches: &mut Batches, sub_step: &SubStep, bounces: bool) {
+pub(super) fn prepare(run: &mut Run, batches: &mut Batches, sub_step: &SubStep) {
     let level = Level::new();
-    macro_rules! prepare {
-        ($friction:literal, $bounces:literal) => {
-            dispatch!(level, simd => prepare_all::<_, $friction, $bounces>(
-                simd, run, batches, sub_step
-            ))
-        };
-    }
-    match (!batches.frictions.is_empty(), bounces) {
-        (false, false) => prepare!(false, false),
-        (false, true) => prepare!(false, true),
-        (true, _) => prepare!(true, true),
+    if batches.frictions.is_empty() {
+        dispatch!(level, simd => prepare_all::<_, false>(simd, run, batches, sub_step));
+    } else {
+        dispatch!(level, simd => prepare_all::<_, true>(simd, run, batches, sub_step));
     }
 }
 
@@ -60,18 +53,27 @@ pub(super) fn correct(run: &mut Run, batches: &Batches) -> f64 {
 }
 
 #[inline(always)]
-fn prepare_all<S: Simd, const FRICTION: bool, const BOUNCES: bool>(
+fn prepare_all<S: Simd, const FRICTION: bool>(
     simd: S,
     run: &mut Run,
     batches: &mut Batches,
     sub_step: &SubStep,
 ) {
-    let Batches { pairs, frictions, rollings, .. } = batches;
-    for (number, batch) in pairs.iter_mut().enumerate() {
-        aim::<S, BOUNCES>(simd, run, batch, sub_step);
+    let Batches { pairs, approaches, restitutions, hits, frictions, rollings, .. } = batches;
+    hits.clear();
+    for (number, (batch, approach)) in pairs.iter_mut().zip(approaches).enumerate() {
+        let aimed = aim(simd, run, (batch, approach), sub_step);
+        let mut speed = [0.0; LANES];
+        if aimed.is_any() {
+            let traits = (&*approach, &restitutions[number]);
+            speed = aimed.meet(simd, run, batch, traits, sub_step);
+            if speed != [0.0; LANES] {
+                hits.push(Hit { batch: number as u32, speed });
+            }
+        }
         if FRICTION {
             let friction = &mut frictions[number];
-            friction.aim(simd, run, batch);
+            friction.aim(simd, run, batch, speed);
             start_friction(simd, run, batch, friction, rollings.get_mut(number));
         } else {
             let impulse = Lanes::each(simd, batch.impulse);
@@ -82,15 +84,27 @@ fn prepare_all<S: Simd, const FRICTION: bool, const BOUNCES: bool>(
     }
 }
 
-/// Normals and gaps of now; the velocities that the contacts are to have after the sub-step; the impulses
-/// to start from.
+/// How the pairs of a batch come near each other in a sub-step.
+struct Aimed<S: Simd> {
+    /// Speeds of approach of impacts \[m/s\]; 0 elsewhere.
+    impact: Lanes<S>,
+    /// Where the spheres go so far that they may meet on their way.
+    goes_far: mask64x4<S>,
+    /// Where there is an impact.
+    is_hit: mask64x4<S>,
+    /// Where neither sphere bears anything.
+    is_free: mask64x4<S>,
+}
+
+/// Normals and gaps of now; the velocities that contacts are to have after the sub-step if none bounces;
+/// the impulses to start from.
 #[inline(always)]
-fn aim<S: Simd, const BOUNCES: bool>(
+fn aim<S: Simd>(
     simd: S,
     run: &Run,
-    batch: &mut PairBatch,
+    (batch, approach): (&mut PairBatch, &mut ApproachBatch),
     sub_step: &SubStep,
-) {
+) -> Aimed<S> {
     let all = |number| Lanes::all(simd, number);
     let zero = all(0.0);
     let offset = xyz(difference(simd, run.position, batch));
@@ -100,53 +114,106 @@ fn aim<S: Simd, const BOUNCES: bool>(
     let mut normal = offset * inverse;
     // Any direction would do for centres that coincide, but it must be the same always.
     normal.y = all(1.0).select(is_lost, normal.y);
-    let gap = length - Lanes::each(simd, batch.radius_sum);
+    let radius_sum = Lanes::each(simd, approach.radius_sum);
+    let gap = length - radius_sum;
 
-    let velocities: &[Row] = if BOUNCES { run.before } else { run.velocity };
-    let velocity = xyz(difference(simd, velocities, batch));
+    let [vx, vy, vz, bear] = difference(simd, run.before, batch);
+    let velocity = Vector { x: vx, y: vy, z: vz };
     let speed = velocity.dot(normal);
 
     let carried = Lanes::each(simd, batch.impulse);
-    let before = Lanes::each(simd, batch.previous);
+    let before = Lanes::each(simd, approach.previous);
     // What stopped an impact is no longer needed, once the two part.
     let has_bounced = Lanes::each(simd, batch.bias).is_less(zero) & zero.is_at_most(speed);
     let carried = smaller(carried, before).select(has_bounced, carried);
     let effective_mass = Lanes::each(simd, batch.effective_mass);
     let most = before * GROWTH + effective_mass * sub_step.growth;
-    batch.previous = carried.to_array();
+    approach.previous = carried.to_array();
     batch.impulse = smaller(carried, most).to_array();
-
-    let rests = zero.is_less(carried);
-    let threshold = all(-sub_step.resting_speed).select(rests, all(-sub_step.impact_speed));
-    let mut bias = gap.max(zero) * (1.0 / sub_step.h);
-    let is_fast = speed.is_less(threshold);
-    let is_impact = is_fast & (gap + speed * sub_step.h).is_less(zero);
-    if BOUNCES {
-        let rebound = Lanes::each(simd, batch.restitution) * speed;
-        // What bears something already does not bounce: it would lose the impulse to start from.
-        let is_new = carried.is_equal(zero);
-        bias = rebound.select(is_impact & is_new & rebound.is_less(zero), bias);
-    }
-    batch.approach = (zero - speed).select(is_impact, zero).to_array();
-    batch.bias = bias.to_array();
+    batch.bias = (gap.max(zero) * (1.0 / sub_step.h)).to_array();
     batch.normal = arrays(normal);
 
+    let rests = zero.is_less(carried);
+    let is_free = bear.is_equal(zero);
+    let least = all(sub_step.impact_speed);
+    let shaken = shaken_speed(simd, run, (batch, normal), sub_step);
+    let threshold = all(sub_step.resting_speed).select(rests, least);
+    let threshold = threshold.select(is_free, threshold.max(shaken));
+    let closing = zero - speed;
+    let meets = gap.is_less(closing * sub_step.h) & threshold.is_less(closing);
     let way = velocity.length_squared() * (sub_step.h * sub_step.h);
-    let reach = Lanes::each(simd, batch.radius_sum) * swept::FAR;
-    let bounces = bias.is_less(zero);
-    if (bounces | (reach * reach).is_less(way)).any_true() {
-        for lane in 0..LANES {
-            swept::aim_pair(run, batch, lane, sub_step);
-        }
+    let reach = radius_sum * swept::FAR;
+    Aimed {
+        impact: closing.select(meets, zero),
+        goes_far: (reach * reach).is_less(way),
+        is_hit: meets,
+        is_free,
     }
+}
+
+impl<S: Simd> Aimed<S> {
+    /// Whether there is an impact, or may be one.
+    #[inline(always)]
+    fn is_any(&self) -> bool {
+        (self.is_hit | self.goes_far).any_true()
+    }
+
+    /// The velocities that impacts are to end with. Gives speeds of approach \[m/s\], 0 where there is no
+    /// impact.
+    #[inline(always)]
+    fn meet(
+        self,
+        simd: S,
+        run: &Run,
+        batch: &mut PairBatch,
+        (approach, restitution): (&ApproachBatch, &Quad),
+        sub_step: &SubStep,
+    ) -> Quad {
+        let zero = Lanes::all(simd, 0.0);
+        let rebound = zero - Lanes::each(simd, *restitution) * self.impact;
+        // What bears something already does not bounce: it would lose the impulse to start from.
+        let is_new = Lanes::each(simd, approach.previous).is_equal(zero);
+        let bounces = is_new & rebound.is_less(zero);
+        let bias = rebound.select(bounces, Lanes::each(simd, batch.bias));
+        batch.bias = bias.to_array();
+        let mut speed = self.impact.to_array();
+        let is_swept = (self.goes_far | bounces) & (self.is_free | self.is_hit);
+        let is_swept = Lanes::all(simd, 1.0).select(is_swept, zero).to_array();
+        for lane in (0..LANES).filter(|&lane| is_swept[lane] > 0.0) {
+            let traits = [approach.radius_sum[lane], restitution[lane]];
+            if let Some(found) = swept::aim_pair(run, batch, (lane, traits), sub_step) {
+                speed[lane] = found;
+            }
+        }
+        speed
+    }
+}
+
+/// Speeds of approach below which the spheres of a batch that bear something do not bounce \[m/s\].
+#[inline(always)]
+fn shaken_speed<S: Simd>(
+    simd: S,
+    run: &Run,
+    (batch, normal): (&PairBatch, Vector<Lanes<S>>),
+    sub_step: &SubStep,
+) -> Lanes<S> {
+    let along = if let Some(acceleration) = sub_step.common_acceleration {
+        Vector::all(simd, acceleration).dot(normal).abs()
+    } else {
+        let first = xyz(Lanes::transposed(gathered(simd, run.acceleration, &batch.first)));
+        let second = xyz(Lanes::transposed(gathered(simd, run.acceleration, &batch.second)));
+        first.dot(normal).abs().max(second.dot(normal).abs())
+    };
+    let [by_weight, least] = sub_step.shaken();
+    along * by_weight + Lanes::all(simd, least)
 }
 
 impl FrictionBatch {
     /// The slip that impacts are to end with.
     #[inline(always)]
-    fn aim<S: Simd>(&mut self, simd: S, run: &Run, batch: &PairBatch) {
+    fn aim<S: Simd>(&mut self, simd: S, run: &Run, batch: &PairBatch, speed: Quad) {
         let restitution = Lanes::each(simd, self.tangential_restitution);
-        let impact = Lanes::each(simd, batch.approach);
+        let impact = Lanes::each(simd, speed);
         if !is_any(simd, impact * restitution) {
             self.slip = [[0.0; LANES]; 3];
             return;
@@ -317,10 +384,10 @@ fn solve_rolling<S: Simd>(simd: S, run: &mut Run, batch: &PairBatch, rolling: &m
 fn correct_all<S: Simd>(simd: S, run: &mut Run, batches: &Batches) -> f64 {
     let zero = Lanes::all(simd, 0.0);
     let mut largest = zero;
-    for batch in &batches.pairs {
+    for (batch, approach) in batches.pairs.iter().zip(&batches.approaches) {
         let offset = xyz(difference(simd, run.position, batch));
         let length = offset.length_squared().sqrt();
-        let radius_sum = Lanes::each(simd, batch.radius_sum);
+        let radius_sum = Lanes::each(simd, approach.radius_sum);
         let overlap = radius_sum * (1.0 - SLOP) - length;
         // Centres that coincide are left to the velocities.
         let is_whole = Lanes::all(simd, TINY).is_less(length);

@@ -22,6 +22,7 @@ mod impacts;
 mod kept;
 mod kernel;
 mod listing;
+mod materials;
 mod neighbours;
 mod order;
 mod row;
@@ -62,12 +63,12 @@ pub(crate) fn step(
     for number in 0..parameters.sub_steps {
         let sub_step = accelerate::accelerate(system, parameters, frame, number, solver);
         sleep::wake_touched(solver, &sub_step);
-        if neighbours::are_stale(solver, &sub_step) {
+        if solver.is_stale {
             neighbours::search(system, frame, &sub_step, solver, scratch, report);
         }
         solve::prepare(solver, &sub_step);
         solve::sweep(solver, &sub_step, parameters, report);
-        energy::keep(system, frame, solver, &sub_step, report);
+        energy::keep(solver, &sub_step, report);
         impacts::report(system, solver, &sub_step, report);
         impacts::note_bounces(solver, &sub_step);
         advance::advance(system, solver, &sub_step);

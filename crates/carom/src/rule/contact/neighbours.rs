@@ -6,37 +6,22 @@ use glam::DVec3;
 
 use super::batch::{ContactKinds, Pair};
 use super::kept::Kept;
-use super::row::Row;
-use super::search::{self, Search};
+use super::materials::{ContactMaterial, Materials};
+use super::search::Search;
 use super::slab::{self, Slab, Slabs};
-use super::slots::{AWAKE, Slots};
+use super::slots::{AWAKE, GONE, Slots};
 use super::solver::{Scratch, Solver};
 use super::sub_step::SubStep;
 use super::surfaces::{Place, SurfaceContact};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
 use crate::detect::surface_tree::Bounds;
-use crate::friction::ContactFriction;
 use crate::id::SphereId;
 use crate::interval::Interval;
+use crate::parallel;
 use crate::report::StepReport;
-use crate::respond::restitution_of;
 use crate::surface::Role;
 use crate::system::System;
-
-/// Whether a sphere may go farther in this sub-step than the last search allows.
-pub(super) fn are_stale(solver: &Solver, sub_step: &SubStep) -> bool {
-    let Slots { position, velocity, before, reference, .. } = &solver.slots;
-    let leaves = |slot: usize, velocity: DVec3| {
-        let end = position[slot].vector() + sub_step.h * velocity;
-        let (way, margin) = (end - reference[slot].vector(), reference[slot].number());
-        way.length_squared() > margin * margin
-    };
-    // A flight ends between where its first velocity takes it and where its last one does.
-    let may_leave =
-        |slot: usize| leaves(slot, velocity[slot].vector()) || leaves(slot, before[slot].vector());
-    solver.is_stale || (0..position.len()).any(may_leave)
-}
 
 /// Puts spheres into the order of space, finds which may touch, and makes contacts of them, which go on
 /// from the impulses that they had.
@@ -48,56 +33,56 @@ pub(super) fn search(
     scratch: &mut Scratch,
     report: &mut StepReport,
 ) {
-    let collect = || Kept::of(&solver.slots, &solver.slabs, &solver.dormant, &system.spheres.id);
-    let kept = &solver.kept.take().unwrap_or_else(collect);
+    let Scratch { search, kept } = scratch;
+    match solver.kept.take() {
+        Some(collected) => *kept = collected,
+        None => collect(system, solver, kept),
+    }
     let Solver { slots, slabs, watched, dormant, .. } = solver;
     solver.is_stale = false;
-    arrange(slots, [frame.h, sub_step.h], &mut scratch.search);
-    divide(slots, slabs, &scratch.search);
+    search.arrange(slots, [frame.h, sub_step.h]);
+    divide(slots, slabs, search);
+    let some_sleep = slots.asleep().next().is_some();
     if !dormant.is_empty() {
         let sleeps: BTreeSet<SphereId> = slots.asleep().collect();
         dormant.retain(|contact| sleeps.contains(&contact.sphere));
     }
     watched.clear();
     if system.settings.spheres_collide {
-        scratch.search.find_pairs(slots);
-        let pairs = &mut scratch.search.pairs;
-        watch_sleepers(slots, pairs, watched);
-        add_pairs(system, slots, slabs, kept, solver.kinds, pairs);
+        search.find_pairs(slots, slabs);
+        if some_sleep {
+            for slab in &mut slabs.list {
+                watch_sleepers(slots, &mut slab.pairs, watched);
+            }
+        }
     }
-    let left = frame.h - sub_step.time;
-    for slab in &mut slabs.list {
-        let surfaces = Surfaces { system, places: &solver.places, slots, kept, left };
-        surfaces.add_to(slab, &mut scratch.near);
-    }
+    let known = Known {
+        system,
+        slots,
+        kept,
+        before: search.from(),
+        materials: &solver.materials,
+        kinds: solver.kinds,
+        places: &solver.places,
+        left: frame.h - sub_step.time,
+    };
+    known.add_contacts(slabs);
     report.work.searches += 1;
-    report.work.pair_tests += std::mem::take(&mut scratch.search.tests);
+    report.work.pair_tests += search.take_tests();
 }
 
-/// Sorts spheres by space, and notes from where they may go how far.
-fn arrange(slots: &mut Slots, [frame, h]: [f64; 2], search: &mut Search) {
-    let count = slots.len();
-    // By index, for the order of spheres in one cell not to depend on the order of now.
-    let mut slot_of = vec![0; count];
+/// Keeps the impulses of all contacts.
+fn collect(system: &System, solver: &Solver, kept: &mut Kept) {
+    let slots = &solver.slots;
+    kept.collect(&solver.slabs, slots.len(), |slot| slot as u32);
+    if solver.dormant.is_empty() {
+        return;
+    }
+    let mut slot_of = vec![GONE; slots.len()];
     slots.index.iter().zip(0..).for_each(|(&index, slot)| slot_of[index as usize] = slot);
-    let by_index =
-        |rows: &[Row]| -> Vec<Row> { slot_of.iter().map(|&slot: &usize| rows[slot]).collect() };
-    let (positions, velocities) = (by_index(&slots.position), by_index(&slots.velocity));
-    let centers: Vec<DVec3> = positions.iter().map(|row| row.vector()).collect();
-    let radii: Vec<f64> = positions.iter().map(|row| row.number()).collect();
-    let margins: Vec<f64> = radii
-        .iter()
-        .zip(&velocities)
-        .map(|(&radius, velocity)| search::margin(radius, velocity.vector().length(), frame, h))
-        .collect();
-    let down = slots.acceleration.first().map_or(DVec3::ZERO, |row| row.vector());
-    let order = search.order(&centers, &radii, &margins, down);
-    let from: Vec<usize> = order.iter().map(|&index| slot_of[index as usize]).collect();
-    slots.reference.clear();
-    slots.reference.extend(
-        order.iter().map(|&index| Row::new(centers[index as usize], margins[index as usize])),
-    );
-    slots.permute(&from);
+    kept.collect_dormant(&solver.dormant, slots.len(), |id| {
+        system.spheres.id.binary_search(&id).map_or(GONE, |index| slot_of[index])
+    });
 }
 
 /// Divides the slots into slabs, without contacts.
@@ -107,13 +92,14 @@ fn divide(slots: &Slots, slabs: &mut Slabs, search: &Search) {
     for (slab, bounds) in slabs.list.iter_mut().zip(starts.windows(2)) {
         (slab.start, slab.end) = (bounds[0], bounds[1]);
     }
-    slabs.far.end = slots.len();
-    let ends: Vec<usize> = slabs.list.iter().map(|slab| slab.end).collect();
-    for (number, slab) in slabs.list.iter_mut().enumerate() {
-        let end = ends[(number + 1).min(ends.len() - 1)];
-        slab.batches.clear(end - slab.start);
+    for number in 0..slabs.list.len() {
+        let next_end = slabs.list[(number + 1).min(slabs.list.len() - 1)].end;
+        let slab = &mut slabs.list[number];
+        slab.batches.clear(next_end - slab.start);
         slab.surfaces.clear();
+        slab.pairs.clear();
     }
+    slabs.far.end = slots.len();
     slabs.far.batches.clear(slots.len());
 }
 
@@ -131,73 +117,76 @@ fn watch_sleepers(slots: &Slots, pairs: &mut Vec<[u32; 2]>, watched: &mut Vec<[u
     });
 }
 
-/// Makes contacts of pairs of slots, in the slab of the first one.
-fn add_pairs(
-    system: &System,
-    slots: &Slots,
-    slabs: &mut Slabs,
-    kept: &Kept,
-    kinds: ContactKinds,
-    pairs: &[[u32; 2]],
-) {
-    let Slabs { list, far } = slabs;
-    let mut number = 0;
-    for &[first, second] in pairs {
-        while list[number].end <= first as usize {
-            number += 1;
-        }
-        let next = (number + 1).min(list.len() - 1);
-        let slab = if (second as usize) < list[next].end { &mut list[number] } else { &mut *far };
-        let indices = [first, second].map(|slot| slots.index[slot as usize]);
-        let pair = Pair {
-            slots: [first, second].map(|slot| slot - slab.start as u32),
-            radii: [first, second].map(|slot| slots.position[slot as usize].number()),
-            inverse_masses: [first, second].map(|slot| slots.velocity[slot as usize].number()),
-            inverse_inertias: [first, second]
-                .map(|slot| slots.spin.get(slot as usize).map_or(0.0, |row| row.number())),
-            restitution: restitution_of(Bodies::pair(indices), system),
-            friction: friction_of(Bodies::pair(indices), system),
-            impulses: kept.of_pair(indices),
-        };
-        slab.batches.push(&pair, kinds);
-    }
-}
-
-/// Friction of a contact, from that of its bodies.
-fn friction_of(bodies: Bodies, system: &System) -> ContactFriction {
-    let of_sphere = |sphere: u32| system.spheres.friction(sphere as usize);
-    let both = match bodies {
-        Bodies::Pair(first, second) => [of_sphere(first), of_sphere(second)],
-        Bodies::Surface { sphere, surface } => {
-            [system.surfaces[surface as usize].friction, of_sphere(sphere)]
-        }
-    };
-    ContactFriction::of(both, system.settings.friction_combine_rule)
-}
-
-/// What contacts with surfaces are made of.
+/// What contacts are made of.
 #[derive(Clone, Copy)]
-struct Surfaces<'a> {
+struct Known<'a> {
     system: &'a System<'a>,
-    places: &'a [Place],
     slots: &'a Slots,
     kept: &'a Kept,
+    /// The slot of each sphere before the search.
+    before: &'a [u32],
+    materials: &'a Materials,
+    kinds: ContactKinds,
+    places: &'a [Place],
     /// What is left of the frame \[s\].
     left: f64,
 }
 
-impl Surfaces<'_> {
+impl Known<'_> {
+    /// Makes the contacts of all slabs, side by side.
+    fn add_contacts(&self, slabs: &mut Slabs) {
+        let Slabs { list, far } = slabs;
+        let ends: Vec<usize> = list.iter().map(|slab| slab.end).collect();
+        let tasks: Vec<_> = list.iter_mut().enumerate().collect();
+        parallel::for_each(tasks, |(number, slab)| {
+            let next_end = ends[(number + 1).min(ends.len() - 1)];
+            let Slab { start, batches, pairs, .. } = &mut *slab;
+            pairs.retain(|&pair| {
+                let is_far = pair[1] as usize >= next_end;
+                if !is_far {
+                    batches.push(&self.pair(pair, *start), self.kinds);
+                }
+                is_far
+            });
+            self.add_surfaces(slab);
+        });
+        for pair in list.iter_mut().flat_map(|slab| slab.pairs.drain(..)) {
+            far.batches.push(&self.pair(pair, 0), self.kinds);
+        }
+    }
+
+    /// What is known of the spheres in two slots, counted from the start of a run.
+    #[inline(always)]
+    fn pair(&self, slots: [u32; 2], start: usize) -> Pair {
+        let at = self.slots;
+        let [first, second] = slots.map(|slot| slot as usize);
+        let indices = [at.index[first], at.index[second]];
+        let spins = [at.spin.get(first), at.spin.get(second)];
+        Pair {
+            slots: slots.map(|slot| slot - start as u32),
+            radii: [at.position[first].number(), at.position[second].number()],
+            inverse_masses: [at.velocity[first].number(), at.velocity[second].number()],
+            inverse_inertias: spins.map(|row| row.map_or(0.0, |row| row.number())),
+            material: self.materials.of_pair(indices, self.system),
+            impulses: self.kept.of_pair([self.before[first], self.before[second]]),
+        }
+    }
+
     /// Makes contacts of the spheres of a slab with the surfaces that they may touch until the next
     /// search.
-    fn add_to(&self, slab: &mut Slab, near: &mut Vec<u32>) {
-        let Self { system, slots, .. } = *self;
+    fn add_surfaces(&self, slab: &mut Slab) {
+        let slots = self.slots;
+        let mut near = Vec::new();
+        let some_move = self.places.iter().any(|place| !place.1.is_at_rest());
         let awake = (slab.start..slab.end).filter(|&slot| slots.island[slot] == AWAKE);
         for slot in awake {
             let (center, radius) = (slots.position[slot].vector(), slots.position[slot].number());
             let margin = slots.reference[slot].number();
             let bounds = Bounds::around(center, DVec3::splat(radius + margin));
-            system.tree.near(&bounds, near);
-            self.add_moving(near);
+            self.system.tree.near(&bounds, &mut near);
+            if some_move {
+                self.add_moving(&mut near);
+            }
             for &surface in near.iter() {
                 if self.may_touch(slot, surface) {
                     let relative = (slot - slab.start) as u32;
@@ -210,11 +199,9 @@ impl Surfaces<'_> {
     /// Adds the surfaces that move, whose bounds are those of the start of the frame.
     fn add_moving(&self, near: &mut Vec<u32>) {
         let moves = |number: &u32| !self.places[*number as usize].1.is_at_rest();
-        if self.places.iter().any(|place| !place.1.is_at_rest()) {
-            near.extend((0..self.places.len() as u32).filter(moves));
-            near.sort_unstable();
-            near.dedup();
-        }
+        near.extend((0..self.places.len() as u32).filter(moves));
+        near.sort_unstable();
+        near.dedup();
     }
 
     /// Whether a sphere and a surface may touch until the next search, or the end of the frame.
@@ -224,22 +211,23 @@ impl Surfaces<'_> {
         }
         let (center, radius) =
             (self.slots.position[slot].vector(), self.slots.position[slot].number());
-        let margin = self.slots.reference[slot].number();
+        let mut margin = self.slots.reference[slot].number();
         let (form, motion) = &self.places[surface as usize];
-        let arm = (center - motion.origin).length() + radius + margin;
-        let speed = motion.velocity.length() + motion.angular_velocity.length() * arm;
+        if !motion.is_at_rest() {
+            let arm = (center - motion.origin).length() + radius + margin;
+            let speed = motion.velocity.length() + motion.angular_velocity.length() * arm;
+            margin += speed * self.left;
+        }
         // From behind a rectangle, a sphere may come round its edge.
-        let separation = sphere_surface(form, center, radius);
-        separation.is_none_or(|it| it.distance <= margin + speed * self.left)
+        sphere_surface(form, center, radius).is_none_or(|it| it.distance <= margin)
     }
 
     fn contact(&self, slot: usize, relative: u32, surface: u32) -> SurfaceContact {
         let sphere = self.slots.index[slot];
         let bodies = Bodies::Surface { sphere, surface };
-        let restitution = restitution_of(bodies, self.system);
-        let friction = friction_of(bodies, self.system);
-        let mut contact = SurfaceContact::new(relative, surface, restitution, friction);
-        contact.impulses = self.kept.of_surface(sphere, surface);
+        let material = ContactMaterial::of(bodies, self.system);
+        let mut contact = SurfaceContact::new(relative, surface, material);
+        contact.impulses = self.kept.of_surface(self.before[slot], surface);
         contact
     }
 }

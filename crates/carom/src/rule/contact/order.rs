@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::row::Row;
+
 /// Cells along an axis at most; beyond, spheres share the outermost ones.
 const MOST_CELLS: f64 = 1024.0;
 /// Cells for each sphere at most, all in all: where spheres are scattered, cells are wider.
@@ -22,10 +24,12 @@ pub(super) struct Grid {
 impl Grid {
     /// A grid of cells of this width at least \[m\] over these centres \[m\], whose fastest axis is that of
     /// the forces: columns stay together.
-    pub fn over(centers: &[DVec3], width: f64, down: DVec3) -> Self {
+    pub fn over(centers: &[Row], width: f64, down: DVec3) -> Self {
         let bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let (low, high) =
-            centers.iter().fold(bounds, |(low, high), &it| (low.min(it), high.max(it)));
+        let (low, high) = centers
+            .iter()
+            .map(|row| row.vector())
+            .fold(bounds, |(low, high), it| (low.min(it), high.max(it)));
         let extent = (high - low).max(DVec3::ZERO);
         let most = CELLS_PER_SPHERE * centers.len() as f64 + 64.0;
         let mut width = width.max(extent.max_element() / MOST_CELLS);
@@ -69,25 +73,29 @@ impl Grid {
     }
 }
 
-/// Sorts spheres by cell, those of one cell by index. `starts[c] .. starts[c + 1]` are the places of cell
-/// c in `order`.
-pub(super) fn sort(grid: &Grid, centers: &[DVec3], starts: &mut Vec<u32>, order: &mut Vec<u32>) {
-    let cells: Vec<u32> =
-        centers.iter().map(|&center| grid.number(grid.cell_of(center)) as u32).collect();
+/// Sorts slots by cell, those of one cell by the index of the sphere. `slot_of` has the slot of each index,
+/// `starts[c] .. starts[c + 1]` are the places of cell c in `order`.
+pub(super) fn sort(
+    count: usize,
+    cells: &[u32],
+    slot_of: &[u32],
+    starts: &mut Vec<u32>,
+    order: &mut Vec<u32>,
+) {
     starts.clear();
     // One place further than the starts will be, which makes room to count on while sorting.
-    starts.resize(grid.len() + 2, 0);
-    for &cell in &cells {
+    starts.resize(count + 2, 0);
+    for &cell in cells {
         starts[cell as usize + 2] += 1;
     }
     for cell in 2..starts.len() {
         starts[cell] += starts[cell - 1];
     }
     order.clear();
-    order.resize(centers.len(), 0);
-    for (index, &cell) in cells.iter().enumerate() {
-        let place = &mut starts[cell as usize + 1];
-        order[*place as usize] = index as u32;
+    order.resize(cells.len(), 0);
+    for &slot in slot_of {
+        let place = &mut starts[cells[slot as usize] as usize + 1];
+        order[*place as usize] = slot;
         *place += 1;
     }
 }

@@ -1,11 +1,18 @@
-//! Four numbers that are read together.
+//! Four numbers that are read together, and four of these side by side.
 
+use fearless_simd::{Simd, mask64x4};
 use glam::DVec3;
+
+use crate::lanes::{LANES, Lanes};
+use crate::real::Vector;
 
 /// A vector and one number more, in one piece of memory that a vector of the processor holds.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[repr(align(32))]
 pub(super) struct Row(pub [f64; 4]);
+
+/// What stands in lanes beyond the last row: at rest, with a mass.
+const BEYOND: Row = Row([0.0, 0.0, 0.0, 1.0]);
 
 impl Row {
     #[inline(always)]
@@ -30,4 +37,61 @@ impl Row {
     pub fn with_vector(self, vector: DVec3) -> Self {
         Self::new(vector, self.0[3])
     }
+}
+
+/// The vectors and the numbers of the rows from one on, side by side.
+#[inline(always)]
+pub(super) fn columns<S: Simd>(
+    simd: S,
+    rows: &[Row],
+    first: usize,
+) -> (Vector<Lanes<S>>, Lanes<S>) {
+    let [a, b, c, d] = four(rows, first, BEYOND);
+    let [x, y, z, number] = Lanes::transposed([
+        Lanes::each(simd, a.0),
+        Lanes::each(simd, b.0),
+        Lanes::each(simd, c.0),
+        Lanes::each(simd, d.0),
+    ]);
+    (Vector { x, y, z }, number)
+}
+
+/// Puts vectors and numbers side by side into the rows from one on.
+#[inline(always)]
+pub(super) fn store<S: Simd>(
+    rows: &mut [Row],
+    first: usize,
+    (Vector { x, y, z }, number): (Vector<Lanes<S>>, Lanes<S>),
+) {
+    let [a, b, c, d] = Lanes::transposed([x, y, z, number]);
+    let columns = [a.to_array(), b.to_array(), c.to_array(), d.to_array()];
+    for (row, column) in rows[first..].iter_mut().zip(columns) {
+        row.0 = column;
+    }
+}
+
+/// In which lanes something is so, of the items from one on.
+#[inline(always)]
+pub(super) fn flags<S: Simd, T: Copy + Default>(
+    simd: S,
+    items: &[T],
+    first: usize,
+    is_so: impl Fn(T) -> bool,
+) -> mask64x4<S> {
+    let [a, b, c, d] = four(items, first, T::default());
+    let number = |item: T| if is_so(item) { 1.0 } else { 0.0 };
+    let numbers = Lanes::each(simd, [number(a), number(b), number(c), number(d)]);
+    Lanes::all(simd, 0.0).is_less(numbers)
+}
+
+/// The items from one on, and beyond the last one something else.
+#[inline(always)]
+fn four<T: Copy>(items: &[T], first: usize, beyond: T) -> [T; LANES] {
+    let rest = items.get(first..).unwrap_or_default();
+    if let Some(four) = rest.first_chunk() {
+        return *four;
+    }
+    let mut four = [beyond; LANES];
+    four[..rest.len()].copy_from_slice(rest);
+    four
 }

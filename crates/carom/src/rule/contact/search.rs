@@ -1,18 +1,25 @@
 //! The search for neighbours: which spheres and surfaces may touch before the next one.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::order::{self, Grid};
 use super::row::Row;
+use super::slab::{Slab, Slabs};
 use super::slots::Slots;
 use crate::detect::broad_phase::BroadPhase;
+use crate::parallel;
 
 /// A sphere may go at least this part of its radius from where a search found it.
 const LEAST_MARGIN: f64 = 0.04;
 /// A sphere may go at most this part of its radius, unless it goes farther in a sub-step.
 const MOST_MARGIN: f64 = 0.3;
-/// Searches are worth their cost if they last this part of a frame at the speeds of now.
-const LASTING: f64 = 0.5;
+/// Margins are to be this part of the mean radius in the mean: with wider ones there are fewer searches,
+/// but more contacts that bear nothing.
+const MEAN_MARGIN: f64 = 0.15;
+/// A search is to last so many frames at least and at most, at the speeds of now.
+const LASTING: [f64; 2] = [1.5, 4.0];
 /// Speeds may grow by this factor meanwhile.
 const FASTER: f64 = 1.1;
 /// A sphere is wide whose reach is more than this many times the mean: it is looked for in all cells that
@@ -21,11 +28,10 @@ const WIDE: f64 = 1.5;
 /// With more wide ones than this part of all, spheres are found by a hierarchy of grids.
 const MOST_WIDE: f64 = 1.0 / 16.0;
 
-/// How far a sphere of this radius \[m\] and speed \[m/s\] may go until the next search \[m\], in frames of
-/// `frame` and sub-steps of `h` \[s\].
-pub(super) fn margin(radius: f64, speed: f64, frame: f64, h: f64) -> f64 {
-    let lasting = FASTER * speed * (LASTING * frame + h);
-    let bounded = lasting.clamp(LEAST_MARGIN * radius, MOST_MARGIN * radius);
+/// How far a sphere of this radius \[m\] and speed \[m/s\] may go until the next search \[m\], which is to
+/// come after a time of `lasting` \[s\], in sub-steps of `h` \[s\].
+fn margin(radius: f64, speed: f64, lasting: f64, h: f64) -> f64 {
+    let bounded = (FASTER * speed * lasting).clamp(LEAST_MARGIN * radius, MOST_MARGIN * radius);
     bounded.max(1.5 * FASTER * speed * h)
 }
 
@@ -33,39 +39,72 @@ pub(super) fn margin(radius: f64, speed: f64, frame: f64, h: f64) -> f64 {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Search {
     grid: Grid,
+    /// Where each cell begins among the slots.
     starts: Vec<u32>,
-    order: Vec<u32>,
+    /// By slot, how far each sphere may go \[m\].
+    margins: Vec<f64>,
+    /// The slot that each sphere is in before it is moved, in the new order.
+    from: Vec<u32>,
+    slot_of: Vec<u32>,
+    cells: Vec<u32>,
+    spare: Vec<Row>,
     wide: Vec<u32>,
     broad_phase: BroadPhase,
-    /// Pairs of slots, the smaller one first, in order of it.
-    pub pairs: Vec<[u32; 2]>,
+    pairs: Vec<[u32; 2]>,
     /// Pairs that were tested.
-    pub tests: u64,
+    tests: u64,
 }
 
 impl Search {
-    /// The indices of spheres with these centres and radii \[m\], in the order in which they are to be in
-    /// memory. `down` is the direction of the forces.
-    pub fn order(
-        &mut self,
-        centers: &[DVec3],
-        radii: &[f64],
-        margins: &[f64],
-        down: DVec3,
-    ) -> &[u32] {
-        let reach = |index: usize| radii[index] + margins[index];
-        let count = centers.len();
+    /// Sorts spheres by space, and notes from where they may go how far, in frames of `frame` and sub-steps
+    /// of `h` \[s\].
+    pub fn arrange(&mut self, slots: &mut Slots, [frame, h]: [f64; 2]) {
+        self.find_margins(slots, [frame, h]);
+        let Self { grid, starts, margins, from, slot_of, cells, spare, .. } = self;
+        let count = slots.len();
+        let reach = |slot: usize| slots.position[slot].number() + margins[slot];
         let mean = (0..count).map(reach).sum::<f64>() / count.max(1) as f64;
         let widest = (0..count).map(reach).filter(|&it| it <= WIDE * mean).fold(0.0, f64::max);
-        self.grid = Grid::over(centers, 2.0 * widest.max(f64::MIN_POSITIVE), down);
-        order::sort(&self.grid, centers, &mut self.starts, &mut self.order);
-        &self.order
+        let down = slots.acceleration.first().map_or(DVec3::ZERO, |row| row.vector());
+        *grid = Grid::over(&slots.position, 2.0 * widest.max(f64::MIN_POSITIVE), down);
+        cells.clear();
+        cells.extend(
+            slots.position.iter().map(|row| grid.number(grid.cell_of(row.vector())) as u32),
+        );
+        // By index, for the order of spheres in one cell not to depend on the order of now.
+        slot_of.resize(count, 0);
+        slots.index.iter().zip(0..).for_each(|(&index, slot)| slot_of[index as usize] = slot);
+        order::sort(grid.len(), cells, slot_of, starts, from);
+        slots.reference.clear();
+        slots.reference.extend(
+            from.iter().map(|&slot| {
+                Row::new(slots.position[slot as usize].vector(), margins[slot as usize])
+            }),
+        );
+        slots.permute(from, spare);
+    }
+
+    /// How far each sphere may go: in the mean a given part of the radius, but farther the faster it is,
+    /// for a few fast ones not to have all looked for again and again.
+    fn find_margins(&mut self, slots: &Slots, [frame, h]: [f64; 2]) {
+        let speed = |row: &Row| row.vector().length();
+        let speeds = slots.velocity.iter().map(speed).sum::<f64>();
+        let radii = slots.position.iter().map(|row| row.number()).sum::<f64>();
+        let [least, most] = LASTING.map(|frames| frames * frame + h);
+        let lasting = (MEAN_MARGIN * radii / speeds.max(f64::MIN_POSITIVE)).clamp(least, most);
+        // What is slow among fast ones may be hit, and fly as they do.
+        let mean_speed = speeds / slots.len().max(1) as f64;
+        let rows = slots.position.iter().zip(&slots.velocity);
+        self.margins.clear();
+        self.margins.extend(rows.map(|(position, velocity)| {
+            margin(position.number(), speed(velocity).max(mean_speed), lasting, h)
+        }));
     }
 
     /// First slots of so many runs of whole layers, and the end of the last: about as many spheres in each.
     pub fn runs(&self, wanted: usize) -> Vec<usize> {
         let [layers, rows, columns] = self.grid.cells;
-        let count = self.order.len();
+        let count = self.from.len();
         let wanted = wanted.clamp(1, layers);
         let start_of = |layer: usize| self.starts[layer * rows * columns] as usize;
         let mut starts = vec![0];
@@ -80,24 +119,47 @@ impl Search {
         starts
     }
 
-    /// Finds the pairs of slots whose spheres may touch until the next search.
-    pub fn find_pairs(&mut self, slots: &Slots) {
-        self.pairs.clear();
+    /// Finds the pairs of slots whose spheres may touch until the next search, the smaller slot first and
+    /// in order of it, for the slab of that one.
+    pub fn find_pairs(&mut self, slots: &Slots, slabs: &mut Slabs) {
         let Slots { position, reference, .. } = slots;
         let reach = |slot: usize| position[slot].number() + reference[slot].number();
         let widest = 0.5 * self.grid.width();
         self.wide.clear();
         self.wide.extend((0..slots.len() as u32).filter(|&slot| reach(slot as usize) > widest));
+        self.pairs.clear();
         if self.wide.len() as f64 > MOST_WIDE * slots.len() as f64 {
             self.find_by_hierarchy(slots);
-            return;
-        }
-        self.find_in_cells(position, &reach);
-        if !self.wide.is_empty() {
+        } else {
+            let cells = Cells { grid: &self.grid, starts: &self.starts, position, reference };
+            let tasks = slabs.list.iter_mut().collect();
+            parallel::for_each(tasks, |slab: &mut Slab| {
+                slab.tests = cells.find_pairs(slab.start..slab.end, &mut slab.pairs);
+            });
+            self.tests += slabs.list.iter().map(|slab| slab.tests).sum::<u64>();
+            if self.wide.is_empty() {
+                return;
+            }
+            slabs.list.iter_mut().for_each(|slab| self.pairs.append(&mut slab.pairs));
             self.find_of_wide(position, &reach);
-            // Wide ones are found last, but belong in between.
-            self.pairs.sort_unstable();
         }
+        self.pairs.sort_unstable();
+        let mut rest = &self.pairs[..];
+        for slab in &mut slabs.list {
+            let count = rest.partition_point(|pair| (pair[0] as usize) < slab.end);
+            slab.pairs.extend_from_slice(&rest[..count]);
+            rest = &rest[count..];
+        }
+    }
+
+    /// The slot that each sphere was in before it was moved.
+    pub fn from(&self) -> &[u32] {
+        &self.from
+    }
+
+    /// How many pairs were tested since the last call.
+    pub fn take_tests(&mut self) -> u64 {
+        std::mem::take(&mut self.tests)
     }
 
     /// Spheres of all sizes: pairs come in no useful order.
@@ -110,46 +172,6 @@ impl Search {
         broad_phase.rebuild(spheres, 0.0);
         broad_phase.for_each_pair(|i, j| pairs.push([i.min(j), i.max(j)]));
         *tests += pairs.len() as u64;
-        pairs.sort_unstable();
-    }
-
-    /// Pairs of spheres none of which is wide: in one cell or in neighbouring ones.
-    fn find_in_cells(&mut self, position: &[Row], reach: &impl Fn(usize) -> f64) {
-        let Self { grid, starts, pairs, tests, .. } = self;
-        let [layers, rows, columns] = grid.cells;
-        let widest = 0.5 * grid.width();
-        for first in 0..position.len() {
-            let own_reach = reach(first);
-            if own_reach > widest {
-                continue;
-            }
-            let center = position[first].vector();
-            let [layer, row, column] = grid.cell_of(center);
-            let mut scan = |from: usize, to: usize| {
-                *tests += (to - from) as u64;
-                for (second, row) in (from..to).zip(&position[from..to]) {
-                    let offset = row.vector() - center;
-                    let other_reach = reach(second);
-                    let sum = own_reach + other_reach;
-                    if offset.length_squared() < sum * sum && other_reach <= widest {
-                        pairs.push([first as u32, second as u32]);
-                    }
-                }
-            };
-            let (left, right) = (column.saturating_sub(1), (column + 2).min(columns));
-            let start_of = |layer: usize, row: usize, column: usize| {
-                starts[(layer * rows + row) * columns + column] as usize
-            };
-            scan(first + 1, start_of(layer, row, right));
-            if row + 1 < rows {
-                scan(start_of(layer, row + 1, left), start_of(layer, row + 1, right));
-            }
-            if layer + 1 < layers {
-                for row in row.saturating_sub(1)..(row + 2).min(rows) {
-                    scan(start_of(layer + 1, row, left), start_of(layer + 1, row, right));
-                }
-            }
-        }
     }
 
     /// Pairs of wide spheres with all others, in all cells that they may reach.
@@ -179,5 +201,62 @@ impl Search {
             let others = wide.iter().copied().filter(|&other| other > slot);
             others.for_each(&mut visit);
         }
+    }
+}
+
+/// Spheres in their cells.
+#[derive(Clone, Copy)]
+struct Cells<'a> {
+    grid: &'a Grid,
+    starts: &'a [u32],
+    position: &'a [Row],
+    reference: &'a [Row],
+}
+
+impl Cells<'_> {
+    /// Pairs of spheres none of which is wide, in one cell or in neighbouring ones, the smaller slot among
+    /// these. Gives how many were tested.
+    fn find_pairs(&self, slots: Range<usize>, pairs: &mut Vec<[u32; 2]>) -> u64 {
+        let Self { grid, position, reference, .. } = *self;
+        let [layers, rows, columns] = grid.cells;
+        let widest = 0.5 * grid.width();
+        let reach = |slot: usize| position[slot].number() + reference[slot].number();
+        let mut tests = 0;
+        for first in slots {
+            let own_reach = reach(first);
+            if own_reach > widest {
+                continue;
+            }
+            let center = position[first].vector();
+            let [layer, row, column] = grid.cell_of(center);
+            let farthest = own_reach + widest;
+            let mut scan = |from: usize, to: usize| {
+                tests += (to - from) as u64;
+                for (second, row) in (from..to).zip(&position[from..to]) {
+                    let distance_squared = (row.vector() - center).length_squared();
+                    if distance_squared < farthest * farthest {
+                        let other_reach = reach(second);
+                        let sum = own_reach + other_reach;
+                        if distance_squared < sum * sum && other_reach <= widest {
+                            pairs.push([first as u32, second as u32]);
+                        }
+                    }
+                }
+            };
+            let (left, right) = (column.saturating_sub(1), (column + 2).min(columns));
+            let start_of = |layer: usize, row: usize, column: usize| {
+                self.starts[(layer * rows + row) * columns + column] as usize
+            };
+            scan(first + 1, start_of(layer, row, right));
+            if row + 1 < rows {
+                scan(start_of(layer, row + 1, left), start_of(layer, row + 1, right));
+            }
+            if layer + 1 < layers {
+                for row in row.saturating_sub(1)..(row + 2).min(rows) {
+                    scan(start_of(layer + 1, row, left), start_of(layer + 1, row, right));
+                }
+            }
+        }
+        tests
     }
 }

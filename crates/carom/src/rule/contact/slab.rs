@@ -23,8 +23,20 @@ pub(super) struct Slab {
     pub end: usize,
     pub batches: Batches,
     pub surfaces: Vec<SurfaceContact>,
+    /// Pairs of slots that a search found, until contacts are made of them.
+    pub pairs: Vec<[u32; 2]>,
+    /// Pairs that the search tested.
+    pub tests: u64,
     /// What a stage found in this slab.
     pub found: Found,
+}
+
+impl Slab {
+    /// The slots of both spheres of a contact.
+    pub fn slots_of(&self, batch: usize, lane: usize) -> [usize; 2] {
+        let batch = &self.batches.pairs[batch];
+        [batch.first[lane], batch.second[lane]].map(|slot| self.start + slot as usize)
+    }
 }
 
 /// How many slabs so many spheres are to have.

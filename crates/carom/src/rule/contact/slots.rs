@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::row::Row;
 use crate::bodies::Motion;
-use crate::forces;
+use crate::forces::{self, SphereState};
 use crate::id::SphereId;
 use crate::system::System;
 
@@ -36,8 +36,10 @@ pub(super) struct Slots {
     pub calm: Vec<f64>,
     /// Whether a contact that is no bounce had an impulse in the sub-step before.
     pub bears: Vec<bool>,
-    /// Acceleration by forces that are linear \[m/s²\], and rate of drag \[1/s\].
+    /// Acceleration by forces \[m/s²\], and rate of linear drag \[1/s\].
     pub acceleration: Vec<Row>,
+    /// The acceleration by forces that are linear \[m/s²\]; empty where there are no others.
+    linear: Vec<Row>,
 }
 
 /// The number of an island that is awake.
@@ -112,7 +114,7 @@ impl Slots {
     }
 
     /// Has each slot take what was in another one: that of the same place in `from`.
-    pub fn permute(&mut self, from: &[usize]) {
+    pub fn permute(&mut self, from: &[u32], spare: &mut Vec<Row>) {
         for rows in [
             &mut self.position,
             &mut self.velocity,
@@ -121,16 +123,19 @@ impl Slots {
             &mut self.spin_before,
             &mut self.turn,
             &mut self.acceleration,
+            &mut self.linear,
         ] {
             if !rows.is_empty() {
-                *rows = from.iter().map(|&slot| rows[slot]).collect();
+                spare.clear();
+                spare.extend(from.iter().map(|&slot| rows[slot as usize]));
+                std::mem::swap(rows, spare);
             }
         }
-        self.id = from.iter().map(|&slot| self.id[slot]).collect();
-        self.index = from.iter().map(|&slot| self.index[slot]).collect();
-        self.bears = from.iter().map(|&slot| self.bears[slot]).collect();
-        self.calm = from.iter().map(|&slot| self.calm[slot]).collect();
-        self.island = from.iter().map(|&slot| self.island[slot]).collect();
+        permute(&mut self.id, from);
+        permute(&mut self.index, from);
+        permute(&mut self.bears, from);
+        permute(&mut self.calm, from);
+        permute(&mut self.island, from);
     }
 
     /// Has the accelerations of the forces of now, as far as they are linear. Tells whether there are
@@ -152,7 +157,27 @@ impl Slots {
             let own = spheres.applied_acceleration(i).unwrap_or(DVec3::ZERO);
             self.acceleration.push(Row::new(linear.acceleration + own, linear.drag_rate));
         }
+        self.linear.clear();
+        if has_others {
+            self.linear.clone_from(&self.acceleration);
+        }
         has_others
+    }
+
+    /// Has the accelerations of all forces, of now and at this time on the world's clock \[s\].
+    pub fn add_other_forces(&mut self, system: &System, time: f64) {
+        let moving = self.position.iter().zip(&self.velocity);
+        let accelerations = self.acceleration.iter_mut().zip(&self.linear);
+        for ((position, velocity), (acceleration, linear)) in moving.zip(accelerations) {
+            let state = SphereState {
+                position: position.vector(),
+                velocity: velocity.vector(),
+                radius: position.number(),
+                mass: 1.0 / velocity.number(),
+            };
+            let force = forces::total_of_others(system.forces, &state, time);
+            *acceleration = linear.with_vector(linear.vector() + force * velocity.number());
+        }
     }
 
     /// Gives the world where spheres are and how they move at the end of a frame.
@@ -213,25 +238,19 @@ impl Slots {
 }
 
 impl Slots {
-    /// The velocity of a sphere at the end of a sub-step of `h` \[s\], without contacts, under forces that
-    /// are linear.
-    pub fn accelerated(&self, slot: usize, h: f64) -> Row {
+    /// The velocity of a sphere that is awake at the end of a sub-step of `h` \[s\], without contacts \[m/s\].
+    pub fn accelerated(&self, slot: usize, h: f64) -> DVec3 {
         accelerated(self.before[slot], self.acceleration[slot], h)
     }
 }
 
 impl Run<'_> {
-    /// The velocity of a sphere at the end of a sub-step of `h` \[s\], without contacts, under forces that
-    /// are linear.
-    pub fn accelerated(&self, slot: usize, h: f64) -> Row {
+    /// The velocity of a sphere at the end of a sub-step of `h` \[s\], without contacts \[m/s\].
+    pub fn accelerated(&self, slot: usize, h: f64) -> DVec3 {
+        if self.island[slot] != AWAKE {
+            return self.before[slot].vector();
+        }
         accelerated(self.before[slot], self.acceleration[slot], h)
-    }
-
-    /// \[J\]
-    pub fn kinetic_energy(&self) -> f64 {
-        let energy = |row: &Row| row.vector().length_squared() / row.number();
-        let of_motion = self.velocity.iter().map(energy).sum::<f64>();
-        0.5 * (of_motion + self.spin.iter().map(energy).sum::<f64>())
     }
 }
 
@@ -267,9 +286,13 @@ fn front<'a, T>(rest: &mut &'a [T], count: usize) -> &'a [T] {
     front
 }
 
-/// `(v + h a) / (1 + h c)`, with the rate c of drag: drag slows down, and never turns round.
-pub(super) fn accelerated(before: Row, acceleration: Row, h: f64) -> Row {
+fn permute<T: Copy>(items: &mut Vec<T>, from: &[u32]) {
+    *items = from.iter().map(|&slot| items[slot as usize]).collect();
+}
+
+/// `(v + h a) / (1 + h c)` \[m/s\], with the rate c of drag: drag slows down, and never turns round.
+fn accelerated(before: Row, acceleration: Row, h: f64) -> DVec3 {
     let gained = before.vector() + h * acceleration.vector();
     let drag = h * acceleration.number();
-    before.with_vector(if drag > 0.0 { gained / (1.0 + drag) } else { gained })
+    if drag > 0.0 { gained / (1.0 + drag) } else { gained }
 }

@@ -21,9 +21,9 @@ const MOST_SWEEPS: u32 = 20_000;
 
 /// Prepares all contacts: normals, gaps, impacts; applies the impulses to start from.
 pub(super) fn prepare(solver: &mut Solver, sub_step: &SubStep) {
-    let Solver { slots, slabs, places, kinds, .. } = solver;
+    let Solver { slots, slabs, places, .. } = solver;
     slabs.each_contact(slots, Direction::Forwards, |run, slab| {
-        kernel::prepare(run, &mut slab.batches, sub_step, kinds.bounce);
+        kernel::prepare(run, &mut slab.batches, sub_step);
         surfaces::prepare(run, &mut slab.surfaces, places, sub_step);
     });
 }

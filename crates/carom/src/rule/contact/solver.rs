@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::batch::ContactKinds;
 use super::dormant::Dormant;
 use super::kept::Kept;
+use super::materials::Materials;
 use super::search::Search;
 use super::slab::Slabs;
 use super::slots::{AWAKE, Slots};
@@ -23,6 +24,7 @@ pub(crate) struct Solver {
     /// Where surfaces are at the start of the sub-step, and how they move.
     pub(super) places: Vec<Place>,
     pub(super) kinds: ContactKinds,
+    pub(super) materials: Materials,
     /// The acceleration of all spheres \[m/s²\], where it is one and constant.
     pub(super) common_acceleration: Option<DVec3>,
     /// Whether some force is not linear, and is evaluated in every sub-step.
@@ -61,7 +63,7 @@ pub(super) struct Bounce {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Scratch {
     pub(super) search: Search,
-    pub(super) near: Vec<u32>,
+    pub(super) kept: Kept,
 }
 
 impl Solver {

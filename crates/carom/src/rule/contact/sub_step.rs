@@ -1,5 +1,7 @@
 //! A sub-step: its length, and what tells an impact from a contact that rests.
 
+use glam::DVec3;
+
 /// Overlaps up to this part of the sum of radii are left as they are, so that a contact that rests does
 /// not come and go.
 pub(super) const SLOP: f64 = 0.0005;
@@ -33,20 +35,28 @@ pub(super) struct SubStep {
     pub resting_speed: f64,
     /// Speed that forces give a sphere in the sub-step at most \[m/s\].
     fall: f64,
+    /// The acceleration of all spheres \[m/s²\], where it is one and constant.
+    pub common_acceleration: Option<DVec3>,
     /// By how much an impulse to start from may grow, by effective mass \[m/s\].
     pub growth: f64,
 }
 
 impl SubStep {
-    /// A sub-step of `h` \[s\] in which forces change velocities by at most `fall`, and those of any two
-    /// spheres by at most `difference` relative to each other \[m/s\].
-    pub fn new(time: f64, h: f64, [fall, difference]: [f64; 2]) -> Self {
+    /// A sub-step of `h` \[s\] from a `time` \[s\] on, in which forces change velocities by at most `change`
+    /// \[m/s\].
+    pub fn new(time: f64, h: f64, common_acceleration: Option<DVec3>, change: f64) -> Self {
+        // Of two spheres relative to each other.
+        let (fall, difference) = match common_acceleration {
+            Some(acceleration) => (h * acceleration.length(), 0.0),
+            None => (change, 2.0 * change),
+        };
         Self {
             time,
             h,
             impact_speed: NEW * difference,
             resting_speed: RESTING * fall,
             fall,
+            common_acceleration,
             growth: GROWTH_BY_WEIGHT * fall,
         }
     }
@@ -54,7 +64,13 @@ impl SubStep {
     /// Speed of approach above which a new contact of a sphere that bears something is an impact \[m/s\];
     /// forces accelerate it by so much along the normal \[m/s²\].
     pub fn shaken_speed(&self, along: f64) -> f64 {
-        RESTING * self.h * along.abs() + SHAKEN * self.fall
+        let [by_weight, least] = self.shaken();
+        by_weight * along.abs() + least
+    }
+
+    /// What [`Self::shaken_speed`] is for each acceleration along the normal \[s\], and at least \[m/s\].
+    pub fn shaken(&self) -> [f64; 2] {
+        [RESTING * self.h, SHAKEN * self.fall]
     }
 
     /// Speed of approach above which a new contact with a surface is an impact \[m/s\], for a sphere

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::batch::Impulses;
 use super::found::Found;
+use super::materials::ContactMaterial;
 use super::slots::Run;
 use super::sub_step::{GROWTH, RELAXATION, SLOP, SubStep};
 use super::swept::{FAR, FREE};
@@ -49,7 +50,8 @@ pub(super) struct SurfaceContact {
 
 impl SurfaceContact {
     /// A contact of which nothing but its bodies is known.
-    pub fn new(slot: u32, surface: u32, restitution: f64, friction: ContactFriction) -> Self {
+    pub fn new(slot: u32, surface: u32, material: ContactMaterial) -> Self {
+        let ContactMaterial { restitution, friction } = material;
         Self {
             slot,
             surface,

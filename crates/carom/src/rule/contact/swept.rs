@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::batch::{PairBatch, get, set};
+use super::batch::{PairBatch, set};
 use super::slots::Run;
 use super::sub_step::SubStep;
 use crate::contact_time;
@@ -16,40 +16,33 @@ pub(super) const FAR: f64 = 0.125;
 pub(super) const FREE: f64 = f64::MAX;
 
 /// Has a contact of a batch that bounces, or whose spheres go far, wait for the impact that they come to
-/// within the sub-step, with the normal there; if they come to none, it bears nothing.
-pub(super) fn aim_pair(run: &Run, batch: &mut PairBatch, lane: usize, sub_step: &SubStep) {
+/// within the sub-step, with the normal there; if they come to none, it bears nothing. Gives the speed of
+/// approach \[m/s\], 0 if they come to none; `None` if they overlap already.
+pub(super) fn aim_pair(
+    run: &Run,
+    batch: &mut PairBatch,
+    (lane, [radius_sum, restitution]): (usize, [f64; 2]),
+    sub_step: &SubStep,
+) -> Option<f64> {
     let [first, second] = [batch.first[lane] as usize, batch.second[lane] as usize];
-    let radius_sum = batch.radius_sum[lane];
     let offset = run.position[second].vector() - run.position[first].vector();
     let velocity = run.before[second].vector() - run.before[first].vector();
-    let way = sub_step.h * sub_step.h * velocity.length_squared();
-    let reach = FAR * radius_sum;
-    let goes_far = way > reach * reach || batch.bias[lane] < 0.0;
-    let overlaps = offset.length_squared() <= radius_sum * radius_sum;
-    if first == second || !goes_far {
-        return;
-    }
-    if is_shaken(run, batch, lane, sub_step) {
-        let gap = offset.length() - radius_sum;
-        (batch.bias[lane], batch.approach[lane]) = (gap.max(0.0) / sub_step.h, 0.0);
-        return;
-    }
-    if overlaps {
-        return;
+    if first == second || offset.length_squared() <= radius_sum * radius_sum {
+        return None;
     }
     let time = contact_time::sphere_sphere_linear(offset, velocity, radius_sum);
     let Some(time) = time.filter(|&time| time <= sub_step.h) else {
         let passage = Passage::of(offset, velocity, radius_sum, sub_step.h);
         set(&mut batch.normal, lane, passage.normal.to_array());
-        (batch.bias[lane], batch.approach[lane]) = (passage.bias, 0.0);
-        return;
+        batch.bias[lane] = passage.bias;
+        return Some(0.0);
     };
     let normal = (offset + time * velocity) / radius_sum;
-    let approach = -velocity.dot(normal);
-    let rebound = batch.restitution[lane] * approach;
+    let speed = -velocity.dot(normal);
+    let rebound = restitution * speed;
     set(&mut batch.normal, lane, normal.to_array());
-    batch.bias[lane] = if rebound > 0.0 { -rebound } else { approach * time / sub_step.h };
-    batch.approach[lane] = approach;
+    batch.bias[lane] = if rebound > 0.0 { -rebound } else { speed * time / sub_step.h };
+    Some(speed)
 }
 
 /// How two spheres pass each other that do not meet within a sub-step.
@@ -74,13 +67,4 @@ impl Passage {
         let bias = if time > 0.0 { gap / time - normal.dot(velocity) } else { gap / h };
         Self { normal, bias }
     }
-}
-
-/// Whether spheres meet no faster than contacts are shaken by the others of a heap.
-fn is_shaken(run: &Run, batch: &PairBatch, lane: usize, sub_step: &SubStep) -> bool {
-    let slots = [batch.first[lane] as usize, batch.second[lane] as usize];
-    let normal = DVec3::from_array(get(&batch.normal, lane));
-    let along = slots.map(|slot| run.acceleration[slot].vector().dot(normal).abs());
-    slots.iter().any(|&slot| run.bears[slot])
-        && batch.approach[lane] < sub_step.shaken_speed(along[0].max(along[1]))
 }

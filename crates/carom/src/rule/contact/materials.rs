@@ -1,0 +1,96 @@
+//! Materials: spheres that say the same of restitution and friction, so that what a pair has of both is
+//! looked up and not combined anew at each search.
+
+use std::collections::BTreeMap;
+
+use crate::detect::contact::Bodies;
+use crate::friction::{ContactFriction, Friction};
+use crate::respond::restitution_of;
+use crate::system::System;
+
+/// With more materials than this, pairs are combined one by one.
+const MOST: usize = 64;
+
+/// What two bodies in contact have of restitution and friction.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct ContactMaterial {
+    pub restitution: f64,
+    pub friction: ContactFriction,
+}
+
+impl ContactMaterial {
+    /// That of these bodies.
+    pub fn of(bodies: Bodies, system: &System) -> Self {
+        let of_sphere = |sphere: u32| system.spheres.friction(sphere as usize);
+        let both = match bodies {
+            Bodies::Pair(first, second) => [of_sphere(first), of_sphere(second)],
+            Bodies::Surface { sphere, surface } => {
+                [system.surfaces[surface as usize].friction, of_sphere(sphere)]
+            }
+        };
+        Self {
+            restitution: restitution_of(bodies, system),
+            friction: ContactFriction::of(both, system.settings.friction_combine_rule),
+        }
+    }
+}
+
+/// The material of each sphere, and what each two of them have in contact.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Materials {
+    /// By index; empty where there are too many.
+    of_sphere: Vec<u8>,
+    /// By the material of the first, then of the second.
+    table: Vec<ContactMaterial>,
+    count: usize,
+}
+
+impl Materials {
+    /// Those of the spheres of now.
+    pub fn of(system: &System) -> Self {
+        let spheres = system.spheres;
+        let mut known: BTreeMap<[u64; 5], u8> = BTreeMap::new();
+        // A sphere of each material.
+        let mut examples = Vec::new();
+        let mut of_sphere = Vec::with_capacity(spheres.id.len());
+        for sphere in 0..spheres.id.len() {
+            let key = key(spheres.restitution[sphere], spheres.friction(sphere));
+            let material = *known.entry(key).or_insert_with(|| {
+                examples.push(sphere as u32);
+                (examples.len() - 1) as u8
+            });
+            if examples.len() > MOST {
+                return Self::default();
+            }
+            of_sphere.push(material);
+        }
+        let pairs =
+            examples.iter().flat_map(|&i| examples.iter().map(move |&j| Bodies::Pair(i, j)));
+        let table = pairs.map(|pair| ContactMaterial::of(pair, system)).collect();
+        Self { of_sphere, table, count: examples.len() }
+    }
+
+    /// What two spheres, given by index, have in contact.
+    pub fn of_pair(&self, [first, second]: [u32; 2], system: &System) -> ContactMaterial {
+        if self.of_sphere.is_empty() {
+            return ContactMaterial::of(Bodies::Pair(first, second), system);
+        }
+        if self.count == 1 {
+            return self.table[0];
+        }
+        let material = |sphere: u32| usize::from(self.of_sphere[sphere as usize]);
+        self.table[material(first) * self.count + material(second)]
+    }
+}
+
+/// The bits of what a sphere says, the same for spheres of one material.
+fn key(restitution: f64, friction: Friction) -> [u64; 5] {
+    let bits = |said: Option<f64>| said.map_or(u64::MAX, f64::to_bits);
+    [
+        restitution.to_bits(),
+        bits(friction.sliding),
+        bits(friction.rolling),
+        bits(friction.spinning),
+        bits(friction.tangential_restitution),
+    ]
+}
