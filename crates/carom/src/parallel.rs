@@ -13,6 +13,10 @@ pub(crate) fn map<M: Default, T: Send>(
     f: impl Fn(&mut M, usize) -> T + Sync + Send,
 ) -> Vec<T> {
     use rayon::prelude::*;
+    if count < 2 * FEW {
+        let mut memory = M::default();
+        return (0..count).map(|number| f(&mut memory, number)).collect();
+    }
     (0..count).into_par_iter().with_min_len(FEW).map_init(M::default, f).collect()
 }
 
@@ -33,6 +37,9 @@ pub(crate) fn fill<A: Send, B: Send>(
     f: impl Fn(usize, (&mut [A], &mut [B])) + Sync + Send,
 ) {
     use rayon::prelude::*;
+    if first.len() < 2 * FEW {
+        return f(0, (first, second));
+    }
     let runs = first.par_chunks_mut(FEW).zip(second.par_chunks_mut(FEW)).enumerate();
     runs.for_each(|(number, run)| f(number * FEW, run));
 }
@@ -46,11 +53,23 @@ pub(crate) fn fill<A: Send, B: Send>(
     f(0, both);
 }
 
+/// Does work on so many items among the threads: what it does side by side then waits for none to wake.
+#[cfg(feature = "rayon")]
+pub(crate) fn among_threads<T: Send>(items: usize, work: impl FnOnce() -> T + Send) -> T {
+    if items < 2 * FEW { work() } else { rayon::scope(|_| work()) }
+}
+
+/// Does work where it is.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn among_threads<T: Send>(_: usize, work: impl FnOnce() -> T + Send) -> T {
+    work()
+}
+
 /// Does tasks that do not depend on each other, side by side.
 #[cfg(feature = "rayon")]
 pub(crate) fn for_each<T: Send>(tasks: Vec<T>, f: impl Fn(T) + Sync + Send) {
     use rayon::prelude::*;
-    if tasks.len() == 1 {
+    if tasks.len() <= 1 {
         tasks.into_iter().for_each(f);
     } else {
         tasks.into_par_iter().for_each(f);

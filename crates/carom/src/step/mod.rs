@@ -10,6 +10,7 @@ pub(crate) use attempt::Scratch;
 use attempt::Attempt;
 
 use crate::error::{Error, Subject};
+use crate::parallel;
 use crate::report::StepReport;
 pub(crate) use crate::rule::exact::Until;
 use crate::rule::{bisect, contact, discrete};
@@ -77,7 +78,9 @@ pub(crate) fn step(
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
                 let (system, motion, solver) = state.split_with_solver();
                 let memory = (solver, &mut scratch.contact);
-                contact::step(&system, parameters, motion, frame, memory, report);
+                parallel::among_threads(system.spheres.id.len(), || {
+                    contact::step(&system, parameters, motion, frame, memory, report);
+                });
             })?;
             attempt.report_triggers();
             Ok(())

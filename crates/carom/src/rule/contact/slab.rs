@@ -12,7 +12,7 @@ use super::surfaces::SurfaceContact;
 use crate::parallel;
 
 /// Spheres in a slab, about.
-const SPHERES: usize = 800;
+const SPHERES: usize = 500;
 /// Slabs at most.
 const MOST: usize = 32;
 
