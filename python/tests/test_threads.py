@@ -1,5 +1,6 @@
 """Long calls let other threads of Python run, and can be stopped."""
 
+import os
 import signal
 import threading
 import time
@@ -55,6 +56,30 @@ def test_threads_that_use_one_world_wait_for_each_other() -> None:
     alone.step(frames=20)
     assert seen == [1000] * 100
     assert world.state_hash == alone.state_hash
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no forked processes")
+@pytest.mark.filterwarnings("ignore:.*use of fork:DeprecationWarning")
+def test_a_heap_is_stepped_in_a_forked_process_as_in_its_parent() -> None:
+    # So many that threads share them.
+    ball = carom.Sphere(radius=0.5, restitution=0.0)
+    balls = carom.Lattice((12, 10, 12), (0, 0.6, 0), (1.05, 1.05, 1.05), ball)
+    scene = carom.Scene(
+        name="heap",
+        simulation=carom.Simulation(rule="contact"),
+        forces=[carom.Gravity((0, -9.81, 0))],
+        colliders=[carom.Collider(carom.HalfSpace())],
+        generators=[balls],
+    )
+    world = scene.world()
+    world.step(frames=3)
+    child = os.fork()
+    if child == 0:
+        world.step(frames=3)
+        os._exit(int(world.state_hash, 16) % 251)
+    world.step(frames=3)
+    _, status = os.waitpid(child, 0)
+    assert os.waitstatus_to_exitcode(status) == int(world.state_hash, 16) % 251
 
 
 def test_a_run_is_stopped_by_ctrl_c() -> None:

@@ -20,6 +20,7 @@ use crate::properties::sphere_properties;
 use crate::snapshot::Snapshot;
 use crate::stop;
 use crate::tables::Table;
+use crate::threads;
 
 /// What `carom.World` stands on: a world, and the arrays that Python sees of it.
 ///
@@ -77,7 +78,8 @@ impl Inner {
     pub fn take_frame(&mut self, dt: f64) -> Result<(), carom::Error> {
         let start = self.world.time();
         self.world.set_stop_request(Some(stop::on_signal()));
-        self.world.step(dt)?;
+        let world = &mut self.world;
+        threads::among_all(world.spheres().len(), || world.step(dt).map(|_| ()))?;
         self.frame_start = start;
         Ok(())
     }

@@ -9,6 +9,7 @@ use crate::arguments;
 use crate::engine::{Engine, Inner};
 use crate::failure::Failure;
 use crate::stop;
+use crate::threads;
 
 #[pymethods]
 impl Engine {
@@ -52,7 +53,8 @@ impl Engine {
 fn step_to_next_event(inner: &mut Inner, within: f64) -> Result<(), Failure> {
     let start = inner.world.time();
     inner.world.set_stop_request(Some(stop::on_signal()));
-    inner.world.step_to_next_event(within)?;
+    let world = &mut inner.world;
+    threads::among_all(world.spheres().len(), || world.step_to_next_event(within).map(|_| ()))?;
     inner.frame_start = start;
     Ok(())
 }

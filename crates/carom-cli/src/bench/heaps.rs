@@ -9,6 +9,7 @@ use carom::{
 use serde::Serialize;
 
 use super::median::median;
+use super::threads;
 use crate::failure::Failure;
 use crate::table::{Side, Table};
 
@@ -18,26 +19,48 @@ const FRAMES: u32 = 600;
 const RADIUS: f64 = 0.5;
 /// Distance of balls in a pile \[m\].
 const SPACING: f64 = 1.05;
+/// The balls that rain onto a sphere, and that sphere \[m\].
+const DROP_RADIUS: f64 = 0.15;
+const TARGET_RADIUS: f64 = 10.0;
+/// Distance of these balls, across and up \[m\].
+const DROP_SPACING: [f64; 2] = [0.57, 0.8];
 
-pub const NOTE: &str = "pile: balls of radius 0.5 m on a lattice fall into a box; 600 frames of 1/60 s, \
-                        e = 0; overlap as a part of the radius at the end and at worst";
+pub const NOTE: &str = "pile: balls of radius 0.5 m on a lattice fall into a box; rain: balls of radius 0.15 m \
+                        fall onto a fixed sphere of 10 m; 600 frames of 1/60 s, e = 0; overlap as a part \
+                        of the radius at the end and at worst";
 
-/// A pile that is measured.
+/// What is measured.
 #[derive(Debug, Clone, Copy)]
-struct Pile {
+struct Heap {
+    kind: Kind,
     count: usize,
     friction: f64,
 }
 
-/// What came out of a pile.
+/// What balls fall onto.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum Kind {
+    /// A box.
+    Pile,
+    /// A large fixed sphere.
+    Rain,
+}
+
+/// What came out of a heap.
 #[derive(Debug, Clone, Serialize)]
 pub struct HeapRow {
+    kind: Kind,
     balls: usize,
     friction: f64,
-    /// Milliseconds for a frame, of each run.
+    /// Milliseconds for a frame, of each run on one thread.
     runs: Vec<f64>,
     /// Their median \[ms\].
     frame_milliseconds: f64,
+    /// Threads of [`Self::threads_frame_milliseconds`].
+    threads: usize,
+    /// Milliseconds for a frame with all threads, the median of as many runs.
+    threads_frame_milliseconds: f64,
     /// Milliseconds for a frame among the last hundred.
     last_milliseconds: f64,
     /// Largest overlap at the end, as a part of the radius.
@@ -51,30 +74,40 @@ pub struct HeapRow {
     state: String,
 }
 
-/// Measures the piles of the set; the largest only where `full`.
+/// Measures the heaps of the set, each on one thread and on all; the largest only where `full`.
 pub fn measure_set(runs: u32, full: bool) -> Result<Vec<HeapRow>, Failure> {
-    let smooth = [2_000, 10_000].map(|count| Pile { count, friction: 0.0 });
-    let rough = [2_000, 10_000].map(|count| Pile { count, friction: 0.4 });
-    let large = full.then_some(Pile { count: 100_000, friction: 0.0 });
-    smooth.into_iter().chain(rough).chain(large).map(|pile| Ok(measure(pile, runs)?)).collect()
+    let pile = |count, friction| Heap { kind: Kind::Pile, count, friction };
+    let smooth = [2_000, 10_000].map(|count| pile(count, 0.0));
+    let rough = [2_000, 10_000].map(|count| pile(count, 0.4));
+    let rain = Heap { kind: Kind::Rain, count: 10_000, friction: 0.0 };
+    let large = full.then_some(pile(100_000, 0.0));
+    let all = smooth.into_iter().chain(rough).chain([rain]).chain(large);
+    all.map(|heap| Ok(measure(heap, runs)?)).collect()
 }
 
-fn measure(pile: Pile, runs: u32) -> Result<HeapRow, Error> {
-    let rows = (0..runs).map(|_| run(pile)).collect::<Result<Vec<_>, _>>()?;
+fn measure(heap: Heap, runs: u32) -> Result<HeapRow, Error> {
+    let several = || (0..runs).map(|_| run(heap)).collect::<Result<Vec<_>, _>>();
+    let rows = threads::on(1, several)?;
     let all: Vec<f64> = rows.iter().map(|row| row.frame_milliseconds).collect();
     let last = rows.iter().map(|row| row.last_milliseconds).collect();
+    let threads = threads::most();
+    let side_by_side = if threads > 1 { threads::on(threads, several)? } else { rows.clone() };
     let row = rows.into_iter().next_back();
     row.map(|row| HeapRow {
         frame_milliseconds: median(all.clone()),
         last_milliseconds: median(last),
         runs: all,
+        threads,
+        threads_frame_milliseconds: median(
+            side_by_side.iter().map(|row| row.frame_milliseconds).collect(),
+        ),
         ..row
     })
     .ok_or(Error::Stopped { time: 0.0 })
 }
 
-fn run(pile: Pile) -> Result<HeapRow, Error> {
-    let mut world = piled(pile)?;
+fn run(heap: Heap) -> Result<HeapRow, Error> {
+    let mut world = heap.world()?;
     let (mut worst, mut times) = (0.0_f64, Vec::new());
     for _ in 0..FRAMES {
         let began = Instant::now();
@@ -88,61 +121,122 @@ fn run(pile: Pile) -> Result<HeapRow, Error> {
     let mean = |times: &[f64]| times.iter().sum::<f64>() / times.len() as f64;
     let depths = world.overlaps(0.0).into_iter().map(|overlap| overlap.depth);
     Ok(HeapRow {
-        balls: pile.count,
-        friction: pile.friction,
+        kind: heap.kind,
+        balls: heap.count,
+        friction: heap.friction,
         runs: Vec::new(),
         frame_milliseconds: mean(&times),
+        threads: 1,
+        threads_frame_milliseconds: mean(&times),
         last_milliseconds: mean(&times[times.len() - 100..]),
-        overlap: depths.fold(0.0, f64::max) / RADIUS,
+        overlap: depths.fold(0.0, f64::max) / heap.radius(),
         worst_overlap: worst,
-        rms_speed: (squares / pile.count as f64).sqrt(),
+        rms_speed: (squares / heap.count as f64).sqrt(),
         asleep: world.report().contact_account.asleep,
         state: world.state_hash().to_string(),
     })
 }
 
-/// Balls on a lattice, each second layer shifted by a tenth of a radius, over an open box.
-fn piled(Pile { count, friction }: Pile) -> Result<World, Error> {
-    let mut world = World::new(Settings::default().with_rule(Contact::default()))?;
-    world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
-    let side = (0.8 * libm::cbrt(count as f64) - 1e-9).ceil() as usize;
-    let width = side as f64 * SPACING;
-    let walls = [
-        (DVec3::Y, DVec3::ZERO),
-        (DVec3::X, DVec3::ZERO),
-        (DVec3::NEG_X, width * DVec3::X),
-        (DVec3::Z, DVec3::ZERO),
-        (DVec3::NEG_Z, width * DVec3::Z),
-    ];
-    for (normal, point) in walls {
-        let pose = Pose::at(point).rotated(DQuat::from_rotation_arc(DVec3::Y, normal));
-        let wall = Collider::new(Shape::HalfSpace, pose).with_friction(friction);
-        world.add_collider(wall)?;
+impl Heap {
+    /// Radius of the balls \[m\].
+    fn radius(self) -> f64 {
+        match self.kind {
+            Kind::Pile => RADIUS,
+            Kind::Rain => DROP_RADIUS,
+        }
     }
-    for number in 0..count {
-        let (layer, cell) = (number / (side * side), number % (side * side));
-        let shift = 0.1 * RADIUS * (layer % 2) as f64;
-        let place = DVec3::new(
-            RADIUS + (cell % side) as f64 * SPACING + shift,
-            0.6 + layer as f64 * SPACING,
-            RADIUS + (cell / side) as f64 * SPACING + shift,
-        );
-        let ball = Sphere::new(place, RADIUS).with_restitution(0.0);
-        world.add_sphere(ball.with_friction(friction))?;
+
+    fn world(self) -> Result<World, Error> {
+        let mut world = World::new(Settings::default().with_rule(Contact::default()))?;
+        world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
+        match self.kind {
+            Kind::Pile => self.add_pile(&mut world)?,
+            Kind::Rain => self.add_rain(&mut world)?,
+        }
+        Ok(world)
     }
-    Ok(world)
+
+    /// Balls on a lattice, each second layer shifted by a tenth of a radius, over an open box.
+    fn add_pile(self, world: &mut World) -> Result<(), Error> {
+        let side = (0.8 * libm::cbrt(self.count as f64) - 1e-9).ceil() as usize;
+        let width = side as f64 * SPACING;
+        let walls = [
+            (DVec3::Y, DVec3::ZERO),
+            (DVec3::X, DVec3::ZERO),
+            (DVec3::NEG_X, width * DVec3::X),
+            (DVec3::Z, DVec3::ZERO),
+            (DVec3::NEG_Z, width * DVec3::Z),
+        ];
+        for (normal, point) in walls {
+            let pose = Pose::at(point).rotated(DQuat::from_rotation_arc(DVec3::Y, normal));
+            let wall = Collider::new(Shape::HalfSpace, pose).with_friction(self.friction);
+            world.add_collider(wall)?;
+        }
+        for number in 0..self.count {
+            let (layer, cell) = (number / (side * side), number % (side * side));
+            let shift = 0.1 * RADIUS * (layer % 2) as f64;
+            let place = DVec3::new(
+                RADIUS + (cell % side) as f64 * SPACING + shift,
+                0.6 + layer as f64 * SPACING,
+                RADIUS + (cell / side) as f64 * SPACING + shift,
+            );
+            world.add_sphere(self.ball(place))?;
+        }
+        Ok(())
+    }
+
+    /// Balls on a lattice as in `tutorial4`, only more of them, above a larger fixed sphere.
+    fn add_rain(self, world: &mut World) -> Result<(), Error> {
+        let ball = Shape::Sphere { radius: TARGET_RADIUS };
+        world.add_collider(Collider::new(ball, Pose::at(DVec3::ZERO)))?;
+        let side = libm::cbrt(self.count as f64).ceil() as usize;
+        let [across, up] = DROP_SPACING;
+        let start = -0.5 * across * (side - 1) as f64;
+        for number in 0..self.count {
+            let (layer, cell) = (number / (side * side), number % (side * side));
+            let place = DVec3::new(
+                start + (cell % side) as f64 * across,
+                TARGET_RADIUS + up * (layer + 2) as f64,
+                start + (cell / side) as f64 * across,
+            );
+            world.add_sphere(self.ball(place))?;
+        }
+        Ok(())
+    }
+
+    fn ball(self, place: DVec3) -> Sphere {
+        Sphere::new(place, self.radius()).with_restitution(0.0).with_friction(self.friction)
+    }
 }
 
 pub fn table(rows: &[HeapRow]) -> Table {
-    let columns =
-        ["balls", "friction", "ms/frame", "last 100", "overlap", "worst", "rms [m/s]", "asleep"];
+    let threads = rows.first().map_or(1, |row| row.threads);
+    let side_by_side = format!("{threads} threads");
+    let columns = [
+        "",
+        "balls",
+        "friction",
+        "ms/frame",
+        &side_by_side,
+        "last 100",
+        "overlap",
+        "worst",
+        "rms [m/s]",
+        "asleep",
+    ];
     let columns = columns.map(|name| (name, Side::Right));
     let mut table = Table::new(&columns);
     for row in rows {
+        let kind = match row.kind {
+            Kind::Pile => "pile",
+            Kind::Rain => "rain",
+        };
         table.push(vec![
+            kind.to_string(),
             row.balls.to_string(),
             row.friction.to_string(),
             format!("{:.3}", row.frame_milliseconds),
+            format!("{:.3}", row.threads_frame_milliseconds),
             format!("{:.3}", row.last_milliseconds),
             format!("{:.4}", row.overlap),
             format!("{:.4}", row.worst_overlap),

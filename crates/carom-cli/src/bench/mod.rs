@@ -4,6 +4,7 @@ mod gases;
 mod heaps;
 mod median;
 mod scenes;
+mod threads;
 mod work_columns;
 
 use std::io::{self, Write};
@@ -18,8 +19,13 @@ use gases::GasRow;
 use heaps::HeapRow;
 use scenes::SceneRow;
 
-/// Measures and prints what came out.
+/// Measures, and prints what came out: all on one thread, and heaps on all threads, too.
 pub fn bench(args: &Bench) -> Result<(), Failure> {
+    let figures = threads::on(1, || measure(args))?;
+    Ok(figures.print(args.json)?)
+}
+
+fn measure(args: &Bench) -> Result<Figures, Failure> {
     let mut figures = Figures {
         machine: Machine::this(),
         gases: Vec::new(),
@@ -41,8 +47,7 @@ pub fn bench(args: &Bench) -> Result<(), Failure> {
             figures.scenes = scenes::measure_set(args.runs)?;
         }
     }
-    figures.print(args.json)?;
-    Ok(())
+    Ok(figures)
 }
 
 /// All that was measured, and where.
