@@ -2,6 +2,7 @@
 
 use fearless_simd::{Level, Simd, SimdMask, dispatch};
 
+use super::drift::Drift;
 use super::found::Found;
 use super::row::{self, Row};
 use super::slots::{AWAKE, Run};
@@ -32,10 +33,12 @@ pub(super) fn accelerate(
     if solver.has_other_forces {
         solver.slots.add_other_forces(system, frame.time + time);
     }
+    let drift = solver.drift;
     solver.slabs.each(&mut solver.slots, |mut run, slab| {
-        slab.found = dispatch!(Level::new(), simd => accelerate_run(simd, &mut run, h));
+        slab.found = dispatch!(Level::new(), simd => accelerate_run(simd, &mut run, h, drift));
     });
     solver.energy_before = solver.slabs.energy();
+    solver.is_stale |= drift.after(h).is_beyond();
     solver.is_stale |= solver.slabs.list.iter().any(|slab| slab.found.leaves);
     let change = solver.slabs.list.iter().map(|slab| slab.found.change).fold(0.0, f64::max);
     SubStep::new(time, h, solver.common_acceleration, change)
@@ -44,10 +47,12 @@ pub(super) fn accelerate(
 /// Accelerates the spheres of a run; one that sleeps stays at rest. Finds their kinetic energy, the
 /// largest change of a velocity, and whether one may leave its margin in the sub-step.
 #[inline(always)]
-fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64) -> Found {
+fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64, drift: Drift) -> Found {
     run.spin_before.copy_from_slice(run.spin);
     let zero = Lanes::all(simd, 0.0);
     let length = Lanes::all(simd, h);
+    // Ways are those beside the common one, at the end of the sub-step.
+    let common = Vector::all(simd, drift.after(h).way);
     let [mut energy, mut change] = [zero; 2];
     let mut leaves = false;
     for slot in (0..run.velocity.len()).step_by(LANES) {
@@ -68,7 +73,7 @@ fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64) -> Found {
         // A flight ends between where its first velocity takes it and where its last one does.
         let (position, _) = row::columns(simd, run.position, slot);
         let (reference, margin) = row::columns(simd, run.reference, slot);
-        let (way, reach) = (position - reference, margin * margin);
+        let (way, reach) = (position - reference - common, margin * margin);
         let first = (way + before * length).length_squared();
         let last = (way + now * length).length_squared();
         leaves |= (reach.is_less(first) | reach.is_less(last)).any_true();

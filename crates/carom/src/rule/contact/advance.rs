@@ -10,6 +10,7 @@ use super::solver::{Bounce, Solver};
 use super::sub_step::SubStep;
 use super::surfaces;
 use crate::lanes::{LANES, Lanes};
+use crate::real::Vector;
 use crate::system::System;
 
 /// Moves spheres and surfaces over the sub-step.
@@ -20,7 +21,9 @@ use crate::system::System;
 /// No sphere leaves the margin within which its neighbours are known: one that an impact has made so fast
 /// is late by the rest of its way.
 pub(super) fn advance(system: &System, solver: &mut Solver, sub_step: &SubStep) {
-    let Solver { slots, slabs, bounces, .. } = solver;
+    solver.drift = solver.drift.after(sub_step.h);
+    let Solver { slots, slabs, bounces, drift, .. } = solver;
+    let common = drift.way;
     let flies = !solver.has_other_forces;
     slabs.each(slots, |mut run, slab| {
         let from = bounces.partition_point(|bounce| (bounce.slot as usize) < slab.start);
@@ -28,7 +31,7 @@ pub(super) fn advance(system: &System, solver: &mut Solver, sub_step: &SubStep) 
         let run = &mut run;
         dispatch!(Level::new(), simd => advance_run(simd, run, sub_step.h, flies));
         shift_bounced(run, slab.start, &bounces[from..to]);
-        dispatch!(Level::new(), simd => stay_within_margin(simd, run));
+        dispatch!(Level::new(), simd => stay_within_margin(simd, run, common));
         for (turn, spin) in run.turn.iter_mut().zip(&*run.spin) {
             *turn = turn.with_vector(turn.vector() + spin.vector());
         }
@@ -71,12 +74,14 @@ fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) {
     }
 }
 
+/// Has spheres stay within their margins beside the common way \[m\].
 #[inline(always)]
-fn stay_within_margin<S: Simd>(simd: S, run: &mut Run) {
+fn stay_within_margin<S: Simd>(simd: S, run: &mut Run, common: DVec3) {
+    let commons = Vector::all(simd, common);
     for first in (0..run.position.len()).step_by(LANES) {
         let (position, _) = row::columns(simd, run.position, first);
         let (reference, margin) = row::columns(simd, run.reference, first);
-        let way = position - reference;
+        let way = position - reference - commons;
         if !(margin * margin).is_less(way.length_squared()).any_true() {
             continue;
         }
@@ -84,7 +89,7 @@ fn stay_within_margin<S: Simd>(simd: S, run: &mut Run) {
         for (position, reference) in
             run.position[first..last].iter_mut().zip(&run.reference[first..last])
         {
-            let (origin, margin) = (reference.vector(), reference.number());
+            let (origin, margin) = (reference.vector() + common, reference.number());
             let way = position.vector() - origin;
             let length_squared = way.length_squared();
             if length_squared > margin * margin {

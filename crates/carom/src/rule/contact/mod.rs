@@ -15,6 +15,7 @@ mod accelerate;
 mod advance;
 mod batch;
 mod dormant;
+mod drift;
 mod energy;
 mod found;
 mod frame;

@@ -40,7 +40,7 @@ pub(super) fn search(
     }
     let Solver { slots, slabs, watched, dormant, .. } = solver;
     solver.is_stale = false;
-    search.arrange(slots, [frame.h, sub_step.h]);
+    solver.drift = search.arrange(slots, [frame.h, sub_step.h]);
     divide(slots, slabs, search);
     let some_sleep = slots.asleep().next().is_some();
     if !dormant.is_empty() {
@@ -64,6 +64,7 @@ pub(super) fn search(
         materials: &solver.materials,
         kinds: solver.kinds,
         places: &solver.places,
+        drift: solver.drift.reach,
         left: frame.h - sub_step.time,
     };
     known.add_contacts(slabs);
@@ -128,6 +129,8 @@ struct Known<'a> {
     materials: &'a Materials,
     kinds: ContactKinds,
     places: &'a [Place],
+    /// How far spheres may go together until the next search \[m\].
+    drift: f64,
     /// What is left of the frame \[s\].
     left: f64,
 }
@@ -181,7 +184,7 @@ impl Known<'_> {
         let awake = (slab.start..slab.end).filter(|&slot| slots.island[slot] == AWAKE);
         for slot in awake {
             let (center, radius) = (slots.position[slot].vector(), slots.position[slot].number());
-            let margin = slots.reference[slot].number();
+            let margin = slots.reference[slot].number() + self.drift;
             let bounds = Bounds::around(center, DVec3::splat(radius + margin));
             self.system.tree.near(&bounds, &mut near);
             if some_move {
@@ -211,7 +214,7 @@ impl Known<'_> {
         }
         let (center, radius) =
             (self.slots.position[slot].vector(), self.slots.position[slot].number());
-        let mut margin = self.slots.reference[slot].number();
+        let mut margin = self.slots.reference[slot].number() + self.drift;
         let (form, motion) = &self.places[surface as usize];
         if !motion.is_at_rest() {
             let arm = (center - motion.origin).length() + radius + margin;

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use super::drift::Drift;
 use super::order::{self, Grid};
 use super::row::Row;
 use super::slab::{Slab, Slabs};
@@ -28,11 +29,11 @@ const WIDE: f64 = 1.5;
 /// With more wide ones than this part of all, spheres are found by a hierarchy of grids.
 const MOST_WIDE: f64 = 1.0 / 16.0;
 
-/// How far a sphere of this radius \[m\] and speed \[m/s\] may go until the next search \[m\], which is to
-/// come after a time of `lasting` \[s\], in sub-steps of `h` \[s\].
-fn margin(radius: f64, speed: f64, lasting: f64, h: f64) -> f64 {
+/// How far a sphere of this radius \[m\] and speed \[m/s\] beside the common motion may go until the next
+/// search \[m\], which is to come after a time of `lasting` \[s\]. It goes at least `least` \[m\].
+fn margin(radius: f64, speed: f64, lasting: f64, least: f64) -> f64 {
     let bounded = (FASTER * speed * lasting).clamp(LEAST_MARGIN * radius, MOST_MARGIN * radius);
-    bounded.max(1.5 * FASTER * speed * h)
+    bounded.max(least)
 }
 
 /// Working memory of a search.
@@ -57,9 +58,9 @@ pub(super) struct Search {
 
 impl Search {
     /// Sorts spheres by space, and notes from where they may go how far, in frames of `frame` and sub-steps
-    /// of `h` \[s\].
-    pub fn arrange(&mut self, slots: &mut Slots, [frame, h]: [f64; 2]) {
-        self.find_margins(slots, [frame, h]);
+    /// of `h` \[s\]. Gives the motion that they have in common, beside which they may go so far.
+    pub fn arrange(&mut self, slots: &mut Slots, [frame, h]: [f64; 2]) -> Drift {
+        let drift = self.find_margins(slots, [frame, h]);
         let Self { grid, starts, margins, from, slot_of, cells, spare, .. } = self;
         let count = slots.len();
         let reach = |slot: usize| slots.position[slot].number() + margins[slot];
@@ -82,23 +83,30 @@ impl Search {
             }),
         );
         slots.permute(from, spare);
+        drift
     }
 
-    /// How far each sphere may go: in the mean a given part of the radius, but farther the faster it is,
-    /// for a few fast ones not to have all looked for again and again.
-    fn find_margins(&mut self, slots: &Slots, [frame, h]: [f64; 2]) {
-        let speed = |row: &Row| row.vector().length();
+    /// How far each sphere may go beside the common motion: in the mean a given part of the radius, but
+    /// farther the faster it is, for a few fast ones not to have all looked for again and again.
+    fn find_margins(&mut self, slots: &Slots, [frame, h]: [f64; 2]) -> Drift {
+        let count = slots.len().max(1) as f64;
+        let velocity = slots.velocity.iter().map(|row| row.vector()).sum::<DVec3>() / count;
+        let speed = |row: &Row| (row.vector() - velocity).length();
         let speeds = slots.velocity.iter().map(speed).sum::<f64>();
         let radii = slots.position.iter().map(|row| row.number()).sum::<f64>();
         let [least, most] = LASTING.map(|frames| frames * frame + h);
         let lasting = (MEAN_MARGIN * radii / speeds.max(f64::MIN_POSITIVE)).clamp(least, most);
         // What is slow among fast ones may be hit, and fly as they do.
-        let mean_speed = speeds / slots.len().max(1) as f64;
+        let mean_speed = speeds / count;
         let rows = slots.position.iter().zip(&slots.velocity);
         self.margins.clear();
-        self.margins.extend(rows.map(|(position, velocity)| {
-            margin(position.number(), speed(velocity).max(mean_speed), lasting, h)
+        self.margins.extend(rows.map(|(position, row)| {
+            let beside = speed(row).max(mean_speed);
+            // Within a sub-step it goes on by half of what it does in one, or turns round at an impact.
+            let fastest = (1.5 * beside).max(row.vector().length() + velocity.length());
+            margin(position.number(), beside, lasting, FASTER * fastest * h)
         }));
+        Drift::begin(velocity, lasting)
     }
 
     /// First slots of so many runs of whole layers, and the end of the last: about as many spheres in each.

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::batch::ContactKinds;
 use super::dormant::Dormant;
+use super::drift::Drift;
 use super::kept::Kept;
 use super::materials::Materials;
 use super::search::Search;
@@ -23,6 +24,8 @@ pub(crate) struct Solver {
     pub(super) bounces: Vec<Bounce>,
     /// Where surfaces are at the start of the sub-step, and how they move.
     pub(super) places: Vec<Place>,
+    /// The motion that spheres have in common since the last search.
+    pub(super) drift: Drift,
     pub(super) kinds: ContactKinds,
     pub(super) materials: Materials,
     /// The acceleration of all spheres \[m/s²\], where it is one and constant.
