@@ -3,10 +3,10 @@
 use carom::{BodyPair, PersistentContact};
 
 /// Numbers in a row; what they are stands in `web/package/src/contacts.js`.
-const COLUMNS: usize = 11;
+const COLUMNS: usize = 15;
 
 /// The contacts row by row: whether body 1 is a collider (1) or a sphere (0), the numbers of the
-/// bodies, point, normal, gap, normal force.
+/// bodies, point, normal, gap, normal force, tangential force, whether it slides (1) or not (0).
 pub fn of(contacts: &[PersistentContact]) -> Vec<f64> {
     let mut table = Vec::with_capacity(COLUMNS * contacts.len());
     for contact in contacts {
@@ -18,6 +18,8 @@ pub fn of(contacts: &[PersistentContact]) -> Vec<f64> {
         table.extend(contact.point.to_array());
         table.extend(contact.normal.to_array());
         table.extend([contact.gap, contact.normal_force]);
+        table.extend(contact.tangential_force.to_array());
+        table.push(f64::from(contact.is_sliding));
     }
     table
 }

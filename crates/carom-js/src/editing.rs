@@ -70,7 +70,7 @@ impl World {
         palette: &Palette,
         added: &mut Added,
     ) -> Result<(), Failure> {
-        let spheres = world.spheres();
+        let (spheres, before) = (world.spheres(), self.world.spheres().len());
         for (index, id) in spheres.ids().iter().enumerate() {
             let (radius, mass) = (spheres.radii()[index], spheres.masses()[index]);
             let color = palette.sphere(id.number(), radius, mass);
@@ -79,6 +79,7 @@ impl World {
             self.description.members.add(id, color);
             added.spheres.push(id.number());
         }
+        self.description.members.follow_frictions(self.world.spheres(), before);
         Ok(())
     }
 }
@@ -97,6 +98,7 @@ impl World {
         let world = part.world()?;
         only(world.spheres().ids())?;
         self.world.set_sphere(id, world.spheres().get(0))?;
+        self.description.members.follow_frictions(self.world.spheres(), index);
         if let Some(color) = part.spheres.first().and_then(|sphere| sphere.color) {
             self.description.members.paint(index, color);
         }
@@ -112,6 +114,7 @@ impl World {
         let (id, index) = find::sphere(&self.world, id)?;
         self.world.remove_sphere(id)?;
         self.description.members.remove(index);
+        self.description.members.follow_frictions(self.world.spheres(), index);
         Ok(())
     }
 

@@ -13,11 +13,13 @@
 
 #![warn(clippy::unwrap_used)]
 
+mod arrays;
 mod contact_table;
 mod description;
 mod editing;
 mod failure;
 mod find;
+mod frictions;
 mod impact_table;
 mod members;
 mod next_event;

@@ -1,10 +1,12 @@
-//! The spheres in a world, and their colours.
+//! The spheres in a world, their colours, and what they say of friction.
 
 use carom::{SphereId, Spheres};
 use carom_scene::Palette;
 use carom_scene::scene::Color;
 
-/// Ids and colours of the spheres of a world, in their order, as JavaScript reads them.
+use crate::frictions::Frictions;
+
+/// Ids, colours and friction of the spheres of a world, in their order, as JavaScript reads them.
 ///
 /// A sphere gets its colour when it comes into the world, and keeps it.
 #[derive(Debug, Clone, Default)]
@@ -13,6 +15,7 @@ pub struct Members {
     ids: Vec<f64>,
     /// Red, green and blue of each, in \[0, 1\] (sRGB).
     colors: Vec<f32>,
+    frictions: Frictions,
 }
 
 impl Members {
@@ -24,6 +27,17 @@ impl Members {
     /// Three parts of each colour.
     pub fn colors(&self) -> &[f32] {
         &self.colors
+    }
+
+    /// Coefficients of friction.
+    pub fn frictions(&self) -> &Frictions {
+        &self.frictions
+    }
+
+    /// Has the coefficients of friction follow a change of spheres: those before `index` are as they
+    /// were.
+    pub fn follow_frictions(&mut self, spheres: &Spheres, index: usize) {
+        self.frictions.follow(spheres, index);
     }
 
     /// Adds a sphere that was added in code; its id must be the largest so far.
@@ -70,6 +84,7 @@ impl Members {
             };
             self.push(number, color);
         }
+        self.frictions.follow(spheres, 0);
     }
 
     fn push(&mut self, number: f64, color: [f32; 3]) {

@@ -6,6 +6,7 @@ use carom::SphereId;
 use carom_scene::{Library, Override, Palette, Scene, SceneError};
 use wasm_bindgen::prelude::wasm_bindgen;
 
+use crate::arrays::place;
 use crate::contact_table;
 use crate::failure::Failure;
 use crate::impact_table;
@@ -131,58 +132,6 @@ impl World {
     }
 }
 
-/// Arrays of spheres: how many, and where they lie in memory. A place holds until the world is
-/// stepped or changed.
-#[wasm_bindgen]
-impl World {
-    /// How many spheres there are.
-    #[wasm_bindgen(getter)]
-    pub fn count(&self) -> usize {
-        self.world.spheres().len()
-    }
-
-    /// Place of the centres \[m\], three `f64` each.
-    #[wasm_bindgen(getter)]
-    pub fn positions(&self) -> usize {
-        place(self.world.spheres().positions())
-    }
-
-    /// Place of the velocities \[m/s\], three `f64` each.
-    #[wasm_bindgen(getter)]
-    pub fn velocities(&self) -> usize {
-        place(self.world.spheres().velocities())
-    }
-
-    /// Place of the radii \[m\], `f64`.
-    #[wasm_bindgen(getter)]
-    pub fn radii(&self) -> usize {
-        place(self.world.spheres().radii())
-    }
-
-    /// Place of the masses \[kg\], `f64`.
-    #[wasm_bindgen(getter)]
-    pub fn masses(&self) -> usize {
-        place(self.world.spheres().masses())
-    }
-
-    /// Place of the ids, `f64`, ascending.
-    #[wasm_bindgen(getter)]
-    pub fn ids(&self) -> usize {
-        place(self.description.members.ids())
-    }
-
-    /// Place of the colours (sRGB), three `f32` each.
-    #[wasm_bindgen(getter)]
-    pub fn colors(&self) -> usize {
-        place(self.description.members.colors())
-    }
-}
-
-/// Where a list lies in memory.
-fn place<T>(list: &[T]) -> usize {
-    list.as_ptr() as usize
-}
-
 /// What happened in the last frame.
 #[wasm_bindgen]
 impl World {
@@ -200,19 +149,44 @@ impl World {
     }
 
     /// The work, counted by stage: predictions, pair tests, events, cell crossings, groups, iterations
-    /// of solvers.
+    /// of solvers, searches, sweeps, contacts.
     #[wasm_bindgen(getter)]
     pub fn work(&self) -> Vec<f64> {
         let work = self.world.report().work;
         let of_events = [work.predictions, work.pair_tests, work.events, work.cell_crossings];
         let of_groups = [work.groups, work.solver_iterations];
-        of_events.iter().chain(&of_groups).map(|&count| count as f64).collect()
+        let of_sub_steps = [work.searches, work.sweeps, work.contacts];
+        let all = of_events.iter().chain(&of_groups).chain(&of_sub_steps);
+        all.map(|&count| count as f64).collect()
+    }
+
+    /// What became of kinetic energy under the rule `contact`: work of impulses, of moving colliders
+    /// and of the correction of overlaps \[J\]; sub-steps with fewer impulses, residual, largest
+    /// overlap, spheres asleep.
+    #[wasm_bindgen(getter, js_name = contactAccount)]
+    pub fn contact_account(&self) -> Vec<f64> {
+        let account = self.world.report().contact_account;
+        vec![
+            account.impulse_work,
+            account.surface_work,
+            account.correction_work,
+            f64::from(account.limited_sub_steps),
+            account.residual,
+            account.largest_overlap,
+            f64::from(account.asleep),
+        ]
     }
 
     /// The table of the contacts that persist now, a row for each.
     #[wasm_bindgen(getter)]
     pub fn contacts(&self) -> Vec<f64> {
         contact_table::of(&self.world.contacts())
+    }
+
+    /// Whether spheres are turned or turn, or may come to by friction.
+    #[wasm_bindgen(getter, js_name = hasSpin)]
+    pub fn has_spin(&self) -> bool {
+        self.world.has_spin()
     }
 
     /// Ids of the spheres that emitters put into the world.
@@ -242,10 +216,16 @@ fn numbers(ids: &[SphereId]) -> Vec<f64> {
 /// Sums over all spheres.
 #[wasm_bindgen]
 impl World {
-    /// Kinetic energy \[J\].
+    /// Kinetic energy \[J\], that of rotation included.
     #[wasm_bindgen(js_name = kineticEnergy)]
     pub fn kinetic_energy(&self) -> f64 {
         self.world.kinetic_energy()
+    }
+
+    /// Kinetic energy of rotation \[J\].
+    #[wasm_bindgen(js_name = rotationalEnergy)]
+    pub fn rotational_energy(&self) -> f64 {
+        self.world.rotational_energy()
     }
 
     /// Potential energy \[J\] in all forces that have one.
@@ -259,7 +239,7 @@ impl World {
         self.world.momentum().to_array().to_vec()
     }
 
-    /// Angular momentum about the origin \[kg m²/s\].
+    /// Angular momentum about the origin \[kg m²/s\], that of spin included.
     #[wasm_bindgen(js_name = angularMomentum)]
     pub fn angular_momentum(&self) -> Vec<f64> {
         self.world.angular_momentum().to_array().to_vec()

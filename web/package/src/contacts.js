@@ -3,8 +3,18 @@
 import { between } from "./bodies.js";
 
 /** Where what stands in a row. */
-const AT = { isCollider: 0, first: 1, second: 2, point: 3, normal: 6, gap: 9, normalForce: 10 };
-const COLUMNS = 11;
+const AT = {
+  isCollider: 0,
+  first: 1,
+  second: 2,
+  point: 3,
+  normal: 6,
+  gap: 9,
+  normalForce: 10,
+  tangentialForce: 11,
+  isSliding: 14,
+};
+const COLUMNS = 15;
 
 /** The contacts of a table, an object each. */
 export function contacts(table) {
@@ -21,5 +31,7 @@ function contact(row) {
     normal: vector(AT.normal),
     gap: row[AT.gap],
     normalForce: row[AT.normalForce],
+    tangentialForce: vector(AT.tangentialForce),
+    isSliding: row[AT.isSliding] === 1,
   };
 }

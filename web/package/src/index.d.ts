@@ -286,6 +286,12 @@ export interface PersistentContact {
   gap: number;
   /** On body 2 along the normal, on body 1 against it [N], >= 0. */
   normalForce: number;
+  /** Force of friction on body 2, across the normal, and against it on body 1 [N]; zero under rules
+   *  without friction. */
+  tangentialForce: [number, number, number];
+  /** Whether the surfaces slide on each other, or would at the least touch: friction is as large as
+   *  it can be. */
+  isSliding: boolean;
 }
 
 /** The work of a frame by stage: counts that depend on the world alone, not on the machine. */
@@ -302,6 +308,31 @@ export interface StageCounts {
   groups: number;
   /** Iterations of the solvers of these groups, each counted once for every contact. */
   solverIterations: number;
+  /** How often neighbours were found anew, by `contact`. */
+  searches: number;
+  /** How often all contacts were gone through, by `contact`. */
+  sweeps: number;
+  /** Contacts that a sweep goes through at the end of the frame, by `contact`. */
+  contacts: number;
+}
+
+/** What contacts did to energy in a frame, and how good the solution is; 0 by other rules than
+ *  `contact`. */
+export interface ContactAccount {
+  /** What impulses did to kinetic energy [J], <= 0 but for rounding: impacts and friction take. */
+  impulseWork: number;
+  /** Work of moving colliders [J]. */
+  surfaceWork: number;
+  /** Energy that the correction of overlaps added [J]. */
+  correctionWork: number;
+  /** Sub-steps in which impulses were scaled down for them not to add energy. */
+  limitedSubSteps: number;
+  /** Largest change of a normal impulse in the last sweep, as a part of the largest impulse. */
+  residual: number;
+  /** Largest overlap before it was corrected, as a part of the sum of radii. */
+  largestOverlap: number;
+  /** Spheres that sleep at the end of the frame: at rest, until something comes near or changes. */
+  asleep: number;
 }
 
 /** Where what stands in a row of `World.impactTable`; vectors take three places. */
@@ -357,7 +388,8 @@ export type Overrides = Record<string, unknown>;
  *
  * **Arrays** (`positions` and the like) are views of the engine's own memory: nothing is copied, and
  * nothing is to be written there. Take them from the world each time: a step, an addition, or any other
- * world that makes the memory grow may move them. Copy (`.slice()`) what is to stay.
+ * world that makes the memory grow may move them. Copy (`.slice()`) what is to stay. Of rotation and
+ * friction the engine has arrays only where a sphere needs them; elsewhere you get ones that say so.
  *
  * A call that throws leaves the world as it was.
  */
@@ -405,8 +437,24 @@ export class World {
   readonly ids: Float64Array;
   /** Red, green, blue, red, ... in [0, 1] (sRGB). */
   readonly colors: Float32Array;
-  /** Writes for each sphere the matrix of 4 by 4 that takes the unit sphere to it, column by column:
-   *  for `THREE.InstancedMesh.instanceMatrix.array`. @throws {RangeError} if there is not room */
+  /** How spheres are turned: quaternions x, y, z, w, x, ... */
+  readonly orientations: Float64Array;
+  /** Angular velocities, along the axes [rad/s]: x, y, z, x, y, z, ... */
+  readonly angularVelocities: Float64Array;
+  /** Moments of inertia divided by m r². */
+  readonly inertiaFactors: Float64Array;
+  /** Coefficients of friction, >= 0; `NaN` where a sphere says nothing of it: then the coefficient of
+   *  what it touches counts. */
+  readonly frictions: Float64Array;
+  /** Coefficients of rolling friction, as `frictions`. */
+  readonly rollingFrictions: Float64Array;
+  /** Coefficients of spinning friction, as `frictions`. */
+  readonly spinningFrictions: Float64Array;
+  /** Coefficients of tangential restitution in [0, 1], as `frictions`. */
+  readonly tangentialRestitutions: Float64Array;
+  /** Writes for each sphere the matrix of 4 by 4 that takes the unit sphere to it, turned as it is,
+   *  column by column: for `THREE.InstancedMesh.instanceMatrix.array`.
+   *  @throws {RangeError} if there is not room */
   writeMatrices(matrices: Float32Array | Float64Array | number[]): void;
 
   /** Impacts of the last frame in order of time, an object each. */
@@ -423,21 +471,28 @@ export class World {
   readonly triggers: { collider: number; sphere: number }[];
   /** The work of the last frame. */
   readonly work: StageCounts;
+  /** What contacts did to energy in the last frame, by `contact`. */
+  readonly contactAccount: ContactAccount;
 
   /** The contacts that persist, in the order of ids, pairs of spheres first: what a ball that lies on
-   *  the floor is in. Known by `exact` after a step; none where something was changed since, or by
-   *  other rules. Reading them solves for the forces. */
+   *  the floor is in. Known by `exact` and `contact` after a step; none where something was changed
+   *  since, or by other rules. By `exact`, reading them solves for the forces. */
   readonly contacts: PersistentContact[];
+  /** Whether spheres are turned or turn, or may come to: an emitter emits such, or there is friction,
+   *  which acts by `contact`. */
+  readonly hasSpin: boolean;
 
-  /** [J] */
+  /** [J], the energy of rotation included. */
   kineticEnergy(): number;
+  /** Kinetic energy of rotation [J]. */
+  rotationalEnergy(): number;
   /** [J], in all forces that have one. */
   potentialEnergy(): number;
   /** [J] */
   totalEnergy(): number;
   /** [kg m/s] */
   momentum(): [number, number, number];
-  /** About the origin [kg m²/s]. */
+  /** About the origin [kg m²/s], that of spin included. */
   angularMomentum(): [number, number, number];
 
   /** Names, emitters, camera, light and colours of the scene. */

@@ -4,20 +4,36 @@
 const SIZE = 16;
 
 /**
- * Writes for each sphere the matrix that takes the unit sphere to it, column by column: what
+ * Writes for each sphere the matrix that takes the unit sphere to it, turned, column by column: what
  * three.js keeps in `InstancedMesh.instanceMatrix.array`.
  *
  * @throws {RangeError} if `matrices` has not room for all
  */
-export function writeMatrices({ positions, radii }, matrices) {
+export function writeMatrices({ positions, radii, orientations }, matrices) {
   const room = Math.floor(matrices.length / SIZE);
   if (radii.length > room) {
     throw new RangeError(`there are ${radii.length} spheres, and room for ${room} matrices`);
   }
-  matrices.fill(0, 0, SIZE * radii.length);
   radii.forEach((radius, i) => {
     const start = SIZE * i;
-    matrices[start] = matrices[start + 5] = matrices[start + 10] = radius;
+    // Number by number: a list for each sphere would take longer than all the rest.
+    const x = orientations[4 * i];
+    const y = orientations[4 * i + 1];
+    const z = orientations[4 * i + 2];
+    const w = orientations[4 * i + 3];
+    const twice = 2 * radius;
+    matrices[start] = radius - twice * (y * y + z * z);
+    matrices[start + 1] = twice * (x * y + w * z);
+    matrices[start + 2] = twice * (x * z - w * y);
+    matrices[start + 3] = 0;
+    matrices[start + 4] = twice * (x * y - w * z);
+    matrices[start + 5] = radius - twice * (x * x + z * z);
+    matrices[start + 6] = twice * (y * z + w * x);
+    matrices[start + 7] = 0;
+    matrices[start + 8] = twice * (x * z + w * y);
+    matrices[start + 9] = twice * (y * z - w * x);
+    matrices[start + 10] = radius - twice * (x * x + y * y);
+    matrices[start + 11] = 0;
     matrices[start + 12] = positions[3 * i];
     matrices[start + 13] = positions[3 * i + 1];
     matrices[start + 14] = positions[3 * i + 2];

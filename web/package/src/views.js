@@ -8,6 +8,7 @@ import { engineMemory } from "./engine.js";
  */
 export class Views {
   #views = new Map();
+  #repeated = new Map();
 
   /** The view of this name: `length` numbers of a `Type` of array from `place` on. */
   at(name, Type, place, length) {
@@ -18,5 +19,18 @@ export class Views {
       this.#views.set(name, view);
     }
     return view;
+  }
+  /**
+   * An array of this name that the engine has not made: the same numbers for each of `count` spheres.
+   * It lies outside of the memory of the engine, which so need not grow when it is read.
+   */
+  repeated(name, numbers, count) {
+    const length = numbers.length * count;
+    let array = this.#repeated.get(name);
+    if (array?.length !== length) {
+      array = Float64Array.from({ length }, (_, i) => numbers[i % numbers.length]);
+      this.#repeated.set(name, array);
+    }
+    return array;
   }
 }

@@ -112,9 +112,46 @@ export class World {
     return this.#view("colors", Float32Array, 3);
   }
 
+  get orientations() {
+    return this.#viewOr("orientations", NOT_TURNED);
+  }
+
+  get angularVelocities() {
+    return this.#viewOr("angularVelocities", AT_REST);
+  }
+
+  get inertiaFactors() {
+    return this.#viewOr("inertiaFactors", SOLID_BALL);
+  }
+
+  get frictions() {
+    return this.#viewOr("frictions", SILENT);
+  }
+
+  get rollingFrictions() {
+    return this.#viewOr("rollingFrictions", SILENT);
+  }
+
+  get spinningFrictions() {
+    return this.#viewOr("spinningFrictions", SILENT);
+  }
+
+  get tangentialRestitutions() {
+    return this.#viewOr("tangentialRestitutions", SILENT);
+  }
+
   #view(name, Type, width) {
     const world = this.#world;
     return this.#views.at(name, Type, world[name], width * world.count);
+  }
+
+  /** An array that the engine has only where a sphere has other numbers than the usual ones. */
+  #viewOr(name, usual) {
+    const world = this.#world;
+    const isUsual = world[name] === undefined;
+    return isUsual
+      ? this.#views.repeated(name, usual, world.count)
+      : this.#view(name, Float64Array, usual.length);
   }
 
   writeMatrices(matrices) {
@@ -156,9 +193,17 @@ export class World {
   }
 
   get work() {
-    const [predictions, pairTests, events, cellCrossings, groups, solverIterations] =
-      this.#world.work;
-    return { predictions, pairTests, events, cellCrossings, groups, solverIterations };
+    const [predictions, pairTests, events, cellCrossings, ...others] = this.#world.work;
+    const [groups, solverIterations, searches, sweeps, contacts] = others;
+    const ofEvents = { predictions, pairTests, events, cellCrossings, groups, solverIterations };
+    return { ...ofEvents, searches, sweeps, contacts };
+  }
+
+  get contactAccount() {
+    const [impulseWork, surfaceWork, correctionWork, ...others] = this.#world.contactAccount;
+    const [limitedSubSteps, residual, largestOverlap, asleep] = others;
+    const works = { impulseWork, surfaceWork, correctionWork };
+    return { ...works, limitedSubSteps, residual, largestOverlap, asleep };
   }
 
   // What holds now.
@@ -167,10 +212,18 @@ export class World {
     return contacts(this.#world.contacts);
   }
 
+  get hasSpin() {
+    return this.#world.hasSpin;
+  }
+
   // Sums over all spheres.
 
   kineticEnergy() {
     return this.#world.kineticEnergy();
+  }
+
+  rotationalEnergy() {
+    return this.#world.rotationalEnergy();
   }
 
   potentialEnergy() {
@@ -286,6 +339,13 @@ export class World {
 
 // `using world = ...`, where the language has it.
 if (Symbol.dispose) World.prototype[Symbol.dispose] = World.prototype.free;
+
+// What a sphere has unless it is given otherwise.
+const NOT_TURNED = [0, 0, 0, 1];
+const AT_REST = [0, 0, 0];
+const SOLID_BALL = [2 / 5];
+/** A sphere that says nothing of friction. */
+const SILENT = [NaN];
 
 /** What scene files leave out of a collider. */
 const COLLIDER = {

@@ -103,6 +103,15 @@ test("spheres have the colours of their densities in the scene", () => {
   assert.deepEqual(world.sphere(id).color, densities[1].color, "added ones, too");
 });
 
+test("matrices turn the unit sphere as spheres are turned", () => {
+  const world = new World();
+  // A third of a turn about (1, 1, 1) takes x to y, y to z, z to x.
+  world.addSphere({ position: [7, 8, 9], radius: 2, orientation: [0.5, 0.5, 0.5, 0.5] });
+  const matrix = new Float64Array(16).fill(NaN);
+  world.writeMatrices(matrix);
+  assert.deepEqual([...matrix], [0, 2, 0, 0, 0, 0, 2, 0, 2, 0, 0, 0, 7, 8, 9, 1]);
+});
+
 test("matrices take the unit sphere to each sphere", () => {
   const world = World.fromScene("tutorial3");
   const matrices = new Float32Array(16 * world.count).fill(7);

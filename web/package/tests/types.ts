@@ -42,7 +42,12 @@ const told: string[] = world.impacts.map(text);
 const firstTime: number | undefined = world.impactTable[IMPACT_COLUMNS.time];
 
 const force: number | undefined = world.contacts[0]?.normalForce;
-const work: number = world.work.pairTests;
+const friction: [number, number, number] | undefined = world.contacts[0]?.tangentialForce;
+const slides: boolean | undefined = world.contacts[0]?.isSliding;
+const work: number = world.work.pairTests + world.work.sweeps;
+const asleep: number = world.contactAccount.asleep;
+const turned: Float64Array = world.orientations;
+const hasSpin: boolean = world.hasSpin;
 const next: number | undefined = world.nextEventTime(1);
 world.stepToNextEvent(1);
 // @ts-expect-error: a bound on the time has to be given
@@ -72,6 +77,12 @@ try {
 
 console.log(
   force,
+  friction,
+  slides,
+  asleep,
+  turned,
+  hasSpin,
+  world.rotationalEnergy(),
   work,
   next,
   titles,
