@@ -23,9 +23,10 @@ class Batch(BatchEngine):
     Each world is, to the bit, what it would be alone, however many there are and on however many
     threads. Arrays have a row for each world: ``positions``, ``velocities``, ``angular_velocities``
     and ``applied_forces`` (n, spheres, 3); ``orientations`` (n, spheres, 4); ``radii``, ``masses``,
-    ``restitutions``, ``inertia_factors`` and ``frictions`` (n, spheres). They are kept as those
-    of a `World` are: made at the first read, written anew by every step, read without copying.
-    To set one, assign to it: ``batch.velocities = 0``.
+    ``restitutions``, ``inertia_factors``, ``frictions``, ``rolling_frictions``,
+    ``spinning_frictions`` and ``tangential_restitutions`` (n, spheres). They are kept as those of a
+    `World` are: made at the first read, written anew by every step, read without copying. To set
+    one, assign to it: ``batch.velocities = 0``.
 
     Args:
         scene: The scene of all worlds, or its name; or a sequence of scenes, one for each world.

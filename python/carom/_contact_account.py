@@ -20,3 +20,5 @@ class ContactAccount(NamedTuple):
     """Largest change of a normal impulse in the last sweep, as a part of the largest impulse."""
     largest_overlap: float
     """Largest overlap before it was corrected, as a part of the sum of radii."""
+    asleep: int
+    """Spheres that sleep at the end of the frame, until something comes near or changes."""

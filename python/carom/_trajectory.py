@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-_AXES = ("x", "y", "z")
+_PARTS = ("x", "y", "z", "w")
+"""Of a quaternion; those of a vector are the first three."""
+_AXES = _PARTS[:3]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -30,6 +32,11 @@ class Trajectory:
         radii: Radii [m], shape (n,).
         masses: Masses [kg], shape (n,).
         impacts: Every impact of the run, recorded state or not, records of `carom.IMPACT`.
+        orientations: How spheres are turned, quaternions x, y, z, w, shape (t, n, 4); NaN where a
+            sphere is not there. None where no sphere turned at the beginning, and no friction
+            could make one turn.
+        angular_velocities: Angular velocities, along the axes [rad/s], shape (t, n, 3), or None, as
+            the orientations.
     """
 
     time: NDArray[np.float64]
@@ -39,6 +46,8 @@ class Trajectory:
     radii: NDArray[np.float64]
     masses: NDArray[np.float64]
     impacts: NDArray[np.void]
+    orientations: NDArray[np.float64] | None = None
+    angular_velocities: NDArray[np.float64] | None = None
 
     def __len__(self) -> int:
         """The number of recorded states."""
@@ -55,7 +64,7 @@ class Trajectory:
         """A row for each sphere that is there at each time.
 
         The columns are those of ``carom run --out``: ``t``, ``ball``, ``x``, ``y``, ``z``, ``vx``,
-        ``vy``, ``vz``.
+        ``vy``, ``vz``, and with rotation ``qx``, ``qy``, ``qz``, ``qw``, ``wx``, ``wy``, ``wz``.
 
         Raises:
             ModuleNotFoundError: Where pandas is not installed.
@@ -68,8 +77,16 @@ class Trajectory:
             "t": self.time[row],
             "ball": self.ids[column],
         }
-        for names, values in ((_AXES, self.positions), (("vx", "vy", "vz"), self.velocities)):
-            columns.update(zip(names, values[is_there].T, strict=True))
+        recorded = {
+            "": self.positions,
+            "v": self.velocities,
+            "q": self.orientations,
+            "w": self.angular_velocities,
+        }
+        for prefix, values in recorded.items():
+            if values is not None:
+                names = [f"{prefix}{part}" for part in _PARTS[: values.shape[2]]]
+                columns.update(zip(names, values[is_there].T, strict=True))
         return pandas.DataFrame(columns)
 
     def impacts_to_pandas(self) -> pandas.DataFrame:
@@ -85,7 +102,8 @@ class Trajectory:
     def to_xarray(self) -> xarray.Dataset:
         """Positions and velocities over ``time``, ``sphere`` and ``axis``; the arrays are shared.
 
-        Radii and masses are there, too, over ``sphere``.
+        Radii and masses are there, too, over ``sphere``. With rotation so are angular velocities,
+        and orientations over ``part``, that of a quaternion.
 
         Raises:
             ModuleNotFoundError: Where xarray is not installed.
@@ -93,15 +111,21 @@ class Trajectory:
         import xarray
 
         vectors = ("time", "sphere", "axis")
-        variables = {
+        variables: dict[str, tuple[Any, ...]] = {
             "position": (vectors, self.positions, {"units": "m"}),
             "velocity": (vectors, self.velocities, {"units": "m/s"}),
             "radius": ("sphere", self.radii, {"units": "m"}),
             "mass": ("sphere", self.masses, {"units": "kg"}),
         }
-        coordinates = {
+        coordinates: dict[str, Any] = {
             "time": ("time", self.time, {"units": "s"}),
             "sphere": self.ids,
             "axis": list(_AXES),
         }
+        if self.angular_velocities is not None:
+            variables["angular_velocity"] = (vectors, self.angular_velocities, {"units": "rad/s"})
+        if self.orientations is not None:
+            quaternions = ("time", "sphere", "part")
+            variables["orientation"] = (quaternions, self.orientations, {"units": "1"})
+            coordinates["part"] = list(_PARTS)
         return xarray.Dataset(variables, coordinates)

@@ -27,8 +27,8 @@ class World(Engine):
 
     A world is made from a scene, and then has a life of its own. Arrays of spheres (``positions``,
     ``velocities``, ``radii``, ``masses``, ``restitutions``, ``orientations``,
-    ``angular_velocities``, ``inertia_factors``, ``frictions``, ``ids``) are in ascending order of
-    id:
+    ``angular_velocities``, ``inertia_factors``, ``frictions``, ``rolling_frictions``,
+    ``spinning_frictions``, ``tangential_restitutions``, ``ids``) are in ascending order of id:
 
     - To read one copies nothing: it is the same object for as long as no sphere comes or goes, and
       every frame writes the new state into it. Take ``world.positions.copy()`` to keep a state.
@@ -127,9 +127,11 @@ class World(Engine):
             frames = self._count_frames(seconds, dt)
         elif seconds is not None:
             raise TypeError("seconds and frames: give one of them")
-        time, ids, radii, masses, positions, velocities, words = self._record(frames, dt, every)
+        time, ids, radii, masses, words, motion = self._record(frames, dt, every)
         impacts = tables.records(words, tables.IMPACT)
-        return Trajectory(time, positions, velocities, ids, radii, masses, impacts)
+        return Trajectory(
+            time=time, ids=ids, radii=radii, masses=masses, impacts=impacts, **dict(motion)
+        )
 
     # What happened in the last frame
 
@@ -191,6 +193,13 @@ class World(Engine):
         velocities: ArrayLike = 0.0,
         masses: ArrayLike = 1.0,
         restitutions: ArrayLike = 1.0,
+        orientations: ArrayLike | None = None,
+        angular_velocities: ArrayLike | None = None,
+        inertia_factors: ArrayLike | None = None,
+        frictions: ArrayLike | None = None,
+        rolling_frictions: ArrayLike | None = None,
+        spinning_frictions: ArrayLike | None = None,
+        tangential_restitutions: ArrayLike | None = None,
     ) -> NDArray[np.uint64]:
         """Adds n spheres, which may overlap, and returns their ids, shape (n,).
 
@@ -200,6 +209,18 @@ class World(Engine):
             velocities: Velocities [m/s], spread to shape (n, 3).
             masses: Masses [kg], > 0, spread to shape (n,).
             restitutions: Coefficients of restitution in [0, 1], spread to shape (n,).
+            orientations: How they are turned, quaternions x, y, z, w of any length but zero, spread
+                to shape (n, 4); not turned unless given.
+            angular_velocities: Angular velocities, along the axes [rad/s], spread to shape (n, 3);
+                they do not turn unless given.
+            inertia_factors: Moments of inertia divided by m r², > 0, spread to shape (n,); 0.4,
+                those of solid balls, unless given.
+            frictions: Coefficients of friction, >= 0, spread to shape (n,), nan for spheres that
+                say nothing of it, as all do unless given: then what they touch decides.
+            rolling_frictions: Coefficients of rolling friction, as ``frictions``.
+            spinning_frictions: Coefficients of spinning friction, as ``frictions``.
+            tangential_restitutions: Coefficients of tangential restitution in [0, 1], as
+                ``frictions``.
 
         Raises:
             CaromError: For shapes that do not fit, and numbers that make no sense; then no sphere
@@ -217,8 +238,11 @@ class World(Engine):
             # Rows of different lengths: refused below, by name.
             shape = ()
         count = shape[0] if len(shape) == 2 else 1
-        given = (positions, velocities, radii, masses, restitutions)
-        return self._add_spheres(count, given)
+        motion = (positions, velocities)
+        properties = (radii, masses, restitutions)
+        rotation = (orientations, angular_velocities, inertia_factors)
+        friction = (frictions, rolling_frictions, spinning_frictions, tangential_restitutions)
+        return self._add_spheres(count, (*motion, *properties, *rotation, *friction))
 
     def sphere(self, id: int) -> parts.Sphere:
         """The sphere with this id, as it is now.

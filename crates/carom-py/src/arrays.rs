@@ -6,7 +6,7 @@
 //! or go, the world lets go of its arrays and makes others at the next read; the old ones keep the
 //! last values of their spheres.
 
-use carom::{DQuat, DVec3, Friction, SOLID_BALL, SphereId, Spheres};
+use carom::{DQuat, Friction, SOLID_BALL, SphereId, Spheres};
 use numpy::{PyArray, PyArray1, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
@@ -24,10 +24,16 @@ pub enum Quantity {
     AngularVelocities,
     InertiaFactors,
     Frictions,
+    RollingFrictions,
+    SpinningFrictions,
+    TangentialRestitutions,
 }
 
+/// The values of a quantity, one sphere after another.
+pub type Column = (Quantity, Vec<f64>);
+
 impl Quantity {
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 13] = [
         Self::Positions,
         Self::Velocities,
         Self::Radii,
@@ -38,14 +44,29 @@ impl Quantity {
         Self::AngularVelocities,
         Self::InertiaFactors,
         Self::Frictions,
+        Self::RollingFrictions,
+        Self::SpinningFrictions,
+        Self::TangentialRestitutions,
     ];
 
     /// Those that a frame changes.
     pub const MOTION: [Self; 4] =
         [Self::Positions, Self::Velocities, Self::Orientations, Self::AngularVelocities];
-    /// Those that spheres are added with as arrays; the first of all.
-    pub const OF_A_SPHERE: [Self; 5] =
-        [Self::Positions, Self::Velocities, Self::Radii, Self::Masses, Self::Restitutions];
+    /// Those that spheres are added with as arrays.
+    pub const OF_A_SPHERE: [Self; 12] = [
+        Self::Positions,
+        Self::Velocities,
+        Self::Radii,
+        Self::Masses,
+        Self::Restitutions,
+        Self::Orientations,
+        Self::AngularVelocities,
+        Self::InertiaFactors,
+        Self::Frictions,
+        Self::RollingFrictions,
+        Self::SpinningFrictions,
+        Self::TangentialRestitutions,
+    ];
 
     /// As Python calls it.
     pub fn name(self) -> &'static str {
@@ -60,6 +81,9 @@ impl Quantity {
             Self::AngularVelocities => "angular_velocities",
             Self::InertiaFactors => "inertia_factors",
             Self::Frictions => "frictions",
+            Self::RollingFrictions => "rolling_frictions",
+            Self::SpinningFrictions => "spinning_frictions",
+            Self::TangentialRestitutions => "tangential_restitutions",
         }
     }
 
@@ -70,7 +94,8 @@ impl Quantity {
             Self::AppliedForces | Self::AngularVelocities => 3,
             Self::Orientations => 4,
             Self::Radii | Self::Masses | Self::Restitutions => 1,
-            Self::InertiaFactors | Self::Frictions => 1,
+            Self::InertiaFactors | Self::Frictions | Self::RollingFrictions => 1,
+            Self::SpinningFrictions | Self::TangentialRestitutions => 1,
         }
     }
 
@@ -81,7 +106,19 @@ impl Quantity {
 
     /// Whether this number can be one of it, whatever its bounds: nan is what says nothing of friction.
     pub fn may_be(self, value: f64) -> bool {
-        value.is_finite() || (self == Self::Frictions && value.is_nan())
+        let is_friction = self.coefficient(&mut Friction::default()).is_some();
+        value.is_finite() || (is_friction && value.is_nan())
+    }
+
+    /// The coefficient of friction that this quantity is, if it is one.
+    pub fn coefficient(self, friction: &mut Friction) -> Option<&mut Option<f64>> {
+        match self {
+            Self::Frictions => Some(&mut friction.sliding),
+            Self::RollingFrictions => Some(&mut friction.rolling),
+            Self::SpinningFrictions => Some(&mut friction.spinning),
+            Self::TangentialRestitutions => Some(&mut friction.tangential_restitution),
+            _ => None,
+        }
     }
 
     /// The shape of its array for `count` spheres.
@@ -116,16 +153,26 @@ impl Quantity {
                 place.fill(SOLID_BALL);
                 return write_numbers(spheres.inertia_factors(), place);
             }
-            Self::Frictions => {
-                // Where none says anything, there are none.
-                place.fill(f64::NAN);
-                let said = |friction: &Friction| friction.sliding.unwrap_or(f64::NAN);
-                let frictions = spheres.frictions().iter().map(said);
-                return place.iter_mut().zip(frictions).for_each(|(place, it)| *place = it);
+            Self::Frictions
+            | Self::RollingFrictions
+            | Self::SpinningFrictions
+            | Self::TangentialRestitutions => {
+                return self.write_coefficients(spheres.frictions(), place);
             }
         };
         for (place, vector) in place.chunks_exact_mut(3).zip(vectors) {
             place.copy_from_slice(&vector.to_array());
+        }
+    }
+
+    /// Writes a coefficient of friction; nan where a sphere says nothing of it.
+    fn write_coefficients(self, frictions: &[Friction], place: &mut [f64]) {
+        // Where none says anything, there are none.
+        place.fill(f64::NAN);
+        for (place, mut friction) in place.iter_mut().zip(frictions.iter().copied()) {
+            if let Some(&mut Some(coefficient)) = self.coefficient(&mut friction) {
+                *place = coefficient;
+            }
         }
     }
 }
@@ -140,11 +187,6 @@ fn write_orientations(orientations: &[DQuat], place: &mut [f64]) {
 
 fn write_numbers(numbers: &[f64], place: &mut [f64]) {
     place.iter_mut().zip(numbers).for_each(|(place, number)| *place = *number);
-}
-
-/// Three numbers of each vector, in a row.
-pub fn flat(vectors: &[DVec3]) -> Vec<f64> {
-    vectors.iter().flat_map(|vector| vector.to_array()).collect()
 }
 
 /// The arrays of a world that a script has read.

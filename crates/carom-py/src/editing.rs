@@ -11,9 +11,9 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::arguments;
-use crate::arrays::{self, Quantity};
+use crate::arrays::{self, Column, Quantity};
 
-use crate::engine::{Engine, Inner};
+use crate::engine::{Engine, Inner, changed};
 use crate::failure::Failure;
 use crate::part::{self, only};
 
@@ -36,19 +36,20 @@ impl Engine {
     }
 
     /// Adds `count` spheres by their quantities, in the order of [`Quantity::OF_A_SPHERE`], each spread over
-    /// all of them, and answers with their ids.
+    /// all of them, and answers with their ids. What is missing is as [`Sphere::new`] has it.
     #[pyo3(name = "_add_spheres")]
     fn add_spheres_by_arrays<'py>(
         &self,
         py: Python<'py>,
         count: usize,
-        quantities: [Bound<'py, PyAny>; Quantity::OF_A_SPHERE.len()],
+        quantities: [Option<Bound<'py, PyAny>>; Quantity::OF_A_SPHERE.len()],
     ) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        let read = |(quantity, values): (Quantity, _)| {
-            arguments::array(quantity.name(), &values, &quantity.shape(count))
+        let read = |(quantity, values): (Quantity, Option<_>)| {
+            let array = |values| arguments::array(quantity.name(), &values, &quantity.shape(count));
+            Some(array(values?).map(|values| (quantity, values)))
         };
-        let columns: Vec<Vec<f64>> =
-            Quantity::OF_A_SPHERE.into_iter().zip(quantities).map(read).collect::<PyResult<_>>()?;
+        let given = Quantity::OF_A_SPHERE.into_iter().zip(quantities);
+        let columns: Vec<Column> = given.filter_map(read).collect::<PyResult<_>>()?;
         let spheres: Vec<Sphere> = (0..count).map(|index| sphere_at(&columns, index)).collect();
         let ids = self.change(py, |inner| {
             let ids = add_all(&mut inner.world, &spheres)?;
@@ -247,14 +248,12 @@ fn add_all(world: &mut World, spheres: &[Sphere]) -> Result<Vec<SphereId>, Failu
     Ok(added?)
 }
 
-/// The sphere at an index of columns in the order of [`Quantity::OF_A_SPHERE`].
-fn sphere_at(columns: &[Vec<f64>], index: usize) -> Sphere {
-    let vector = |quantity| DVec3::from_slice(&columns[quantity as usize][3 * index..]);
-    let number = |quantity| columns[quantity as usize][index];
-    Sphere::new(vector(Quantity::Positions), number(Quantity::Radii))
-        .with_velocity(vector(Quantity::Velocities))
-        .with_mass(number(Quantity::Masses))
-        .with_restitution(number(Quantity::Restitutions))
+/// The sphere at an index of columns.
+fn sphere_at(columns: &[Column], index: usize) -> Sphere {
+    columns.iter().fold(Sphere::new(DVec3::ZERO, 1.0), |sphere, (quantity, values)| {
+        let width = quantity.width();
+        changed(sphere, *quantity, &values[width * index..width * (index + 1)])
+    })
 }
 
 fn spheres_of(part: &Scene) -> Result<Vec<Sphere>, Failure> {

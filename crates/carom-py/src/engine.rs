@@ -279,22 +279,30 @@ pub fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<
     }
 }
 
-/// A sphere with another property, of as many values as it has.
-fn changed(sphere: Sphere, quantity: Quantity, values: &[f64]) -> Sphere {
+/// A sphere with another value of a quantity, of as many numbers as it has. The force applied to a
+/// sphere is no part of it.
+pub fn changed(sphere: Sphere, quantity: Quantity, values: &[f64]) -> Sphere {
     let value = values[0];
     match quantity {
+        Quantity::Positions => sphere.with_position(DVec3::from_slice(values)),
+        Quantity::Velocities => sphere.with_velocity(DVec3::from_slice(values)),
         Quantity::Radii => sphere.with_radius(value),
         Quantity::Masses => sphere.with_mass(value),
         Quantity::Restitutions => sphere.with_restitution(value),
         Quantity::InertiaFactors => sphere.with_inertia_factor(value),
-        Quantity::Frictions => {
-            let mut friction = sphere.friction;
-            friction.sliding = (!value.is_nan()).then_some(value);
-            sphere.with_friction(friction)
-        }
         Quantity::Orientations => sphere.with_orientation(DQuat::from_slice(values)),
         Quantity::AngularVelocities => sphere.with_angular_velocity(DVec3::from_slice(values)),
-        Quantity::Positions | Quantity::Velocities | Quantity::AppliedForces => sphere,
+        Quantity::AppliedForces => sphere,
+        Quantity::Frictions
+        | Quantity::RollingFrictions
+        | Quantity::SpinningFrictions
+        | Quantity::TangentialRestitutions => {
+            let mut friction = sphere.friction;
+            if let Some(coefficient) = quantity.coefficient(&mut friction) {
+                *coefficient = (!value.is_nan()).then_some(value);
+            }
+            sphere.with_friction(friction)
+        }
     }
 }
 
@@ -400,9 +408,9 @@ impl Engine {
 
     /// What became of kinetic energy under the rule `contact`: work of impulses, of moving colliders
     /// and of the correction of overlaps [J]; sub-steps with fewer impulses, residual, largest
-    /// overlap.
+    /// overlap, spheres asleep.
     #[pyo3(name = "_contact_account")]
-    fn contact_account(&self, py: Python<'_>) -> PyResult<(f64, f64, f64, u32, f64, f64)> {
+    fn contact_account(&self, py: Python<'_>) -> PyResult<(f64, f64, f64, u32, f64, f64, u32)> {
         let ContactAccount {
             impulse_work,
             surface_work,
@@ -410,6 +418,7 @@ impl Engine {
             limited_sub_steps,
             residual,
             largest_overlap,
+            asleep,
             ..
         } = self.lock(py)?.world.report().contact_account;
         Ok((
@@ -419,6 +428,7 @@ impl Engine {
             limited_sub_steps,
             residual,
             largest_overlap,
+            asleep,
         ))
     }
 

@@ -42,6 +42,21 @@ macro_rules! sphere_properties {
                     "Coefficients of friction, >= 0, shape ", $numbers, ". nan where a sphere says \
                      nothing of it: then the coefficient of what it touches counts."
                 );
+            rolling_frictions, set_rolling_frictions, RollingFrictions:
+                concat!(
+                    "Coefficients of rolling friction, >= 0, shape ", $numbers, ". nan where a \
+                     sphere says nothing of it."
+                );
+            spinning_frictions, set_spinning_frictions, SpinningFrictions:
+                concat!(
+                    "Coefficients of spinning friction, >= 0, shape ", $numbers, ". nan where a \
+                     sphere says nothing of it."
+                );
+            tangential_restitutions, set_tangential_restitutions, TangentialRestitutions:
+                concat!(
+                    "Coefficients of tangential restitution in [0, 1], shape ", $numbers, ". nan \
+                     where a sphere says nothing of it."
+                );
         }
     };
     ($engine:ident; $($get:ident, $set:ident, $quantity:ident: $doc:expr;)*) => {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use carom::{SphereId, World};
 
-use crate::arrays::flat;
+use crate::arrays::{Column, Quantity};
 use crate::tables::Table;
 
 /// Rows of states, one for each recorded frame.
@@ -13,10 +13,9 @@ use crate::tables::Table;
 pub struct Recording {
     /// \[s\]
     pub times: Vec<f64>,
-    /// Centres \[m\], three numbers for each sphere of each row.
-    positions: Vec<f64>,
-    /// Velocities \[m/s\], in the order of the positions.
-    velocities: Vec<f64>,
+    /// What is recorded of each sphere of each row: centres and velocities, and how spheres are turned
+    /// and turn where the first frame has spin.
+    motion: Vec<Column>,
     /// The spheres of each row, ascending.
     members: Vec<Arc<[SphereId]>>,
     /// Radius \[m\] and mass \[kg\] of every sphere of any row, as it was last.
@@ -34,19 +33,24 @@ pub struct States {
     pub radii: Vec<f64>,
     /// \[kg\]
     pub masses: Vec<f64>,
-    /// Centres \[m\]; NaN where a sphere is not there.
-    pub positions: Vec<f64>,
-    /// Velocities \[m/s\]; NaN where a sphere is not there.
-    pub velocities: Vec<f64>,
+    /// What changes from row to row; NaN where a sphere is not there.
+    pub motion: Vec<Column>,
 }
 
 impl Recording {
     /// Appends the state of a world.
     pub fn push(&mut self, world: &World) {
         let spheres = world.spheres();
+        if self.times.is_empty() {
+            let recorded = if world.has_spin() { &Quantity::MOTION[..] } else { &WITHOUT_SPIN };
+            self.motion = recorded.iter().map(|&quantity| (quantity, Vec::new())).collect();
+        }
         self.times.push(world.time());
-        self.positions.extend(flat(spheres.positions()));
-        self.velocities.extend(flat(spheres.velocities()));
+        for (quantity, values) in &mut self.motion {
+            let row = values.len();
+            values.resize(row + quantity.width() * spheres.len(), 0.0);
+            quantity.write(spheres, &mut values[row..]);
+        }
         let last = self.members.last().filter(|last| ***last == *spheres.ids());
         let members = last.map_or_else(|| spheres.ids().into(), Arc::clone);
         if !self.members.last().is_some_and(|last| Arc::ptr_eq(last, &members)) {
@@ -61,31 +65,33 @@ impl Recording {
     pub fn finish(self) -> (Vec<f64>, States, Table) {
         let ids: Vec<SphereId> = self.known.keys().copied().collect();
         let is_whole = self.members.iter().all(|members| **members == *ids);
-        let spread = |values: Vec<f64>| match is_whole {
-            true => values,
-            false => spread(&values, &self.members, &ids),
+        let spread = |(quantity, values): Column| match is_whole {
+            true => (quantity, values),
+            false => (quantity, spread(&values, quantity.width(), &self.members, &ids)),
         };
         let states = States {
             radii: self.known.values().map(|[radius, _]| *radius).collect(),
             masses: self.known.values().map(|[_, mass]| *mass).collect(),
-            positions: spread(self.positions),
-            velocities: spread(self.velocities),
+            motion: self.motion.into_iter().map(spread).collect(),
             ids,
         };
         (self.times, states, self.impacts)
     }
 }
 
-/// Rows of vectors of their members, as rows of all `ids`.
-fn spread(values: &[f64], members: &[Arc<[SphereId]>], ids: &[SphereId]) -> Vec<f64> {
-    let mut all = vec![f64::NAN; 3 * ids.len() * members.len()];
-    let mut values = values.chunks_exact(3);
+/// What is recorded where nothing turns.
+const WITHOUT_SPIN: [Quantity; 2] = [Quantity::Positions, Quantity::Velocities];
+
+/// Rows of `width` numbers for each of their members, as rows of all `ids`.
+fn spread(values: &[f64], width: usize, members: &[Arc<[SphereId]>], ids: &[SphereId]) -> Vec<f64> {
+    let mut all = vec![f64::NAN; width * ids.len() * members.len()];
+    let mut values = values.chunks_exact(width);
     for (row, members) in members.iter().enumerate() {
         for (id, value) in members.iter().zip(&mut values) {
             // Every member is among the ids.
             let column = ids.partition_point(|other| other < id);
-            let place = 3 * (row * ids.len() + column);
-            all[place..place + 3].copy_from_slice(value);
+            let place = width * (row * ids.len() + column);
+            all[place..place + width].copy_from_slice(value);
         }
     }
     all

@@ -10,7 +10,7 @@ use numpy::{PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 
 use crate::arguments;
-use crate::arrays::{self, shaped};
+use crate::arrays::{self, Column, shaped};
 use crate::engine::{Engine, Inner};
 use crate::failure::Failure;
 use crate::recording::Recording;
@@ -19,15 +19,14 @@ use crate::snapshot::Snapshot;
 /// How long a run goes on between two looks at Python's signals.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Time, ids, radii, masses, positions, velocities, and the impacts as words.
+/// Time, ids, radii, masses, the impacts as words, and by their names the quantities that change.
 type Arrays<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<u64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArrayDyn<f64>>,
-    Bound<'py, PyArrayDyn<f64>>,
     Bound<'py, PyArray1<u64>>,
+    Vec<(&'static str, Bound<'py, PyArrayDyn<f64>>)>,
 );
 
 /// How long frames are, and which of them are recorded.
@@ -133,15 +132,19 @@ fn take_frames(
 
 fn arrays_of(py: Python<'_>, recording: Recording) -> PyResult<Arrays<'_>> {
     let (times, states, impacts) = py.detach(|| recording.finish());
-    let shape = vec![times.len(), states.ids.len(), 3];
+    let rows = [times.len(), states.ids.len()];
+    let named = |(quantity, values): Column| {
+        let shape = vec![rows[0], rows[1], quantity.width()];
+        Ok((quantity.name(), shaped(py, values, shape)?))
+    };
+    let motion = states.motion.into_iter().map(named).collect::<PyResult<_>>()?;
     Ok((
         PyArray1::from_vec(py, times),
         arrays::numbers(py, &states.ids),
         PyArray1::from_vec(py, states.radii),
         PyArray1::from_vec(py, states.masses),
-        shaped(py, states.positions, shape.clone())?,
-        shaped(py, states.velocities, shape)?,
         PyArray1::from_vec(py, impacts.into_words()),
+        motion,
     ))
 }
 
