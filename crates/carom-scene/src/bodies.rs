@@ -81,6 +81,22 @@ impl Sphere {
     }
 }
 
+impl Collider {
+    /// What it says of friction, as the physics knows it.
+    pub fn surface_friction(&self) -> Friction {
+        let coefficients = [self.friction, self.rolling_friction, self.spinning_friction];
+        friction(coefficients, self.tangential_restitution)
+    }
+
+    /// Has it say this of friction, and nothing else.
+    pub fn set_surface_friction(&mut self, friction: Friction) {
+        self.friction = friction.sliding;
+        self.rolling_friction = friction.rolling;
+        self.spinning_friction = friction.spinning;
+        self.tangential_restitution = friction.tangential_restitution;
+    }
+}
+
 impl Emitter {
     /// The emitter as the physics knows it.
     ///
@@ -103,10 +119,7 @@ pub(crate) fn collider(collider: &Collider) -> carom::Collider {
     let solid = carom::Collider::new(shape, pose)
         .moving(vector(collider.velocity), vector(collider.angular_velocity))
         .with_restitution(collider.restitution)
-        .with_friction(friction(
-            [collider.friction, collider.rolling_friction, collider.spinning_friction],
-            collider.tangential_restitution,
-        ));
+        .with_friction(collider.surface_friction());
     if collider.trigger { solid.as_trigger() } else { solid }
 }
 

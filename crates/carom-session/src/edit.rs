@@ -1,6 +1,6 @@
 //! Everything that can be changed while a scene runs.
 
-use carom::{ColliderId, DVec3, Emitter, EmitterId, ForceId, Mass, SphereId};
+use carom::{ColliderId, DVec3, Emitter, EmitterId, ForceId, Friction, Mass, SphereId};
 use carom_scene::scene::{Color, Force, Simulation};
 
 /// A change from outside.
@@ -21,6 +21,10 @@ pub enum Edit {
     ColliderRestitution(ColliderId, f64),
     /// Coefficient of restitution of all colliders.
     AllColliderRestitutions(f64),
+    /// What a collider says of friction.
+    ColliderFriction(ColliderId, Friction),
+    /// What all colliders say of friction.
+    AllColliderFrictions(Friction),
     /// An emitter. With another period it starts anew, now.
     Emitter(EmitterId, Box<Emitter>),
     /// A sphere.
@@ -50,6 +54,10 @@ pub struct SphereChange {
     pub mass: Option<f64>,
     /// Coefficient of restitution in \[0, 1\].
     pub restitution: Option<f64>,
+    /// All that it says of friction.
+    pub friction: Option<Friction>,
+    /// Angular velocity, along the axis of rotation \[rad/s\].
+    pub angular_velocity: Option<DVec3>,
 }
 
 impl SphereChange {
@@ -61,6 +69,8 @@ impl SphereChange {
             .with_radius(self.radius.unwrap_or(sphere.radius))
             .with_mass(self.mass.map_or(sphere.mass, Mass::Kilograms))
             .with_restitution(self.restitution.unwrap_or(sphere.restitution))
+            .with_friction(self.friction.unwrap_or(sphere.friction))
+            .with_angular_velocity(self.angular_velocity.unwrap_or(sphere.angular_velocity))
     }
 
     /// This change, then a later one.
@@ -71,6 +81,8 @@ impl SphereChange {
             radius: later.radius.or(self.radius),
             mass: later.mass.or(self.mass),
             restitution: later.restitution.or(self.restitution),
+            friction: later.friction.or(self.friction),
+            angular_velocity: later.angular_velocity.or(self.angular_velocity),
         }
     }
 }
@@ -84,14 +96,16 @@ impl Edit {
             }
             (Self::Simulation(_), Self::Simulation(_))
             | (Self::FrameTime(_), Self::FrameTime(_))
-            | (Self::AllColliderRestitutions(_), Self::AllColliderRestitutions(_)) => {
-                Some(later.clone())
-            }
+            | (Self::AllColliderRestitutions(_), Self::AllColliderRestitutions(_))
+            | (Self::AllColliderFrictions(_), Self::AllColliderFrictions(_)) => Some(later.clone()),
             (Self::Force(id, _), Self::Force(same, _)) if id == same => Some(later.clone()),
             (Self::Emitter(id, _), Self::Emitter(same, _)) if id == same => Some(later.clone()),
             (Self::ColliderRestitution(id, _), Self::ColliderRestitution(same, _))
                 if id == same =>
             {
+                Some(later.clone())
+            }
+            (Self::ColliderFriction(id, _), Self::ColliderFriction(same, _)) if id == same => {
                 Some(later.clone())
             }
             _ => None,

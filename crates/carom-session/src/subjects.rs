@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom::{ColliderId, Emitter, EmitterId, Error, ForceId, Subject, World};
+use carom::{Collider, ColliderId, Emitter, EmitterId, Error, ForceId, Subject, World};
 use carom_scene::SceneError;
 use carom_scene::scene::{self, Force, Scene, Simulation};
 
@@ -41,12 +41,16 @@ impl Subjects<'_> {
             }
             Edit::RemoveForce(id) => remove_force(*id, world, setup),
             Edit::ColliderRestitution(id, restitution) => {
-                set_restitution(*id, *restitution, world, setup)
+                set_collider(*id, world, setup, |it| it.with_restitution(*restitution))
             }
             Edit::AllColliderRestitutions(restitution) => {
-                // What is refused for one is refused for the first: none is changed then.
-                let ids: Vec<ColliderId> = setup.colliders.iter().map(|(id, _)| *id).collect();
-                ids.into_iter().try_for_each(|id| set_restitution(id, *restitution, world, setup))
+                set_all_colliders(world, setup, |it| it.with_restitution(*restitution))
+            }
+            Edit::ColliderFriction(id, friction) => {
+                set_collider(*id, world, setup, |it| it.with_friction(*friction))
+            }
+            Edit::AllColliderFrictions(friction) => {
+                set_all_colliders(world, setup, |it| it.with_friction(*friction))
             }
             Edit::Emitter(id, emitter) => {
                 set_emitter(*id, emitter, scene, Subjects { world, setup, looks })
@@ -146,17 +150,32 @@ fn remove_force(
     Ok(())
 }
 
-fn set_restitution(
+/// Changes what a collider is like, not where it is or what it is.
+fn set_collider(
     id: ColliderId,
-    restitution: f64,
     world: &mut World,
     setup: &mut Arc<Setup>,
+    change: impl Fn(Collider) -> Collider,
 ) -> Result<(), SessionError> {
-    let collider = world.collider(id)?.with_restitution(restitution);
+    let collider = change(world.collider(id)?);
     world.set_collider(id, collider)?;
     let colliders = &mut Arc::make_mut(setup).colliders;
-    colliders.iter_mut().filter(|it| it.0 == id).for_each(|it| it.1.restitution = restitution);
+    for (_, described) in colliders.iter_mut().filter(|it| it.0 == id) {
+        described.restitution = collider.restitution;
+        described.set_surface_friction(collider.friction);
+    }
     Ok(())
+}
+
+/// Changes what all colliders are like.
+fn set_all_colliders(
+    world: &mut World,
+    setup: &mut Arc<Setup>,
+    change: impl Fn(Collider) -> Collider,
+) -> Result<(), SessionError> {
+    // What is refused for one is refused for the first: none is changed then.
+    let ids: Vec<ColliderId> = setup.colliders.iter().map(|(id, _)| *id).collect();
+    ids.into_iter().try_for_each(|id| set_collider(id, world, setup, &change))
 }
 
 fn set_emitter(

@@ -195,6 +195,16 @@ impl SphereArrays {
         Some(before.lerp(or(&self.orientations, index, DQuat::IDENTITY), blend))
     }
 
+    /// What the sphere at an index says of friction.
+    pub fn friction(&self, index: usize) -> Friction {
+        or(&self.frictions, index, Friction::default())
+    }
+
+    /// Angular velocity of the sphere at an index \[rad/s\].
+    pub fn angular_velocity(&self, index: usize) -> DVec3 {
+        or(&self.angular_velocities, index, DVec3::ZERO)
+    }
+
     /// A sphere as scene files write it.
     fn described(&self, index: usize) -> Sphere {
         let usual = carom::Sphere::new(self.positions[index], self.radii[index]);
@@ -202,10 +212,10 @@ impl SphereArrays {
             .with_velocity(self.velocities[index])
             .with_mass(self.masses[index])
             .with_restitution(self.restitutions[index])
-            .with_friction(or(&self.frictions, index, usual.friction))
+            .with_friction(self.friction(index))
             .with_inertia_factor(or(&self.inertia_factors, index, usual.inertia_factor))
             .with_orientation(or(&self.orientations, index, usual.orientation))
-            .with_angular_velocity(or(&self.angular_velocities, index, usual.angular_velocity));
+            .with_angular_velocity(self.angular_velocity(index));
         Sphere { color: self.colors[index], ..Sphere::of(&sphere) }
     }
 }

@@ -65,6 +65,8 @@ enum Written {
     RemoveForce(u64),
     ColliderRestitution { collider: u64, restitution: f64 },
     AllColliderRestitutions(f64),
+    ColliderFriction { collider: u64, friction: SurfaceFriction },
+    AllColliderFrictions(SurfaceFriction),
     Emitter { emitter: u64, is: Box<Emitter> },
     Sphere { sphere: u64, changes: Box<SphereFields> },
     Throw { sphere: Box<Sphere>, color: Option<Color> },
@@ -80,6 +82,18 @@ struct SphereFields {
     radius: Option<f64>,
     mass: Option<f64>,
     restitution: Option<f64>,
+    friction: Option<SurfaceFriction>,
+    angular_velocity: Option<Vector>,
+}
+
+/// [`Friction`], written.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SurfaceFriction {
+    sliding: Option<f64>,
+    rolling: Option<f64>,
+    spinning: Option<f64>,
+    tangential_restitution: Option<f64>,
 }
 
 /// [`carom::Sphere`], written.
@@ -152,6 +166,10 @@ impl From<&Change> for Written {
             Edit::AllColliderRestitutions(restitution) => {
                 Self::AllColliderRestitutions(*restitution)
             }
+            Edit::ColliderFriction(id, friction) => {
+                Self::ColliderFriction { collider: id.number(), friction: (*friction).into() }
+            }
+            Edit::AllColliderFrictions(friction) => Self::AllColliderFrictions((*friction).into()),
             Edit::Emitter(id, emitter) => {
                 Self::Emitter { emitter: id.number(), is: Box::new((&**emitter).into()) }
             }
@@ -181,6 +199,10 @@ impl From<Written> for Change {
             Written::AllColliderRestitutions(restitution) => {
                 Edit::AllColliderRestitutions(restitution)
             }
+            Written::ColliderFriction { collider, friction } => {
+                Edit::ColliderFriction(ColliderId::from_number(collider), friction.into())
+            }
+            Written::AllColliderFrictions(friction) => Edit::AllColliderFrictions(friction.into()),
             Written::Emitter { emitter, is } => {
                 Edit::Emitter(EmitterId::from_number(emitter), Box::new((*is).into()))
             }
@@ -197,17 +219,51 @@ impl From<Written> for Change {
 
 impl From<&SphereChange> for SphereFields {
     fn from(change: &SphereChange) -> Self {
-        let SphereChange { position, velocity, radius, mass, restitution } = *change;
-        let [position, velocity] = [position, velocity].map(|it| it.map(|it| it.to_array()));
-        Self { position, velocity, radius, mass, restitution }
+        Self {
+            position: change.position.map(|it| it.to_array()),
+            velocity: change.velocity.map(|it| it.to_array()),
+            radius: change.radius,
+            mass: change.mass,
+            restitution: change.restitution,
+            friction: change.friction.map(SurfaceFriction::from),
+            angular_velocity: change.angular_velocity.map(|it| it.to_array()),
+        }
     }
 }
 
 impl From<SphereFields> for SphereChange {
     fn from(fields: SphereFields) -> Self {
-        let SphereFields { position, velocity, radius, mass, restitution } = fields;
-        let [position, velocity] = [position, velocity].map(|it| it.map(DVec3::from_array));
-        Self { position, velocity, radius, mass, restitution }
+        Self {
+            position: fields.position.map(DVec3::from_array),
+            velocity: fields.velocity.map(DVec3::from_array),
+            radius: fields.radius,
+            mass: fields.mass,
+            restitution: fields.restitution,
+            friction: fields.friction.map(Friction::from),
+            angular_velocity: fields.angular_velocity.map(DVec3::from_array),
+        }
+    }
+}
+
+impl From<Friction> for SurfaceFriction {
+    fn from(friction: Friction) -> Self {
+        Self {
+            sliding: friction.sliding,
+            rolling: friction.rolling,
+            spinning: friction.spinning,
+            tangential_restitution: friction.tangential_restitution,
+        }
+    }
+}
+
+impl From<SurfaceFriction> for Friction {
+    fn from(written: SurfaceFriction) -> Self {
+        let mut friction = Self::default();
+        friction.sliding = written.sliding;
+        friction.rolling = written.rolling;
+        friction.spinning = written.spinning;
+        friction.tangential_restitution = written.tangential_restitution;
+        friction
     }
 }
 
@@ -240,11 +296,12 @@ fn unusual<T: PartialEq>(value: T, usual: T) -> Option<T> {
 
 impl From<Sphere> for carom::Sphere {
     fn from(sphere: Sphere) -> Self {
-        let mut friction = Friction::default();
-        friction.sliding = sphere.friction;
-        friction.rolling = sphere.rolling_friction;
-        friction.spinning = sphere.spinning_friction;
-        friction.tangential_restitution = sphere.tangential_restitution;
+        let friction = SurfaceFriction {
+            sliding: sphere.friction,
+            rolling: sphere.rolling_friction,
+            spinning: sphere.spinning_friction,
+            tangential_restitution: sphere.tangential_restitution,
+        };
         let mass = match sphere.mass {
             WrittenMass::Kilograms(mass) => Mass::Kilograms(mass),
             WrittenMass::Density(density) => Mass::Density(density),

@@ -1,6 +1,6 @@
 //! Edits: each changes the world and what is said of it, or nothing.
 
-use carom::{Bisect, ConstantForce, DVec3, Exact, Sphere};
+use carom::{Bisect, ConstantForce, DVec3, Exact, Friction, Sphere};
 use carom_scene::scene::{self, Color, Force, ImpactLaw, Integrator};
 use carom_session::{Edit, Session, SphereChange, View};
 
@@ -82,6 +82,52 @@ fn restitutions_of_colliders_are_changed_one_by_one_and_together() {
     assert_eq!(restitutions(&session), [0.25, 1.0]);
     session.edit(Edit::AllColliderRestitutions(0.5)).unwrap();
     assert_eq!(restitutions(&session), [0.5, 0.5]);
+}
+
+#[test]
+fn frictions_of_colliders_are_changed_one_by_one_and_together() {
+    let mut session = busy();
+    let floor = session.setup().colliders[0].0;
+    let frictions = |session: &Session| -> Vec<Friction> {
+        let colliders = session.scene_now().colliders;
+        let said = colliders.iter().map(|it| it.surface_friction()).collect();
+        let real: Vec<Friction> = session.world().colliders().map(|it| it.1.friction).collect();
+        assert_eq!(said, real);
+        said
+    };
+    let rough = Friction::sliding(0.3).with_rolling(0.01).with_tangential_restitution(0.5);
+    session.edit(Edit::ColliderFriction(floor, rough)).unwrap();
+    assert_eq!(frictions(&session), [rough, Friction::default()]);
+    let spinning = Friction::default().with_spinning(0.1);
+    session.edit(Edit::AllColliderFrictions(spinning)).unwrap();
+    assert_eq!(frictions(&session), [spinning; 2]);
+    assert_eq!(session.setup().colliders[0].1.restitution, 0.8);
+    assert!(session.edit(Edit::AllColliderFrictions(Friction::sliding(-0.1))).is_err());
+    assert_eq!(frictions(&session), [spinning; 2]);
+}
+
+#[test]
+fn friction_and_spin_of_a_sphere_are_changed_and_shown() {
+    let mut session = busy();
+    hashes(&mut session, 10);
+    let id = session.world().spheres().ids()[0];
+    let before = session.world().sphere(id).unwrap();
+    let (friction, spin) = (Friction::sliding(0.3).with_spinning(0.1), DVec3::new(1.0, 2.0, 3.0));
+    let rough = SphereChange { friction: Some(friction), ..SphereChange::default() };
+    let spun = SphereChange { angular_velocity: Some(spin), ..SphereChange::default() };
+    // In a session that a mouse edits, these may be one.
+    let both = Edit::Sphere(id, rough).merged(&Edit::Sphere(id, spun)).unwrap();
+    session.edit(both).unwrap();
+    let changed = before.with_friction(friction).with_angular_velocity(spin);
+    assert_eq!(session.world().sphere(id).unwrap(), changed);
+    let view = view(&session);
+    let shown = (view.spheres.friction(0), view.spheres.angular_velocity(0));
+    assert_eq!(shown, (friction, spin));
+    let silent = SphereChange { friction: Some(Friction::default()), ..SphereChange::default() };
+    session.edit(Edit::Sphere(id, silent)).unwrap();
+    assert_eq!(session.world().sphere(id).unwrap().friction, Friction::default());
+    let bad = SphereChange { friction: Some(Friction::sliding(-1.0)), ..SphereChange::default() };
+    assert!(session.edit(Edit::Sphere(id, bad)).is_err());
 }
 
 #[test]

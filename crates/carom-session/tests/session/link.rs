@@ -1,6 +1,8 @@
 //! Links: what is opened from one is what the link was made of, to the bit.
 
-use carom::{ColliderId, DQuat, DVec3, EmitterId, ForceId, Mass, Sphere, SphereId, StateHash};
+use carom::{
+    ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Mass, Sphere, SphereId, StateHash,
+};
 use carom_scene::scene::{Boundary, Force, Rule, Simulation};
 use carom_scene::{BUILT_IN_FILES, Override, Scene};
 use carom_session::{
@@ -136,6 +138,7 @@ fn edits() -> Vec<Edit> {
         .with_rotation(DQuat::from_xyzw(a, b, c, d))
         .with_max_spheres(u32::MAX);
     let boundary = Boundary::Periodic { size: [f64::INFINITY, b, d] };
+    let friction = Friction::sliding(a).with_rolling(b).with_spinning(c);
     let simulation = Simulation { frame_time: b, boundary, ..Simulation::default() };
     let all = SphereChange {
         position: Some(vector),
@@ -143,7 +146,10 @@ fn edits() -> Vec<Edit> {
         radius: Some(a),
         mass: Some(b),
         restitution: Some(e),
+        friction: Some(friction),
+        angular_velocity: Some(DVec3::from_array(array)),
     };
+    let silent = SphereChange { friction: Some(Friction::default()), ..SphereChange::default() };
     vec![
         Edit::Simulation(Box::new(simulation)),
         Edit::FrameTime(b),
@@ -153,6 +159,8 @@ fn edits() -> Vec<Edit> {
         Edit::RemoveForce(ForceId::from_number(7)),
         Edit::ColliderRestitution(ColliderId::from_number(3), b),
         Edit::AllColliderRestitutions(f),
+        Edit::ColliderFriction(ColliderId::from_number(2), friction.with_tangential_restitution(e)),
+        Edit::AllColliderFrictions(Friction::default().with_spinning(f)),
         Edit::Emitter(EmitterId::from_number(1), Box::new(emitter)),
         Edit::Emitter(
             EmitterId::from_number(0),
@@ -160,6 +168,7 @@ fn edits() -> Vec<Edit> {
         ),
         Edit::Sphere(SphereId::from_number(u64::MAX / 2), all),
         Edit::Sphere(SphereId::from_number(0), SphereChange::default()),
+        Edit::Sphere(SphereId::from_number(1), silent),
         Edit::Throw { sphere: Box::new(sphere), color: None },
         Edit::Throw { sphere: Box::new(sphere.with_mass(c)), color: Some([a, b, e]) },
         Edit::RemoveSphere(SphereId::from_number(12)),
@@ -219,7 +228,15 @@ fn edited() -> Session {
     edit(6, Edit::Emitter(id, Box::new(emitter)));
     let simulation = Simulation { rule: Rule::Bisect, ..Simulation::default() };
     edit(20, Edit::Simulation(Box::new(simulation)));
-    edit(8, Edit::Simulation(Box::default()));
+    let simulation = Simulation { rule: Rule::Contact, ..Simulation::default() };
+    edit(8, Edit::Simulation(Box::new(simulation)));
+    edit(2, Edit::AllColliderFrictions(Friction::sliding(0.4)));
+    let rough = Friction::sliding(0.2).with_rolling(0.01).with_spinning(0.02);
+    edit(3, Edit::ColliderFriction(ColliderId::from_number(0), rough));
+    let (friction, angular_velocity) = (Some(rough), Some(DVec3::new(0.1, 40.0, -3.0)));
+    let spun = SphereChange { friction, angular_velocity, ..Default::default() };
+    edit(6, Edit::Sphere(SphereId::from_number(2), spun));
+    edit(15, Edit::Simulation(Box::default()));
     hashes(&mut session, 30);
     session
 }

@@ -1,6 +1,6 @@
 //! Links of random sessions: whatever is done is repeated to the bit.
 
-use carom::{ColliderId, DVec3, ForceId, Sphere, SphereId};
+use carom::{ColliderId, DVec3, ForceId, Friction, Sphere, SphereId};
 use carom_scene::scene::{Force, Rule};
 use carom_session::{Edit, Session, SphereChange};
 use proptest::prelude::*;
@@ -18,7 +18,7 @@ enum Deed {
 
 fn edit() -> impl Strategy<Value = Edit> {
     let force = |it: f64| Force::Gravity { acceleration: [it, -9.0, 0.1] };
-    let rules = [Rule::Exact, Rule::Bisect, Rule::Discrete];
+    let rules = [Rule::Exact, Rule::Contact, Rule::Bisect, Rule::Discrete];
     let push = |velocity| SphereChange { velocity: Some(velocity), ..Default::default() };
     let ball = |x| Sphere::new(DVec3::new(x, 8.0, 0.0), 0.2);
     prop_oneof![
@@ -26,6 +26,17 @@ fn edit() -> impl Strategy<Value = Edit> {
         (0.5..1.1).prop_map(Edit::AllColliderRestitutions),
         (0..3_u64, 0.0..1.0)
             .prop_map(|(id, e)| Edit::ColliderRestitution(ColliderId::from_number(id), e)),
+        (-0.1..1.0).prop_map(|it| Edit::AllColliderFrictions(Friction::sliding(it))),
+        (0..3_u64, 0.0..1.0).prop_map(|(id, it)| {
+            let friction = Friction::default().with_rolling(0.1 * it).with_spinning(it);
+            Edit::ColliderFriction(ColliderId::from_number(id), friction)
+        }),
+        (0..20_u64, -0.1..1.0).prop_map(|(id, it)| {
+            let friction = Some(Friction::sliding(it));
+            let angular_velocity = Some(DVec3::new(it, -9.0 * it, 4.0));
+            let change = SphereChange { friction, angular_velocity, ..Default::default() };
+            Edit::Sphere(SphereId::from_number(id), change)
+        }),
         (0..3_u64, -1.0..1.0)
             .prop_map(move |(id, it)| Edit::Force(ForceId::from_number(id), force(it))),
         (0..4_u64).prop_map(|id| Edit::RemoveForce(ForceId::from_number(id))),
@@ -35,7 +46,7 @@ fn edit() -> impl Strategy<Value = Edit> {
         }),
         (0..30_u64).prop_map(|id| Edit::RemoveSphere(SphereId::from_number(id))),
         (-3.0..3.0).prop_map(move |x| Edit::Throw { sphere: Box::new(ball(x)), color: None }),
-        (0..3_usize, 2..9_u32).prop_map(move |(rule, max_impacts)| {
+        (0..4_usize, 2..9_u32).prop_map(move |(rule, max_impacts)| {
             let mut simulation = busy_scene().simulation;
             simulation.rule = rules[rule];
             // So few that steps fail now and then.
