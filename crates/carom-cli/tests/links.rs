@@ -98,7 +98,7 @@ fn edited() -> Session {
     session.edit(Edit::FrameTime(0.01)).unwrap();
     let velocity = Some(DVec3::new(0.1, 3.0, 1.0 / 3.0));
     let push = SphereChange { velocity, ..SphereChange::default() };
-    session.edit(Edit::Sphere(SphereId::from_number(0), push)).unwrap();
+    session.edit(Edit::Sphere(SphereId::from_number(0), Box::new(push))).unwrap();
     session.jump(1.0).unwrap();
     let mut simulation = session.setup().simulation.clone();
     simulation.rule = Rule::Exact;

@@ -28,7 +28,7 @@ pub enum Edit {
     /// An emitter. With another period it starts anew, now.
     Emitter(EmitterId, Box<Emitter>),
     /// A sphere.
-    Sphere(SphereId, SphereChange),
+    Sphere(SphereId, Box<SphereChange>),
     /// A new sphere; it may overlap others.
     Throw {
         /// As it starts.
@@ -92,7 +92,7 @@ impl Edit {
     pub fn merged(&self, later: &Self) -> Option<Self> {
         match (self, later) {
             (Self::Sphere(id, change), Self::Sphere(same, next)) if id == same => {
-                Some(Self::Sphere(*id, change.then(next)))
+                Some(Self::Sphere(*id, Box::new(change.then(next))))
             }
             (Self::Simulation(_), Self::Simulation(_))
             | (Self::FrameTime(_), Self::FrameTime(_))

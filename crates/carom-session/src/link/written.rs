@@ -174,7 +174,7 @@ impl From<&Change> for Written {
                 Self::Emitter { emitter: id.number(), is: Box::new((&**emitter).into()) }
             }
             Edit::Sphere(id, change) => {
-                Self::Sphere { sphere: id.number(), changes: Box::new(change.into()) }
+                Self::Sphere { sphere: id.number(), changes: Box::new((&**change).into()) }
             }
             Edit::Throw { sphere, color } => {
                 Self::Throw { sphere: Box::new((&**sphere).into()), color: *color }
@@ -207,7 +207,7 @@ impl From<Written> for Change {
                 Edit::Emitter(EmitterId::from_number(emitter), Box::new((*is).into()))
             }
             Written::Sphere { sphere, changes } => {
-                Edit::Sphere(SphereId::from_number(sphere), (*changes).into())
+                Edit::Sphere(SphereId::from_number(sphere), Box::new((*changes).into()))
             }
             Written::Throw { sphere, color } => {
                 Edit::Throw { sphere: Box::new((*sphere).into()), color }

@@ -116,7 +116,7 @@ fn friction_and_spin_of_a_sphere_are_changed_and_shown() {
     let rough = SphereChange { friction: Some(friction), ..SphereChange::default() };
     let spun = SphereChange { angular_velocity: Some(spin), ..SphereChange::default() };
     // In a session that a mouse edits, these may be one.
-    let both = Edit::Sphere(id, rough).merged(&Edit::Sphere(id, spun)).unwrap();
+    let both = Edit::Sphere(id, Box::new(rough)).merged(&Edit::Sphere(id, Box::new(spun))).unwrap();
     session.edit(both).unwrap();
     let changed = before.with_friction(friction).with_angular_velocity(spin);
     assert_eq!(session.world().sphere(id).unwrap(), changed);
@@ -124,10 +124,10 @@ fn friction_and_spin_of_a_sphere_are_changed_and_shown() {
     let shown = (view.spheres.friction(0), view.spheres.angular_velocity(0));
     assert_eq!(shown, (friction, spin));
     let silent = SphereChange { friction: Some(Friction::default()), ..SphereChange::default() };
-    session.edit(Edit::Sphere(id, silent)).unwrap();
+    session.edit(Edit::Sphere(id, Box::new(silent))).unwrap();
     assert_eq!(session.world().sphere(id).unwrap().friction, Friction::default());
     let bad = SphereChange { friction: Some(Friction::sliding(-1.0)), ..SphereChange::default() };
-    assert!(session.edit(Edit::Sphere(id, bad)).is_err());
+    assert!(session.edit(Edit::Sphere(id, Box::new(bad))).is_err());
 }
 
 #[test]
@@ -137,7 +137,7 @@ fn a_change_of_a_sphere_leaves_the_rest_of_it_as_it_is_by_then() {
     let id = session.world().spheres().ids()[0];
     let before = session.world().sphere(id).unwrap();
     let change = SphereChange { mass: Some(7.0), ..SphereChange::default() };
-    session.edit(Edit::Sphere(id, change)).unwrap();
+    session.edit(Edit::Sphere(id, Box::new(change))).unwrap();
     assert_eq!(session.world().sphere(id).unwrap(), before.with_mass(7.0));
     session.edit(Edit::RemoveSphere(id)).unwrap();
     assert!(session.world().sphere(id).is_err());

@@ -166,9 +166,9 @@ fn edits() -> Vec<Edit> {
             EmitterId::from_number(0),
             Box::new(emitter.with_max_spheres(None).with_sphere(sphere)),
         ),
-        Edit::Sphere(SphereId::from_number(u64::MAX / 2), all),
-        Edit::Sphere(SphereId::from_number(0), SphereChange::default()),
-        Edit::Sphere(SphereId::from_number(1), silent),
+        Edit::Sphere(SphereId::from_number(u64::MAX / 2), Box::new(all)),
+        Edit::Sphere(SphereId::from_number(0), Box::default()),
+        Edit::Sphere(SphereId::from_number(1), Box::new(silent)),
         Edit::Throw { sphere: Box::new(sphere), color: None },
         Edit::Throw { sphere: Box::new(sphere.with_mass(c)), color: Some([a, b, e]) },
         Edit::RemoveSphere(SphereId::from_number(12)),
@@ -203,8 +203,8 @@ fn edited() -> Session {
     };
     edit(0, Edit::AllColliderRestitutions(0.6));
     let push = SphereChange { velocity: Some(DVec3::new(3.0, 4.0, 0.1)), ..Default::default() };
-    edit(13, Edit::Sphere(SphereId::from_number(2), push));
-    edit(0, Edit::Sphere(SphereId::from_number(2), push));
+    edit(13, Edit::Sphere(SphereId::from_number(2), Box::new(push)));
+    edit(0, Edit::Sphere(SphereId::from_number(2), Box::new(push)));
     edit(7, Edit::FrameTime(0.01));
     edit(
         11,
@@ -235,7 +235,7 @@ fn edited() -> Session {
     edit(3, Edit::ColliderFriction(ColliderId::from_number(0), rough));
     let (friction, angular_velocity) = (Some(rough), Some(DVec3::new(0.1, 40.0, -3.0)));
     let spun = SphereChange { friction, angular_velocity, ..Default::default() };
-    edit(6, Edit::Sphere(SphereId::from_number(2), spun));
+    edit(6, Edit::Sphere(SphereId::from_number(2), Box::new(spun)));
     edit(15, Edit::Simulation(Box::default()));
     hashes(&mut session, 30);
     session
@@ -255,7 +255,7 @@ fn a_session_with_edits_is_repeated_from_its_link() {
     }
     let new = SphereChange { position: Some(DVec3::new(0.1, 7.0, 0.0)), ..Default::default() };
     session.jump(0.3).unwrap();
-    session.edit(Edit::Sphere(first_sphere(&session), new)).unwrap();
+    session.edit(Edit::Sphere(first_sphere(&session), Box::new(new))).unwrap();
     hashes(&mut session, 25);
     assert_repeats(&session);
 }

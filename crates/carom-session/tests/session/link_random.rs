@@ -35,14 +35,14 @@ fn edit() -> impl Strategy<Value = Edit> {
             let friction = Some(Friction::sliding(it));
             let angular_velocity = Some(DVec3::new(it, -9.0 * it, 4.0));
             let change = SphereChange { friction, angular_velocity, ..Default::default() };
-            Edit::Sphere(SphereId::from_number(id), change)
+            Edit::Sphere(SphereId::from_number(id), Box::new(change))
         }),
         (0..3_u64, -1.0..1.0)
             .prop_map(move |(id, it)| Edit::Force(ForceId::from_number(id), force(it))),
         (0..4_u64).prop_map(|id| Edit::RemoveForce(ForceId::from_number(id))),
         (-1.0..1.0).prop_map(move |it| Edit::AddForce(force(it))),
         (0..20_u64, -3.0..3.0).prop_map(move |(id, it)| {
-            Edit::Sphere(SphereId::from_number(id), push(DVec3::new(it, 2.0, -it)))
+            Edit::Sphere(SphereId::from_number(id), Box::new(push(DVec3::new(it, 2.0, -it))))
         }),
         (0..30_u64).prop_map(|id| Edit::RemoveSphere(SphereId::from_number(id))),
         (-3.0..3.0).prop_map(move |x| Edit::Throw { sphere: Box::new(ball(x)), color: None }),

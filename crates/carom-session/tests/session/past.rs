@@ -12,7 +12,7 @@ fn first_sphere(session: &Session) -> SphereId {
 
 fn push(session: &mut Session, velocity: DVec3) {
     let change = SphereChange { velocity: Some(velocity), ..SphereChange::default() };
-    session.edit(Edit::Sphere(first_sphere(session), change)).unwrap();
+    session.edit(Edit::Sphere(first_sphere(session), Box::new(change))).unwrap();
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn a_refused_edit_changes_nothing_and_cuts_off_nothing() {
     let (setup, force) = (session.setup().clone(), session.setup().forces[0].0);
     let bad = SphereChange { radius: Some(-1.0), ..SphereChange::default() };
     let id = first_sphere(&session);
-    assert!(session.edit(Edit::Sphere(id, bad)).is_err());
+    assert!(session.edit(Edit::Sphere(id, Box::new(bad))).is_err());
     assert!(session.edit(Edit::FrameTime(0.0)).is_err());
     assert!(session.edit(Edit::AllColliderRestitutions(1.5)).is_err());
     let mut other = busy();

@@ -98,7 +98,7 @@ fn an_edit_is_seen_in_the_readings_at_once() {
     let before = view(&session).now;
     let id = session.world().spheres().ids()[0];
     let change = SphereChange { mass: Some(100.0), ..SphereChange::default() };
-    session.edit(Edit::Sphere(id, change)).unwrap();
+    session.edit(Edit::Sphere(id, Box::new(change))).unwrap();
     let after = view(&session);
     assert!(after.now.kinetic_energy > before.kinetic_energy);
     assert_eq!((after.readings.len(), after.readings.last()), (16, Some(&after.now)));

@@ -4,6 +4,7 @@ use carom::DVec3;
 use carom_session::{Command, Edit, SphereChange, View};
 use egui::Ui;
 
+use super::friction;
 use super::value::{Field, number, vector};
 
 /// A ball that is thrown into the scene with the mouse.
@@ -40,6 +41,7 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     let vectors = [
         ("position", "m", spheres.positions[i], &mut change.position),
         ("velocity", "m/s", spheres.velocities[i], &mut change.velocity),
+        ("spin", "rad/s", spheres.angular_velocity(i), &mut change.angular_velocity),
     ];
     for (name, unit, now, changed) in vectors {
         let mut value = now.to_array();
@@ -58,14 +60,20 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             *changed = Some(value);
         }
     }
+    if friction::acts(view) {
+        let mut said = spheres.friction(i);
+        if friction::show(ui, &format!("Friction of ball {id}"), &mut said) {
+            change.friction = Some(said);
+        }
+    }
     if change != SphereChange::default() {
-        commands.push(Command::Edit(Edit::Sphere(id, change)));
+        commands.push(Command::Edit(Edit::Sphere(id, Box::new(change))));
     }
     ui.horizontal(|ui| {
         if ui.small_button("Stop it").clicked() {
             let velocity = Some(DVec3::ZERO);
             let stop = SphereChange { velocity, ..Default::default() };
-            commands.push(Command::Edit(Edit::Sphere(id, stop)));
+            commands.push(Command::Edit(Edit::Sphere(id, Box::new(stop))));
         }
         if ui.small_button("Remove it").clicked() {
             commands.push(Command::Edit(Edit::RemoveSphere(id)));

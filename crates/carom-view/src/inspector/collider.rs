@@ -3,6 +3,7 @@
 use carom_session::{Command, Edit, View};
 use egui::{Slider, Ui};
 
+use super::friction;
 use super::value::name;
 
 /// Surfaces that get a slider of their own; more are changed together.
@@ -14,10 +15,15 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         ui.weak("none that deflects");
         return;
     };
+    let has_friction = friction::acts(view);
     if solid().nth(1).is_some() {
         let mut all = first.restitution;
         if slider(ui, "all", "Restitution of all surfaces", &mut all) {
             commands.push(Command::Edit(Edit::AllColliderRestitutions(all)));
+        }
+        let mut all = first.surface_friction();
+        if has_friction && friction::show(ui, "Friction of all", &mut all) {
+            commands.push(Command::Edit(Edit::AllColliderFrictions(all)));
         }
     }
     for (i, (id, collider)) in solid().take(LISTED).enumerate() {
@@ -29,6 +35,14 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             ui.push_id(("collider", *id), |ui| slider(ui, &title, &text, &mut restitution)).inner;
         if is_changed {
             commands.push(Command::Edit(Edit::ColliderRestitution(*id, restitution)));
+        }
+        if !has_friction {
+            continue;
+        }
+        let mut said = collider.surface_friction();
+        let text = format!("Friction of {title}");
+        if ui.push_id(("friction", *id), |ui| friction::show(ui, &text, &mut said)).inner {
+            commands.push(Command::Edit(Edit::ColliderFriction(*id, said)));
         }
     }
 }

@@ -4,6 +4,7 @@ use carom::{DVec3, Mass};
 use carom_session::{Command, Edit, View};
 use egui::{DragValue, Ui};
 
+use super::friction;
 use super::value::{Field, name, number, number_at_last, vector};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
@@ -27,6 +28,9 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
                 after.sphere.mass = Mass::Kilograms(mass);
             }
             number(ui, Field::restitution(), &mut after.sphere.restitution);
+            if friction::acts(view) {
+                friction::show(ui, "Friction of its balls", &mut after.sphere.friction);
+            }
             if after != before {
                 commands.push(Command::Edit(Edit::Emitter(*id, Box::new(after))));
             }

@@ -4,6 +4,7 @@ mod ball;
 mod collider;
 mod emitter;
 mod force;
+mod friction;
 mod simulation;
 mod value;
 

@@ -38,6 +38,26 @@ pub(super) fn number(ui: &mut Ui, field: Field, value: &mut f64) -> bool {
     row(ui, field, |ui| drag(ui, field, value))
 }
 
+/// A row with a number that may be missing: without a tick it is what the other body says. Returns
+/// whether it was changed.
+pub(super) fn optional(ui: &mut Ui, field: Field, value: &mut Option<f64>) -> bool {
+    row(ui, field, |ui| {
+        let mut is_given = value.is_some();
+        let tick = ui
+            .checkbox(&mut is_given, "")
+            .on_hover_text("Without a tick, what it touches decides.");
+        let text = format!("{} {} is given", field.name, field.unit);
+        tick.widget_info(|| {
+            egui::WidgetInfo::selected(egui::Role::CheckBox, true, is_given, &text)
+        });
+        let is_changed = tick.changed();
+        if is_changed {
+            *value = is_given.then_some(field.min);
+        }
+        value.as_mut().is_some_and(|value| drag(ui, field, value)) | is_changed
+    })
+}
+
 /// Most that a count can be dragged to: more sub-steps or sweeps than that are typed into scene files.
 const MOST: u32 = 1000;
 

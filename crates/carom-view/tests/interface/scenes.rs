@@ -1,6 +1,6 @@
 //! Choosing scenes, and changing them while they run.
 
-use carom_scene::scene::{Collider, Scene, Shape};
+use carom_scene::scene::{Collider, Rule, Scene, Shape};
 use carom_scene::{Library, Source};
 use carom_session::{Command, Edit};
 use carom_view::{Setup, Start};
@@ -55,15 +55,78 @@ fn restitution_changes_while_the_scene_runs() {
     let mut desk = watching("simtest1");
     press(&mut desk, Key::P);
     desk.run_steps(30);
-    desk.get_by_label("Restitution of PlaneCollider").click();
-    desk.run_steps(2);
-    desk.event(egui::Event::Text("0.05".to_owned()));
-    desk.run_steps(2);
-    press(&mut desk, Key::Enter);
+    type_into(&mut desk, "Restitution of PlaneCollider", "0.05");
     let view = scene(&desk).view();
     let (_, plane) = &view.setup.colliders[0];
     assert_eq!(plane.restitution, 0.05);
     assert!(view.playback.playing && view.time > 0.3, "it went on");
+}
+
+/// Types a number into the last field of this name; the name of its row has the same text.
+fn type_into(desk: &mut Desk, label: &str, number: &str) {
+    desk.get_all_by_label(label).last().unwrap().click();
+    desk.run_steps(2);
+    desk.event(egui::Event::Text(number.to_owned()));
+    desk.run_steps(2);
+    press(desk, Key::Enter);
+}
+
+/// A scene under the rule `contact`, running.
+fn watching_contacts() -> Desk {
+    let mut desk = watching("simtest1");
+    let mut simulation = scene(&desk).view().setup.simulation.clone();
+    simulation.rule = Rule::Contact;
+    desk.state_mut().command(Command::Edit(Edit::Simulation(Box::new(simulation))));
+    press(&mut desk, Key::P);
+    desk.run_steps(30);
+    desk
+}
+
+#[test]
+fn friction_of_a_surface_changes_while_the_scene_runs() {
+    let mut desk = watching_contacts();
+    desk.get_by_label("Friction of PlaneCollider").click();
+    desk.run_steps(30);
+    desk.get_by_label("sliding friction is given").click();
+    desk.run_steps(4);
+    type_into(&mut desk, "sliding", "0.35");
+    let view = scene(&desk).view();
+    let plane = view.setup.colliders[0].1.clone();
+    assert_eq!((plane.friction, plane.rolling_friction), (Some(0.35), None));
+    assert!(view.playback.playing && view.time > 0.3, "it went on");
+    // Without a tick it says nothing again.
+    desk.get_by_label("sliding friction is given").click();
+    desk.run_steps(4);
+    assert_eq!(scene(&desk).view().setup.colliders[0].1.friction, None);
+}
+
+#[test]
+fn friction_and_spin_of_the_picked_ball_change() {
+    let mut desk = watching_contacts();
+    // Balls leave the scene, and a step of the desk is longer than a frame.
+    press(&mut desk, Key::P);
+    let id = *scene(&desk).view().spheres.ids.last().unwrap();
+    desk.state_mut().command(Command::Pick(Some(id)));
+    desk.run_steps(4);
+    desk.get_by_label(&format!("Friction of ball {id}")).click();
+    desk.run_steps(30);
+    desk.get_by_label("rolling friction is given").click();
+    desk.run_steps(4);
+    type_into(&mut desk, "rolling", "0.02");
+    let spheres = &scene(&desk).view().spheres;
+    let friction = spheres.friction(spheres.index_of(id).unwrap());
+    assert_eq!((friction.rolling, friction.sliding), (Some(0.02), None));
+    // The last of its three numbers is z.
+    type_into(&mut desk, "spin", "7.5");
+    let spheres = &scene(&desk).view().spheres;
+    assert_eq!(spheres.angular_velocity(spheres.index_of(id).unwrap()).z, 7.5);
+}
+
+#[test]
+fn friction_is_shown_only_where_it_acts() {
+    let mut desk = watching("simtest1");
+    desk.run_steps(4);
+    assert!(desk.query_by_label("Friction of PlaneCollider").is_none());
 }
 
 #[test]

@@ -108,8 +108,8 @@ impl World {
     }
 
     /// The contacts that persist, with their forces, in the order of the ids of spheres, pairs of
-    /// spheres first: what a ball that lies on the floor is in. Known under the rule `exact` after a
-    /// step; none where something was changed since, or under other rules.
+    /// spheres first: what a ball that lies on the floor is in. Known under the rules `exact` and
+    /// `contact` after a step; none where something was changed since, or under other rules.
     ///
     /// ```
     /// use carom::{Collider, DVec3, Gravity, Pose, Settings, Shape, Sphere, World};

@@ -1,0 +1,30 @@
+//! What balls and surfaces say of friction.
+
+use carom::Friction;
+use carom_scene::scene::Rule;
+use carom_session::View;
+use egui::Ui;
+
+use super::value::{Field, optional};
+
+/// Whether friction acts under a rule that is shown.
+pub(super) fn acts(view: &View) -> bool {
+    let is_contact = |view: &View| view.setup.simulation.rule == Rule::Contact;
+    is_contact(view) || view.other.as_deref().is_some_and(is_contact)
+}
+
+/// The coefficients, to be unfolded under this title. Returns whether any was changed.
+pub(super) fn show(ui: &mut Ui, title: &str, friction: &mut Friction) -> bool {
+    ui.collapsing(title, |ui| rows(ui, friction)).body_returned.unwrap_or(false)
+}
+
+fn rows(ui: &mut Ui, friction: &mut Friction) -> bool {
+    let tangential = Field { name: "tangential", unit: "restitution", ..Field::restitution() };
+    let rows = [
+        (Field::not_negative("sliding", "friction"), &mut friction.sliding),
+        (Field::not_negative("rolling", "friction"), &mut friction.rolling),
+        (Field::not_negative("spinning", "friction"), &mut friction.spinning),
+        (tangential, &mut friction.tangential_restitution),
+    ];
+    rows.into_iter().fold(false, |changed, (field, value)| optional(ui, field, value) | changed)
+}
