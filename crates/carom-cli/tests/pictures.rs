@@ -132,6 +132,26 @@ fn the_film_of_a_recorded_run_is_the_film_of_the_run() {
 }
 
 #[test]
+fn balls_of_a_recorded_run_turn_as_they_did() {
+    let folder = tempfile::tempdir().unwrap();
+    let [table, plain, live, replayed, unturned] =
+        ["run.csv", "plain.csv", "live.mp4", "replayed.mp4", "unturned.mp4"]
+            .map(|name| path(&folder, name));
+    let spun = ["--set", "emitters.0.sphere.angular_velocity=[0, 0, 20]"];
+    good(&[&["run", "simtest1", "--seconds", "1", "--out", &table], &spun[..]].concat());
+    film(&live, &[&["simtest1", "--seconds", "1", "--fps", "25"], &spun[..]].concat());
+    film(&replayed, &[&["simtest1", "--from", &table, "--fps", "25"], &spun[..]].concat());
+    // The same table without its columns of rotation, as older versions wrote it.
+    let text = std::fs::read_to_string(&table).unwrap();
+    let cut = |line: &str| line.split(',').take(8).collect::<Vec<_>>().join(",") + "\n";
+    std::fs::write(&plain, text.lines().map(cut).collect::<String>()).unwrap();
+    film(&unturned, &[&["simtest1", "--from", &plain, "--fps", "25"], &spun[..]].concat());
+    let [live, replayed, unturned] = [live, replayed, unturned].map(|file| frames(&file));
+    assert!(live == replayed);
+    assert!(live != unturned, "the bands are seen");
+}
+
+#[test]
 fn a_film_of_a_recording_ends_with_it_and_can_be_shorter() {
     let folder = tempfile::tempdir().unwrap();
     let [table, file] = ["run.csv", "film.mp4"].map(|name| path(&folder, name));

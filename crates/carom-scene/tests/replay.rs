@@ -42,6 +42,8 @@ fn assert_same(frame: &ReplayFrame, world: &World) {
         assert_eq!(ball.number, spheres.ids()[i].number());
         assert_eq!(ball.position, spheres.positions()[i]);
         assert_eq!(ball.velocity, spheres.velocities()[i]);
+        let turned = world.has_spin().then(|| spheres.get(i).orientation);
+        assert_eq!(ball.orientation, turned);
         assert_eq!(ball.radius, spheres.radii()[i]);
         assert_eq!(ball.mass, spheres.masses()[i]);
     }
@@ -64,6 +66,23 @@ fn a_replay_has_the_same_bits_as_the_run() {
             assert_same(&replay.next_frame().unwrap().unwrap(), world);
         }
         assert_eq!(replay.next_frame().unwrap(), None);
+    }
+}
+
+#[test]
+fn balls_are_turned_as_in_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(FILE);
+    let mut scene = scene("simtest1", Rule::Exact);
+    scene.emitters[0].sphere.angular_velocity = [1.0, -20.0, 3.0];
+    scene.spheres =
+        vec![Sphere { orientation: [0.0, 0.6, 0.0, 0.8], ..Sphere::at([90.0, 90.0, 0.0], 0.5) }];
+    let worlds = record(&scene, 60, 1, &path);
+    assert!(worlds[59].spheres().orientations()[1].w.abs() < 0.99, "an emitted ball has turned");
+    let mut replay = Replay::open(&path, &scene).unwrap();
+    assert_same(replay.start(), &scene.world().unwrap());
+    for world in &worlds {
+        assert_same(&replay.next_frame().unwrap().unwrap(), world);
     }
 }
 
@@ -188,6 +207,37 @@ fn broken_tables_are_refused_by_the_line() {
     assert!(matches!(problem(&["1e300,0,1,2,3,4,5,6", GOOD], 3), LineProblem::TimeGoesBack { .. }));
     let found = refusal("t,ball,x,y,z,vx,vy", &["0.02,0,1,2,3,4,5"]);
     assert!(matches!(found, ReplayError::MissingColumn { column: "vz", .. }));
+}
+
+#[test]
+fn what_is_no_rotation_is_refused_by_the_line() {
+    const HEADER: &str = "t,ball,x,y,z,vx,vy,vz,qx,qy,qz,qw";
+    let problem = |rotation: &str| {
+        let row = format!("0.02,0,1,2,3,4,5,6,{rotation}");
+        match refusal(HEADER, &[&row]) {
+            ReplayError::Line { line: 2, problem, .. } => problem,
+            error => panic!("{error}"),
+        }
+    };
+    assert!(matches!(problem("0,0,0,0"), LineProblem::NotARotation(it) if it == [0.0; 4]));
+    // Its length is no number.
+    assert!(matches!(problem("0,0,0,1e300"), LineProblem::NotARotation(_)));
+    assert!(matches!(problem("0,0,?,1"), LineProblem::NotANumber { column: "qz", .. }));
+    let found = refusal("t,ball,x,y,z,vx,vy,vz,qx,qy,qw", &["0.02,0,1,2,3,4,5,6,0,0,1"]);
+    assert!(matches!(found, ReplayError::MissingColumn { column: "qz", .. }));
+}
+
+#[test]
+fn a_rotation_may_have_any_length() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(FILE);
+    let text = "t,ball,x,y,z,vx,vy,vz,qx,qy,qz,qw\n0.02,0,1,2,3,4,5,6,0,3,0,4\n";
+    std::fs::write(&path, text).unwrap();
+    let (scene, _) = Library::new().find("simtest1", &[]).unwrap();
+    let frame = Replay::open(&path, &scene).unwrap().next_frame().unwrap().unwrap();
+    let found = frame.balls[0].orientation.unwrap().to_array();
+    // A rounding or two of numbers up to 1.
+    [0.0, 0.6, 0.0, 0.8].iter().zip(found).for_each(|(a, b)| assert!((a - b).abs() < 1e-15));
 }
 
 #[test]

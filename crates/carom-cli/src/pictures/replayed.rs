@@ -74,7 +74,6 @@ impl Footage for Replayed {
 }
 
 fn seen(ball: &ReplayBall) -> Seen {
-    let ReplayBall { number, position, radius, mass, .. } = *ball;
-    // Tables do not say how balls are turned.
-    Seen { number, position, radius, mass, orientation: None }
+    let ReplayBall { number, position, radius, mass, orientation, .. } = *ball;
+    Seen { number, position, radius, mass, orientation }
 }

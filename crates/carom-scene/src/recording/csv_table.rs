@@ -14,8 +14,11 @@ use super::rotation;
 /// position \[m\], velocity \[m/s\].
 pub(super) const HEADER: [&str; 8] = ["t", "ball", "x", "y", "z", "vx", "vy", "vz"];
 
-/// Further columns where spheres turn: orientation as a quaternion, angular velocity \[rad/s\].
-const ROTATION: [&str; 7] = ["qx", "qy", "qz", "qw", "wx", "wy", "wz"];
+/// Further columns where spheres turn: orientation as a quaternion.
+pub(super) const ORIENTATION: [&str; 4] = ["qx", "qy", "qz", "qw"];
+
+/// Columns after those of the orientation: angular velocity \[rad/s\].
+const ANGULAR_VELOCITY: [&str; 3] = ["wx", "wy", "wz"];
 
 pub(super) struct CsvTable {
     writer: csv::Writer<File>,
@@ -36,7 +39,8 @@ impl CsvTable {
             return Ok(has_rotation);
         }
         let has_rotation = *self.has_rotation.insert(has_rotation());
-        let more: &[&str] = if has_rotation { &ROTATION } else { &[] };
+        let rotation = ORIENTATION.iter().chain(&ANGULAR_VELOCITY);
+        let more = rotation.filter(|_| has_rotation);
         self.writer.write_record(HEADER.iter().chain(more))?;
         Ok(has_rotation)
     }

@@ -1,6 +1,6 @@
 //! A recording at any time: between its frames, too.
 
-use carom::{Boundary, DVec3};
+use carom::{Boundary, DQuat, DVec3};
 
 use super::replay::{Replay, ReplayBall, ReplayError, ReplayFrame};
 
@@ -19,7 +19,8 @@ const SAME_TIME: f64 = 1e-9;
 /// ```
 ///
 /// with h = t2 - t1 and s = (t - t1) / h, from place and velocity in the frames at t1 and t2. It is
-/// free flight exactly where the force is constant. An impact in between is smoothed away: record
+/// free flight exactly where the force is constant. Where the recording has orientations, balls turn the
+/// shorter way. An impact in between is smoothed away: record
 /// at the times that are to be seen (or more often) to see impacts as they were. A ball that is not
 /// in both frames is seen until the one before it is gone, and not before the first one it is in.
 #[derive(Debug)]
@@ -93,7 +94,10 @@ fn curve(from: &ReplayBall, to: &ReplayBall, s: f64, h: f64, boundary: Boundary)
     let velocity = (6.0 * s - 6.0 * s2) * (x2 - x1) / h
         + (3.0 * s2 - 4.0 * s + 1.0) * v1
         + (3.0 * s2 - 2.0 * s) * v2;
-    ReplayBall { position: near(position, DVec3::ZERO, boundary), velocity, ..*from }
+    let position = near(position, DVec3::ZERO, boundary);
+    let turned = |(from, to): (DQuat, DQuat)| from.lerp(to, s);
+    let orientation = from.orientation.zip(to.orientation).map(turned);
+    ReplayBall { position, velocity, orientation, ..*from }
 }
 
 /// The image of a place that is nearest to another, under a boundary.
@@ -118,7 +122,8 @@ mod tests {
 
     fn ball(number: u64, x: f64, v: f64) -> ReplayBall {
         let (position, velocity) = (DVec3::new(x, 0.0, 0.0), DVec3::new(v, 0.0, 0.0));
-        ReplayBall { number, position, velocity, radius: 0.1, mass: 1.0, color: None }
+        let (orientation, color) = (None, None);
+        ReplayBall { number, position, velocity, orientation, radius: 0.1, mass: 1.0, color }
     }
 
     fn frame(time: f64, balls: &[ReplayBall]) -> ReplayFrame {
@@ -146,6 +151,20 @@ mod tests {
         let x = |time| between(&before, &after, time, boundary).balls[0].position.x;
         assert!((x(0.2) - 0.98).abs() < 1e-15, "{}", x(0.2));
         assert!((x(0.5) + 0.9).abs() < 1e-15, "{}", x(0.5));
+    }
+
+    #[test]
+    fn a_ball_turns_the_shorter_way() {
+        let turned = |angle, sign: f64| {
+            let orientation = Some(DQuat::from_rotation_y(angle) * sign);
+            ReplayBall { orientation, ..ball(0, 0.0, 0.0) }
+        };
+        let (before, after) = (frame(1.0, &[turned(0.3, 1.0)]), frame(2.0, &[turned(0.5, -1.0)]));
+        let found = between(&before, &after, 1.5, Boundary::Open).balls[0].orientation.unwrap();
+        // An angle of zero, from a cosine rounded.
+        assert!(found.angle_between(DQuat::from_rotation_y(0.4)) < 1e-7, "{found}");
+        let plain = frame(2.0, &[ball(0, 0.0, 0.0)]);
+        assert_eq!(between(&before, &plain, 1.5, Boundary::Open).balls[0].orientation, None);
     }
 
     #[test]

@@ -4,10 +4,11 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use carom::{Boundary, DVec3, World};
+use carom::{Boundary, DQuat, DVec3, World};
 use thiserror::Error;
 
-use super::csv_table::HEADER;
+use super::csv_table::{HEADER, ORIENTATION};
+use super::rotation;
 use crate::error::SceneError;
 use crate::origin::{Origin, Origins};
 use crate::palette;
@@ -60,6 +61,9 @@ pub enum LineProblem {
         /// The field.
         text: String,
     },
+    /// The four numbers of an orientation are those of no rotation.
+    #[error("qx, qy, qz, qw must be a rotation, not {0:?}")]
+    NotARotation([f64; 4]),
     /// A line has more or fewer fields than the first one.
     #[error("{fields} fields where the first line has {expected}")]
     Fields {
@@ -115,6 +119,8 @@ pub struct ReplayBall {
     pub position: DVec3,
     /// Velocity \[m/s\].
     pub velocity: DVec3,
+    /// From its own coordinate system to the world's; `None` where the recording does not say.
+    pub orientation: Option<DQuat>,
     /// In m.
     pub radius: f64,
     /// In kg.
@@ -133,8 +139,7 @@ pub struct ReplayBall {
 pub struct Replay {
     path: PathBuf,
     reader: csv::Reader<File>,
-    /// Where the columns of [`HEADER`] are.
-    columns: [usize; 8],
+    columns: Columns,
     balls: Balls,
     /// The first row of the next frame.
     next: Option<Row>,
@@ -142,6 +147,15 @@ pub struct Replay {
     /// The scene at its start, which is not in the file.
     start: ReplayFrame,
     boundary: Boundary,
+}
+
+/// Where the columns of a table are.
+#[derive(Debug, Clone, Copy)]
+struct Columns {
+    /// Those of [`HEADER`].
+    motion: [usize; 8],
+    /// Those of [`ORIENTATION`], where there are any.
+    orientation: Option<[usize; 4]>,
 }
 
 /// A row of the table, and its line.
@@ -152,6 +166,33 @@ struct Row {
     number: u64,
     position: DVec3,
     velocity: DVec3,
+    orientation: Option<DQuat>,
+}
+
+impl Columns {
+    /// The columns of a table with this first line; the error is the name of one that is missing.
+    fn of(header: &csv::StringRecord) -> Result<Self, &'static str> {
+        let has_rotation = ORIENTATION.iter().any(|column| place(header, column).is_ok());
+        let orientation = has_rotation.then(|| places(header, ORIENTATION)).transpose()?;
+        Ok(Self { motion: places(header, HEADER)?, orientation })
+    }
+}
+
+/// Where the columns of these names are.
+fn places<const N: usize>(
+    header: &csv::StringRecord,
+    names: [&'static str; N],
+) -> Result<[usize; N], &'static str> {
+    let mut places = [0; N];
+    for (found, name) in places.iter_mut().zip(names) {
+        *found = place(header, name)?;
+    }
+    Ok(places)
+}
+
+/// Where the column of this name is.
+fn place(header: &csv::StringRecord, column: &'static str) -> Result<usize, &'static str> {
+    header.iter().position(|name| name.trim() == column).ok_or(column)
 }
 
 impl Replay {
@@ -164,15 +205,12 @@ impl Replay {
         let unreadable = |source| ReplayError::Unreadable { path: path.to_owned(), source };
         let mut reader = csv::Reader::from_reader(File::open(path).map_err(unreadable)?);
         let header = reader.headers().map_err(|error| broken(path, error))?.clone();
-        let mut columns = [0; 8];
-        for (place, column) in columns.iter_mut().zip(HEADER) {
-            let found = header.iter().position(|name| name.trim() == column);
-            let missing = || ReplayError::MissingColumn { path: path.to_owned(), column };
-            *place = found.ok_or_else(missing)?;
-        }
+        let missing = |column| ReplayError::MissingColumn { path: path.to_owned(), column };
+        let columns = Columns::of(&header).map_err(missing)?;
         let world = scene.world()?;
         let balls = Balls::new(scene, &world)?;
-        let start = ReplayFrame { time: world.time(), balls: balls.at_start(&world) };
+        let at_start = balls.at_start(&world, columns.orientation.is_some());
+        let start = ReplayFrame { time: world.time(), balls: at_start };
         let boundary = world.settings().boundary;
         let path = path.to_owned();
         Ok(Self { path, reader, columns, balls, next: None, has_begun: false, start, boundary })
@@ -233,11 +271,11 @@ impl Replay {
     }
 
     fn ball(&mut self, row: &Row) -> Result<ReplayBall, ReplayError> {
-        let Row { line, time, number, position, velocity } = *row;
+        let Row { line, time, number, position, velocity, orientation } = *row;
         let kind = self.balls.kind(number, time);
         let unknown = || self.line(line, LineProblem::UnknownBall { ball: number, time });
         let Kind { radius, mass, color } = kind.ok_or_else(unknown)?;
-        Ok(ReplayBall { number, position, velocity, radius, mass, color })
+        Ok(ReplayBall { number, position, velocity, orientation, radius, mass, color })
     }
 
     fn line(&self, line: u64, problem: LineProblem) -> ReplayError {
@@ -246,21 +284,48 @@ impl Replay {
 }
 
 /// The row that a record stands for; its line is not known here.
-fn parse(record: &csv::StringRecord, columns: &[usize; 8]) -> Result<Row, LineProblem> {
-    let field = |column: usize| record.get(columns[column]).unwrap_or_default().trim();
-    let wrong = |column: usize| {
-        let text = field(column).to_owned();
-        LineProblem::NotANumber { column: HEADER[column], text }
-    };
-    let mut values = [0.0; 8];
-    for (column, value) in values.iter_mut().enumerate() {
-        let parsed = field(column).parse().ok().filter(|value: &f64| value.is_finite());
-        *value = parsed.ok_or_else(|| wrong(column))?;
-    }
-    let number = field(1).parse().map_err(|_| wrong(1))?;
+fn parse(record: &csv::StringRecord, columns: &Columns) -> Result<Row, LineProblem> {
+    let values = numbers(record, HEADER, columns.motion)?;
     let [time, _, x, y, z, vx, vy, vz] = values;
+    let text = field(record, columns.motion[1]);
+    let number = text.parse().map_err(|_| not_a_number(HEADER[1], text))?;
     let (position, velocity) = (DVec3::new(x, y, z), DVec3::new(vx, vy, vz));
-    Ok(Row { line: 0, time, number, position, velocity })
+    let numbers = columns.orientation.map(|places| numbers(record, ORIENTATION, places));
+    let orientation = numbers.transpose()?.map(orientation).transpose()?;
+    Ok(Row { line: 0, time, number, position, velocity, orientation })
+}
+
+/// The numbers in columns of these names.
+fn numbers<const N: usize>(
+    record: &csv::StringRecord,
+    names: [&'static str; N],
+    places: [usize; N],
+) -> Result<[f64; N], LineProblem> {
+    let mut values = [0.0; N];
+    for ((value, name), place) in values.iter_mut().zip(names).zip(places) {
+        let text = field(record, place);
+        let parsed = text.parse().ok().filter(|value: &f64| value.is_finite());
+        *value = parsed.ok_or_else(|| not_a_number(name, text))?;
+    }
+    Ok(values)
+}
+
+fn field(record: &csv::StringRecord, place: usize) -> &str {
+    record.get(place).unwrap_or_default().trim()
+}
+
+fn not_a_number(column: &'static str, text: &str) -> LineProblem {
+    LineProblem::NotANumber { column, text: text.to_owned() }
+}
+
+/// The rotation of four numbers: as written, if it is one to rounding.
+fn orientation(numbers: [f64; 4]) -> Result<DQuat, LineProblem> {
+    let written = DQuat::from_array(numbers);
+    let shortening = written.length_recip();
+    if !(shortening.is_finite() && shortening > 0.0) {
+        return Err(LineProblem::NotARotation(numbers));
+    }
+    Ok(if written.is_normalized() { written } else { written.normalize() })
 }
 
 /// What went wrong with reading a table.
@@ -319,14 +384,16 @@ impl Balls {
         Ok(Self { origins, initial, emitted })
     }
 
-    /// The balls of the world at its start.
-    fn at_start(&self, world: &World) -> Vec<ReplayBall> {
+    /// The balls of the world at its start, turned where the recording has rotations.
+    fn at_start(&self, world: &World, has_rotation: bool) -> Vec<ReplayBall> {
         let spheres = world.spheres();
         let states = spheres.positions().iter().zip(spheres.velocities());
-        let balls = (0..).zip(states.zip(&self.initial));
-        let ball = |(number, ((&position, &velocity), kind)): (u64, ((&DVec3, &DVec3), &Kind))| {
+        let balls = self.initial.iter().zip(states).enumerate();
+        let ball = |(i, (kind, (&position, &velocity))): (usize, (&Kind, (&DVec3, &DVec3)))| {
             let Kind { radius, mass, color } = *kind;
-            ReplayBall { number, position, velocity, radius, mass, color }
+            let turned = || DQuat::from_array(rotation::orientation(world, i));
+            let orientation = has_rotation.then(turned);
+            ReplayBall { number: i as u64, position, velocity, orientation, radius, mass, color }
         };
         balls.map(ball).collect()
     }
