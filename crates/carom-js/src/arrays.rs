@@ -2,6 +2,7 @@
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
+use crate::place::{place, place_of_any};
 use crate::world::World;
 
 /// What every sphere has. A place holds until the world is stepped or changed.
@@ -96,14 +97,4 @@ impl World {
     pub fn tangential_restitutions(&self) -> Option<usize> {
         place_of_any(&self.description.members.frictions().tangential_restitution)
     }
-}
-
-/// Where a list lies in memory.
-pub fn place<T>(list: &[T]) -> usize {
-    list.as_ptr() as usize
-}
-
-/// Where a list lies in memory that holds anything.
-fn place_of_any<T>(list: &[T]) -> Option<usize> {
-    (!list.is_empty()).then(|| place(list))
 }

@@ -23,6 +23,7 @@ mod frictions;
 mod impact_table;
 mod members;
 mod next_event;
+mod place;
 mod snapshot;
 mod world;
 

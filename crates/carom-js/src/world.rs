@@ -6,11 +6,11 @@ use carom::SphereId;
 use carom_scene::{Library, Override, Palette, Scene, SceneError};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use crate::arrays::place;
 use crate::contact_table;
 use crate::failure::Failure;
 use crate::impact_table;
 use crate::members::Members;
+use crate::place::place;
 use crate::snapshot::{Description, Snapshot};
 
 /// A world, its description, and what its last frame was.
