@@ -73,6 +73,21 @@ pub fn claims() -> Vec<Claim> {
             move |_| tetrahedron(balls, floor),
         ));
     }
+    let sticks = libm::tan(15.0_f64.to_radians());
+    let source = "statics: the direction of the force on each contact";
+    let reason = "near the threshold a heap falls too slowly to be seen in three seconds";
+    claims.push(Claim::new(
+        "two balls and one on top stand from mu = tan 15 degrees between them on",
+        Expected::value(sticks, source),
+        Tolerance::relative(1e-3, reason),
+        |_| threshold(0.2, 0.4, |balls| pyramid(balls, 0.5)),
+    ));
+    claims.push(Claim::new(
+        "two balls and one on top stand from mu = tan 15 degrees / 3 on the floor on",
+        Expected::value(sticks / 3.0, source),
+        Tolerance::relative(1e-3, reason),
+        |_| threshold(0.05, 0.2, |floor| pyramid(0.5, floor)),
+    ));
     claims.into_iter().map(|claim| claim.about(Rule::Contact(Contact::default()))).collect()
 }
 
@@ -162,6 +177,38 @@ fn oblique(degrees: f64) -> Result<(Measured, Measured), super::claim::Fault> {
     let tangential = after.velocity.x / ball.velocity.x;
     let spin = after.angular_velocity.length();
     Ok((Measured::in_world(&world, tangential), Measured::in_world(&world, spin)))
+}
+
+/// The coefficient of friction from which on a heap stands, by halving an interval; `stands` gives 1 or 0.
+fn threshold(low: f64, high: f64, stands: impl Fn(f64) -> Outcome) -> Outcome {
+    let (mut falls_at, mut stands_at) = (low, high);
+    let mut measured = Vec::new();
+    for _ in 0..12 {
+        let middle = 0.5 * (falls_at + stands_at);
+        measured.push(stands(middle)?);
+        if measured.last().is_some_and(|it| it.value > 0.0) {
+            stands_at = middle;
+        } else {
+            falls_at = middle;
+        }
+    }
+    let end = Measured::sum(measured);
+    Ok(Measured { value: stands_at, ..end })
+}
+
+/// Whether a ball on two that touch is still there after three seconds: 1 or 0.
+fn pyramid(balls: f64, floor: f64) -> Outcome {
+    // The geometric mean of what floor and balls say is that of the contact.
+    let mut world = on_plane(0.0, floor * floor / balls)?;
+    for x in [-RADIUS, RADIUS] {
+        let place = DVec3::new(x, RADIUS, 0.0);
+        world.add_sphere(Sphere::new(place, RADIUS).with_friction(balls))?;
+    }
+    let height = RADIUS + 3.0_f64.sqrt() * RADIUS;
+    let top = world.add_sphere(Sphere::new(height * DVec3::Y, RADIUS).with_friction(balls))?;
+    run_until(&mut world, 3.0, FRAME)?;
+    let stands = height - world.sphere(top)?.position.y < 0.01 * RADIUS;
+    Ok(Measured::in_world(&world, f64::from(u8::from(stands))))
 }
 
 /// Whether four balls that touch still stand after three seconds: 1 or 0.
