@@ -6,6 +6,7 @@
 mod billiard;
 mod claim;
 mod conservation;
+mod convergence;
 mod course;
 mod fluid;
 mod friction;
@@ -63,6 +64,7 @@ fn claims() -> Vec<Claim> {
         conservation::claims,
         resting::claims,
         friction::claims,
+        convergence::claims,
         course::claims,
     ];
     topics.iter().flat_map(|claims| claims()).collect()
