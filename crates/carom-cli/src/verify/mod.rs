@@ -10,8 +10,10 @@ mod convergence;
 mod course;
 mod fluid;
 mod friction;
+mod grains;
 mod granular;
 mod motion;
+mod packing;
 mod report;
 mod resting;
 mod setup;
@@ -65,6 +67,7 @@ fn claims() -> Vec<Claim> {
         resting::claims,
         friction::claims,
         convergence::claims,
+        packing::claims,
         course::claims,
     ];
     topics.iter().flat_map(|claims| claims()).collect()
