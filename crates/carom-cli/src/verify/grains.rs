@@ -1,6 +1,6 @@
 //! Grains: many balls under gravity that fall, settle and flow, under the rule `contact`.
 
-use carom::{ColliderId, CombineRule, Contact, DVec3, Error, Friction, Gravity};
+use carom::{BodyPair, ColliderId, CombineRule, Contact, DVec3, Error, Friction, Gravity};
 use carom::{Sphere, World};
 
 use super::setup::{FRAME, G, half_space, world};
@@ -73,4 +73,18 @@ pub fn settle(world: &mut World, time: f64) -> Result<(), Error> {
 /// Height of the highest centre \[m\].
 pub fn top(world: &World) -> f64 {
     world.spheres().positions().iter().map(|position| position.y).fold(0.0, f64::max)
+}
+
+/// The contacts of spheres with this collider: where, and the forces along the normal and across it on the
+/// spheres \[N\].
+pub fn contacts_with(
+    world: &World,
+    wanted: ColliderId,
+) -> impl Iterator<Item = (DVec3, f64, DVec3)> {
+    world.contacts().into_iter().filter_map(move |contact| match contact.between {
+        BodyPair::Collider { collider, .. } if collider == wanted => {
+            Some((contact.point, contact.normal_force, contact.tangential_force))
+        }
+        _ => None,
+    })
 }

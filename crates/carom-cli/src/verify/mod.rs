@@ -17,6 +17,7 @@ mod packing;
 mod report;
 mod resting;
 mod setup;
+mod silo;
 mod simultaneous;
 mod single_impacts;
 mod tunnelling;
@@ -68,6 +69,7 @@ fn claims() -> Vec<Claim> {
         friction::claims,
         convergence::claims,
         packing::claims,
+        silo::claims,
         course::claims,
     ];
     topics.iter().flat_map(|claims| claims()).collect()
