@@ -5,6 +5,7 @@
 
 mod billiard;
 mod claim;
+mod collapse;
 mod conservation;
 mod convergence;
 mod course;
@@ -70,6 +71,7 @@ fn claims() -> Vec<Claim> {
         convergence::claims,
         packing::claims,
         silo::claims,
+        collapse::claims,
         course::claims,
     ];
     topics.iter().flat_map(|claims| claims()).collect()
