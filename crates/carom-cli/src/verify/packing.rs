@@ -27,7 +27,10 @@ pub fn claims() -> Vec<Claim> {
         ),
         Claim::new(
             "balls without friction that have settled: packing fraction",
-            Expected::value(0.637, "Faure et al., ESAIM Proc. 28, 13 (2009); 0.639 isotropic"),
+            Expected::value(
+                0.639,
+                "Agnolin and Roux (2007); under gravity 0.637: Faure et al., ESAIM Proc. 28, 13 (2009)",
+            ),
             Tolerance::absolute(0.01, STATISTICS),
             |_| fraction(3_000, 14.0, 0.0, 60.0),
         )
