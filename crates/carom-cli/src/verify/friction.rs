@@ -73,22 +73,29 @@ pub fn claims() -> Vec<Claim> {
             move |_| tetrahedron(balls, floor),
         ));
     }
+    claims.extend(pyramids());
+    claims.into_iter().map(|claim| claim.about(Rule::Contact(Contact::default()))).collect()
+}
+
+/// From which friction on two balls that touch bear a third.
+fn pyramids() -> [Claim; 2] {
     let sticks = libm::tan(15.0_f64.to_radians());
     let source = "statics: the direction of the force on each contact";
     let reason = "near the threshold a heap falls too slowly to be seen in three seconds";
-    claims.push(Claim::new(
-        "two balls and one on top stand from mu = tan 15 degrees between them on",
-        Expected::value(sticks, source),
-        Tolerance::relative(1e-3, reason),
-        |_| threshold(0.2, 0.4, |balls| pyramid(balls, 0.5)),
-    ));
-    claims.push(Claim::new(
-        "two balls and one on top stand from mu = tan 15 degrees / 3 on the floor on",
-        Expected::value(sticks / 3.0, source),
-        Tolerance::relative(1e-3, reason),
-        |_| threshold(0.05, 0.2, |floor| pyramid(0.5, floor)),
-    ));
-    claims.into_iter().map(|claim| claim.about(Rule::Contact(Contact::default()))).collect()
+    [
+        Claim::new(
+            "two balls and one on top stand from mu = tan 15 degrees between them on",
+            Expected::value(sticks, source),
+            Tolerance::relative(1e-3, reason),
+            |_| threshold(0.2, 0.4, |balls| pyramid(balls, 0.5)),
+        ),
+        Claim::new(
+            "two balls and one on top stand from mu = tan 15 degrees / 3 on the floor on",
+            Expected::value(sticks / 3.0, source),
+            Tolerance::relative(1e-3, reason),
+            |_| threshold(0.05, 0.2, |floor| pyramid(0.5, floor)),
+        ),
+    ]
 }
 
 /// A world under the rule with a plane through the origin that rises towards +x by this angle \[rad\].
