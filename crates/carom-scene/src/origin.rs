@@ -2,7 +2,7 @@
 
 use carom::{DVec3, EmitterId, World};
 
-use crate::scene::{Generator, Scene};
+use crate::scene::Scene;
 
 /// What a sphere comes from: an index into the list of its kind in the scene. Emitters of code have
 /// the indices after those of the scene, another one for each change.
@@ -31,7 +31,7 @@ impl Origins {
     pub fn new(scene: &Scene) -> Result<Self, carom::Error> {
         let mut end = scene.spheres.len() as u64;
         let ends = scene.generators.iter().map(|generator| {
-            end = end.saturating_add(count(generator));
+            end = end.saturating_add(generator.count());
             end
         });
         let generator_ends = ends.collect();
@@ -91,16 +91,6 @@ impl Origins {
         }
         let place = usize::try_from(number - self.initial()).ok()?;
         self.emissions.emitters.get(place).map(|emitter| Origin::Emitter(*emitter))
-    }
-}
-
-/// Number of spheres that a generator makes.
-fn count(generator: &Generator) -> u64 {
-    match generator {
-        Generator::Row { count, .. } | Generator::Random { count, .. } => (*count).into(),
-        Generator::Lattice { counts, .. } => {
-            counts.iter().fold(1_u64, |total, &n| total.saturating_mul(n.into()))
-        }
     }
 }
 
@@ -201,7 +191,7 @@ impl Emissions {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Emitter, Rule, Sphere};
+    use crate::scene::{Emitter, Generator, Rule, Sphere};
 
     fn emitter(x: f64, period: f64, mass: f64) -> Emitter {
         let sphere = Sphere { mass: Some(mass), ..Sphere::at([0.0; 3], 0.1) };

@@ -130,14 +130,7 @@ impl Looks {
 
 /// What the spheres of a generator have in common, and how many there are.
 fn generated(generator: &Generator) -> (&scene::Sphere, usize) {
-    match generator {
-        Generator::Row { count, sphere, .. } | Generator::Random { count, sphere, .. } => {
-            (sphere, *count as usize)
-        }
-        Generator::Lattice { counts, sphere, .. } => {
-            (sphere, counts.iter().map(|count| *count as usize).product())
-        }
-    }
+    (generator.template(), usize::try_from(generator.count()).unwrap_or(usize::MAX))
 }
 
 /// The colour that a scene gives spheres of this description by their density.

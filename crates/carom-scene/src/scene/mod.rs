@@ -5,6 +5,7 @@
 mod collider;
 mod emitter;
 mod force;
+mod generator;
 mod look;
 mod simulation;
 mod sphere;
@@ -16,12 +17,13 @@ use serde::{Deserialize, Serialize};
 pub use collider::{Collider, Shape};
 pub use emitter::Emitter;
 pub use force::Force;
+pub use generator::Generator;
 pub use look::{Camera, Colors, DensityColor, Sun};
 pub use simulation::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule,
     Simulation, WindBack,
 };
-pub use sphere::{Generator, Sphere};
+pub use sphere::Sphere;
 pub use values::{Color, Quaternion, Vector};
 
 /// A Carom scene: spheres, what acts on them, what they bounce off, and how to look at it.

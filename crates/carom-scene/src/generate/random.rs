@@ -1,4 +1,4 @@
-//! Generators of spheres: rows, lattices, random fillings.
+//! Random fillings.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -6,7 +6,8 @@ use carom::{DVec3, World};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::bodies::{add_sphere, sphere};
+use super::check_count;
+use crate::bodies::sphere;
 use crate::error::Problem;
 use crate::requirement::{check, check_non_negative, check_positive, check_vector};
 use crate::scene::values::vector;
@@ -16,47 +17,9 @@ use crate::scene::{Generator, Sphere};
 /// fraction of 0.38 at most (random sequential addition), and slow down long before.
 const TRIES_PER_SPHERE: u32 = 10_000;
 
-/// More spheres than this in one generator are a slip of the keyboard, and would fill the memory
-/// (about 1 GB for the world alone).
-const MOST_SPHERES: u64 = 10_000_000;
-
 impl Generator {
-    /// The spheres it stands for, one by one, when `world` holds what comes before them.
-    pub(crate) fn spheres(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
-        let at = |place: DVec3, sphere: &Sphere| Sphere {
-            position: (place + vector(sphere.position)).to_array(),
-            ..sphere.clone()
-        };
-        match self {
-            Self::Row { count, start, step, sphere } => {
-                check_count((*count).into(), &format!("{path}.count"))?;
-                check_vector(*start, &format!("{path}.start"))?;
-                check_vector(*step, &format!("{path}.step"))?;
-                let (start, step) = (vector(*start), vector(*step));
-                Ok((0..*count).map(|i| at(start + f64::from(i) * step, sphere)).collect())
-            }
-            Self::Lattice { counts, start, spacing, sphere } => {
-                let total = counts.iter().fold(1_u64, |total, &n| total.saturating_mul(n.into()));
-                check_count(total, &format!("{path}.counts"))?;
-                check_vector(*start, &format!("{path}.start"))?;
-                check_vector(*spacing, &format!("{path}.spacing"))?;
-                let mut spheres = Vec::new();
-                let [nx, ny, nz] = *counts;
-                for z in 0..nz {
-                    for y in 0..ny {
-                        for x in 0..nx {
-                            let cell = DVec3::new(x.into(), y.into(), z.into());
-                            spheres.push(at(vector(*start) + cell * vector(*spacing), sphere));
-                        }
-                    }
-                }
-                Ok(spheres)
-            }
-            Self::Random { .. } => self.scatter(world, path),
-        }
-    }
-
-    fn scatter(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
+    /// The spheres of a random filling; of another kind, none.
+    pub(super) fn scatter(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
         let Self::Random { count, min, max, seed, speed, radius_range, sphere } = self else {
             return Ok(Vec::new());
         };
@@ -100,19 +63,6 @@ impl Generator {
         }
         Ok(spheres)
     }
-}
-
-/// Adds the spheres of a generator, written at `path`, to a world.
-pub(crate) fn fill(world: &mut World, generator: &Generator, path: &str) -> Result<(), Problem> {
-    let spheres = generator.spheres(world, path)?;
-    let path = format!("{path}.sphere");
-    spheres.iter().try_for_each(|sphere| add_sphere(world, sphere, &path))
-}
-
-fn check_count(count: u64, path: &str) -> Result<(), Problem> {
-    check((1..=MOST_SPHERES).contains(&count), path, || {
-        format!("must make 1 to {MOST_SPHERES} spheres, not {count}")
-    })
 }
 
 /// Smallest and largest radius of a random filling.

@@ -1,0 +1,50 @@
+//! Generators of spheres: rows, lattices, random fillings.
+
+mod random;
+mod regular;
+
+use carom::{DVec3, World};
+
+use crate::bodies::add_sphere;
+use crate::error::Problem;
+use crate::requirement::check;
+use crate::scene::values::vector;
+use crate::scene::{Generator, Sphere};
+
+/// More spheres than this in one generator are a slip of the keyboard, and would fill the memory
+/// (about 1 GB for the world alone).
+const MOST_SPHERES: u64 = 10_000_000;
+
+impl Generator {
+    /// The spheres it stands for, one by one, when `world` holds what comes before them.
+    pub(crate) fn spheres(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
+        let centers = match self {
+            Self::Row { count, start, step, .. } => regular::row(*count, [*start, *step], path)?,
+            Self::Lattice { counts, start, spacing, .. } => {
+                check_count(self.count(), &format!("{path}.counts"))?;
+                regular::lattice(*counts, [*start, *spacing], path)?
+            }
+            Self::Random { .. } => return self.scatter(world, path),
+        };
+        Ok(centers.into_iter().map(|center| at(center, self.template())).collect())
+    }
+}
+
+/// A sphere of a generator whose place is this \[m\].
+fn at(place: DVec3, template: &Sphere) -> Sphere {
+    let position = (place + vector(template.position)).to_array();
+    Sphere { position, ..template.clone() }
+}
+
+/// Adds the spheres of a generator, written at `path`, to a world.
+pub(crate) fn fill(world: &mut World, generator: &Generator, path: &str) -> Result<(), Problem> {
+    let spheres = generator.spheres(world, path)?;
+    let path = format!("{path}.sphere");
+    spheres.iter().try_for_each(|sphere| add_sphere(world, sphere, &path))
+}
+
+fn check_count(count: u64, path: &str) -> Result<(), Problem> {
+    check((1..=MOST_SPHERES).contains(&count), path, || {
+        format!("must make 1 to {MOST_SPHERES} spheres, not {count}")
+    })
+}
