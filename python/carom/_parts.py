@@ -268,6 +268,50 @@ class Lattice(Part):
 
 
 @dataclass(frozen=True)
+class ClosePacking(Part):
+    """Close packing of equal spheres in hexagonal layers, one above the other along +y.
+
+    In a layer rows run along x, and every second row is shifted by half a sphere.
+
+    Attributes:
+        counts: How many spheres in a row, layers, and rows in a layer: along x, y and z, each >= 1.
+        start: Centre of the first [m].
+        sphere: What they have in common.
+        spacing: Distance of the centres of neighbours [m], > 0; ``None``: the diameter.
+        stacking: The order of layers: hexagonal close packing (ABAB...), or face-centred cubic
+            (ABCABC...).
+    """
+
+    tag: ClassVar[str] = "close-packing"
+    counts: Sequence[int]
+    start: Vector
+    sphere: Sphere
+    spacing: float | None = None
+    stacking: Literal["hcp", "fcc"] = "hcp"
+
+
+@dataclass(frozen=True)
+class Ring(Part):
+    """Spheres evenly on a circle.
+
+    Attributes:
+        count: How many, >= 1.
+        center: Of the circle [m].
+        radius: From the centre of the circle to those of the spheres [m], > 0.
+        sphere: What they have in common.
+        axis: Direction about which they go round, by the right-hand rule; of any length but zero.
+            The first is at the side of +x, or of +y where the axis is nearly along x.
+    """
+
+    tag: ClassVar[str] = "ring"
+    count: int
+    center: Vector
+    radius: float
+    sphere: Sphere
+    axis: Vector = (0.0, 1.0, 0.0)
+
+
+@dataclass(frozen=True)
 class RandomFill(Part):
     """Spheres scattered in a box, none overlapping another sphere or a collider.
 
@@ -291,7 +335,7 @@ class RandomFill(Part):
     radius_range: Sequence[float] | None = None
 
 
-Generator: TypeAlias = Row | Lattice | RandomFill
+Generator: TypeAlias = Row | Lattice | ClosePacking | Ring | RandomFill
 """Places for many spheres."""
 
 

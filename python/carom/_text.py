@@ -96,7 +96,7 @@ _KINDS: dict[str, type[parts.Part]] = {
 _CHOICES: dict[str, tuple[type[parts.Part], ...]] = {
     "boundary": (parts.Periodic,),
     "forces": (parts.ConstantForce, parts.Gravity, parts.ViscousDrag),
-    "generators": (parts.Row, parts.Lattice, parts.RandomFill),
+    "generators": (parts.Row, parts.Lattice, parts.ClosePacking, parts.Ring, parts.RandomFill),
     "shape": (parts.Ball, parts.Rectangle, parts.HalfSpace, parts.Box),
 }
 """What may be described under a name; tags distinguish the variants."""

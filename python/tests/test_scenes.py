@@ -61,6 +61,8 @@ def test_every_kind_of_part_survives_text() -> None:
         generators=[
             carom.Row(2, (0, 30, 0), (2, 0, 0), ball),
             carom.Lattice((2, 1, 1), (0, 40, 0), (2, 2, 2), ball),
+            carom.ClosePacking((2, 1, 1), (0, 50, 0), ball, 0.6, "fcc"),
+            carom.Ring(3, (0, 60, 0), 1, ball, (1, 0, 0)),
             fill,
         ],
         colliders=[
@@ -75,7 +77,7 @@ def test_every_kind_of_part_survives_text() -> None:
         colors=carom.Colors((0, 0, 0), densities=[carom.DensityColor(3.0, (1, 1, 0))]),
     )
     assert carom.Scene.from_toml(scene.to_toml()) == scene
-    assert len(scene.world()) == 1 + 2 + 2 + 4
+    assert len(scene.world()) == 1 + 2 + 2 + 2 + 3 + 4
 
 
 def test_a_scene_of_python_is_found_by_name_in_any_case() -> None:

@@ -27,6 +27,13 @@ pub(crate) fn check_vector(value: Vector, path: &str) -> Result<(), Problem> {
     check(vector(value).is_finite(), path, || format!("must be finite, not {value:?}"))
 }
 
+pub(crate) fn check_direction(value: Vector, path: &str) -> Result<(), Problem> {
+    let length_squared = vector(value).length_squared();
+    check(length_squared.is_finite() && length_squared >= f64::MIN_POSITIVE, path, || {
+        format!("must be a direction that is finite and not zero, not {value:?}")
+    })
+}
+
 pub(crate) fn check_rotation(value: Quaternion, path: &str) -> Result<(), Problem> {
     let length_squared = quaternion(value).length_squared();
     check(length_squared.is_finite() && length_squared >= f64::MIN_POSITIVE, path, || {

@@ -85,6 +85,27 @@ export interface Sphere {
 export type Generator =
   | { row: { count: number; start: Vector; step: Vector; sphere: SphereDescription } }
   | { lattice: { counts: Vector; start: Vector; spacing: Vector; sphere: SphereDescription } }
+  /** Hexagonal layers, one above the other along +y; `spacing` is the diameter unless given. */
+  | {
+      closePacking: {
+        counts: Vector;
+        start: Vector;
+        spacing?: number;
+        /** `"hcp"` unless given. */
+        stacking?: "hcp" | "fcc";
+        sphere: SphereDescription;
+      };
+    }
+  /** Evenly on a circle, about an axis that points up unless given. */
+  | {
+      ring: {
+        count: number;
+        center: Vector;
+        radius: number;
+        axis?: Vector;
+        sphere: SphereDescription;
+      };
+    }
   | {
       random: {
         count: number;

@@ -1,7 +1,10 @@
 // How names are spelled: snake_case in scene files, camelCase in JavaScript.
 
-/** Of all names with two words, this is the only one that scene files write with a hyphen. */
-const HYPHENATED = new Map([["viscousDrag", "viscous-drag"]]);
+/** Of all names with two words, scene files write these with a hyphen. */
+const HYPHENATED = new Map([
+  ["closePacking", "close-packing"],
+  ["viscousDrag", "viscous-drag"],
+]);
 const UNHYPHENATED = new Map([...HYPHENATED].map(([camel, kebab]) => [kebab, camel]));
 
 /** `angularVelocity` as scene files spell it. */
@@ -18,7 +21,7 @@ export function camel(name) {
 
 /** A text in which every `word_with_underscores` is spelled as JavaScript does. */
 export function camelWords(text) {
-  return text.replace(/\b[a-z]+(?:_[a-z0-9]+)+\b|\bviscous-drag\b/g, camel);
+  return text.replace(/\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|viscous-drag)\b/g, camel);
 }
 
 /** What the engine tells as JSON, with JavaScript's spelling of names. */

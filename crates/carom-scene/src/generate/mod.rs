@@ -1,13 +1,13 @@
-//! Generators of spheres: rows, lattices, random fillings.
+//! Generators of spheres.
 
 mod random;
 mod regular;
 
 use carom::{DVec3, World};
 
-use crate::bodies::add_sphere;
+use crate::bodies::{add_sphere, sphere};
 use crate::error::Problem;
-use crate::requirement::check;
+use crate::requirement::{check, check_positive};
 use crate::scene::values::vector;
 use crate::scene::{Generator, Sphere};
 
@@ -24,9 +24,26 @@ impl Generator {
                 check_count(self.count(), &format!("{path}.counts"))?;
                 regular::lattice(*counts, [*start, *spacing], path)?
             }
+            Self::ClosePacking { counts, start, stacking, .. } => {
+                check_count(self.count(), &format!("{path}.counts"))?;
+                let spacing = self.spacing(path)?;
+                regular::close_packing(*counts, *stacking, (*start, spacing), path)?
+            }
+            Self::Ring { count, center, radius, axis, .. } => {
+                regular::ring(*count, (*center, *radius), *axis, path)?
+            }
             Self::Random { .. } => return self.scatter(world, path),
         };
         Ok(centers.into_iter().map(|center| at(center, self.template())).collect())
+    }
+
+    /// Distance of neighbours in a close packing \[m\], a diameter unless given.
+    fn spacing(&self, path: &str) -> Result<f64, Problem> {
+        let Self::ClosePacking { spacing: Some(spacing), .. } = self else {
+            return Ok(2.0 * sphere(self.template(), &format!("{path}.sphere"))?.radius);
+        };
+        check_positive(*spacing, &format!("{path}.spacing"))?;
+        Ok(*spacing)
     }
 }
 

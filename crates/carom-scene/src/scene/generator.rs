@@ -33,6 +33,40 @@ pub enum Generator {
         /// What they have in common.
         sphere: Sphere,
     },
+    /// Close packing of equal spheres in hexagonal layers, one above the other along +y: in a layer
+    /// rows run along x, and every second row is shifted by half a sphere.
+    ClosePacking {
+        /// How many spheres in a row, layers, and rows in a layer: along x, y and z, each >= 1.
+        counts: [u32; 3],
+        /// Centre of the first, in m.
+        start: Vector,
+        /// Distance of the centres of neighbours, in m, > 0; the diameter where it is missing.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        spacing: Option<f64>,
+        /// The order of layers.
+        #[serde(default)]
+        stacking: Stacking,
+        /// What they have in common.
+        sphere: Sphere,
+    },
+    /// Spheres evenly on a circle.
+    Ring {
+        /// How many, >= 1.
+        #[schemars(range(min = 1))]
+        count: u32,
+        /// Of the circle, in m.
+        center: Vector,
+        /// From the centre of the circle to those of the spheres, in m, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        radius: f64,
+        /// Direction about which they go round, by the right-hand rule; of any length but zero.
+        /// The first is at the side of +x, or of +y where the axis is nearly along x.
+        #[serde(default = "up")]
+        axis: Vector,
+        /// What they have in common.
+        sphere: Sphere,
+    },
     /// Spheres scattered in a box, none overlapping another sphere or a collider.
     Random {
         /// How many, >= 1.
@@ -56,12 +90,25 @@ pub enum Generator {
     },
 }
 
+/// In which order the layers of a close packing follow each other.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stacking {
+    /// Hexagonal close packing: ABAB...
+    #[default]
+    Hcp,
+    /// Face-centred cubic: ABCABC...
+    Fcc,
+}
+
 impl Generator {
     /// Name of its kind, as it is written.
     pub(crate) fn kind(&self) -> &'static str {
         match self {
             Self::Row { .. } => "row",
             Self::Lattice { .. } => "lattice",
+            Self::ClosePacking { .. } => "close-packing",
+            Self::Ring { .. } => "ring",
             Self::Random { .. } => "random",
         }
     }
@@ -69,8 +116,10 @@ impl Generator {
     /// How many spheres it makes.
     pub fn count(&self) -> u64 {
         match self {
-            Self::Row { count, .. } | Self::Random { count, .. } => (*count).into(),
-            Self::Lattice { counts, .. } => product(counts),
+            Self::Row { count, .. } | Self::Ring { count, .. } | Self::Random { count, .. } => {
+                (*count).into()
+            }
+            Self::Lattice { counts, .. } | Self::ClosePacking { counts, .. } => product(counts),
         }
     }
 
@@ -79,6 +128,8 @@ impl Generator {
         match self {
             Self::Row { sphere, .. }
             | Self::Lattice { sphere, .. }
+            | Self::ClosePacking { sphere, .. }
+            | Self::Ring { sphere, .. }
             | Self::Random { sphere, .. } => sphere,
         }
     }
@@ -86,4 +137,8 @@ impl Generator {
 
 fn product(counts: &[u32; 3]) -> u64 {
     counts.iter().fold(1, |total, &count| total.saturating_mul(count.into()))
+}
+
+fn up() -> Vector {
+    [0.0, 1.0, 0.0]
 }

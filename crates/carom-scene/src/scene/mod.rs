@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 pub use collider::{Collider, Shape};
 pub use emitter::Emitter;
 pub use force::Force;
-pub use generator::Generator;
+pub use generator::{Generator, Stacking};
 pub use look::{Camera, Colors, DensityColor, Sun};
 pub use simulation::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule,
@@ -51,7 +51,7 @@ pub struct Scene {
     /// Single spheres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub spheres: Vec<Sphere>,
-    /// Rows, lattices and random fillings of spheres, placed after the single ones.
+    /// Places for many spheres, which come after the single ones.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub generators: Vec<Generator>,
     /// Fixed shapes, in the order in which the rule `discrete` looks at them.
