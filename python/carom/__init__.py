@@ -39,6 +39,7 @@ from carom._parts import (
     Shape,
     Simulation,
     Sphere,
+    StaggeredRows,
     Sun,
     ViscousDrag,
 )
@@ -102,6 +103,7 @@ __all__ = [
     "Snapshot",
     "Sphere",
     "StageCounts",
+    "StaggeredRows",
     "StepError",
     "Sun",
     "Trajectory",

@@ -268,6 +268,35 @@ class Lattice(Part):
 
 
 @dataclass(frozen=True)
+class StaggeredRows(Part):
+    """Rows, each centred on the one before: staggered, in a triangle, or straight.
+
+    Of spheres, or of colliders like the pegs of a Galton board: give one of ``sphere`` and
+    ``collider``.
+
+    Attributes:
+        rows: How many rows, >= 1.
+        counts: How many in each row, >= 1: (13, 12) staggers rows, (1, 2, 3) is a triangle. Where
+            there are more rows than numbers, these begin anew.
+        start: Centre of the first of the first row [m].
+        step: From each to the next in a row [m].
+        row_step: From the middle of each row to that of the next [m].
+        sphere: What spheres have in common.
+        collider: What colliders have in common; its position is an offset, its name gets the
+            numbers of row and place.
+    """
+
+    tag: ClassVar[str] = "staggered-rows"
+    rows: int
+    counts: Sequence[int]
+    start: Vector
+    step: Vector
+    row_step: Vector
+    sphere: Sphere | None = None
+    collider: Collider | None = None
+
+
+@dataclass(frozen=True)
 class ClosePacking(Part):
     """Close packing of equal spheres in hexagonal layers, one above the other along +y.
 
@@ -335,8 +364,8 @@ class RandomFill(Part):
     radius_range: Sequence[float] | None = None
 
 
-Generator: TypeAlias = Row | Lattice | ClosePacking | Ring | RandomFill
-"""Places for many spheres."""
+Generator: TypeAlias = Row | Lattice | StaggeredRows | ClosePacking | Ring | RandomFill
+"""Places for many spheres or colliders."""
 
 
 Integrator: TypeAlias = Literal[

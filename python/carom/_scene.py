@@ -44,7 +44,7 @@ class Scene(parts.Part):
         simulation: How it is stepped.
         forces: Forces on every sphere; they add up.
         spheres: Single spheres.
-        generators: Places for many spheres, which come after the single ones.
+        generators: Places for many spheres or colliders, which come after the single ones.
         colliders: Shapes that spheres bounce off.
         emitters: Sources of spheres.
         camera: Where to look from; fitted to the scene where it is missing.

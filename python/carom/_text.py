@@ -79,6 +79,7 @@ def _fields(part: parts.Part) -> dict[str, object]:
 _KINDS: dict[str, type[parts.Part]] = {
     "bisect": parts.Bisect,
     "camera": parts.Camera,
+    "collider": parts.Collider,
     "colliders": parts.Collider,
     "colors": parts.Colors,
     "contact": parts.Contact,
@@ -96,7 +97,14 @@ _KINDS: dict[str, type[parts.Part]] = {
 _CHOICES: dict[str, tuple[type[parts.Part], ...]] = {
     "boundary": (parts.Periodic,),
     "forces": (parts.ConstantForce, parts.Gravity, parts.ViscousDrag),
-    "generators": (parts.Row, parts.Lattice, parts.ClosePacking, parts.Ring, parts.RandomFill),
+    "generators": (
+        parts.Row,
+        parts.Lattice,
+        parts.StaggeredRows,
+        parts.ClosePacking,
+        parts.Ring,
+        parts.RandomFill,
+    ),
     "shape": (parts.Ball, parts.Rectangle, parts.HalfSpace, parts.Box),
 }
 """What may be described under a name; tags distinguish the variants."""

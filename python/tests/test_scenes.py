@@ -39,6 +39,7 @@ def test_a_scene_survives_text_pickle_and_copy(name: str) -> None:
 def test_every_kind_of_part_survives_text() -> None:
     ball = carom.Sphere(diameter=0.5, density=3.0, color=(1, 0, 0.5))
     fill = carom.RandomFill(4, (0, 5, 0), (9, 9, 9), 1, ball, 2.0, (0.1, 0.2))
+    peg = carom.Collider(carom.Ball(0.5), name="peg", color=(0, 0, 1))
     scene = carom.Scene(
         name="all",
         title='Quotes " and \\ and \x7f and ü',
@@ -61,6 +62,8 @@ def test_every_kind_of_part_survives_text() -> None:
         generators=[
             carom.Row(2, (0, 30, 0), (2, 0, 0), ball),
             carom.Lattice((2, 1, 1), (0, 40, 0), (2, 2, 2), ball),
+            carom.StaggeredRows(3, (1, 2), (0, 45, 0), (2, 0, 0), (0, 0, 2), sphere=ball),
+            carom.StaggeredRows(2, (3,), (0, -20, 0), (2, 0, 0), (0, 0, 2), collider=peg),
             carom.ClosePacking((2, 1, 1), (0, 50, 0), ball, 0.6, "fcc"),
             carom.Ring(3, (0, 60, 0), 1, ball, (1, 0, 0)),
             fill,
@@ -77,7 +80,9 @@ def test_every_kind_of_part_survives_text() -> None:
         colors=carom.Colors((0, 0, 0), densities=[carom.DensityColor(3.0, (1, 1, 0))]),
     )
     assert carom.Scene.from_toml(scene.to_toml()) == scene
-    assert len(scene.world()) == 1 + 2 + 2 + 2 + 3 + 4
+    world = scene.world()
+    assert len(world) == 1 + 2 + 2 + 4 + 2 + 3 + 4
+    assert [each.name for each in world.colliders.values()][-2:] == ["peg 2-2", "peg 2-3"]
 
 
 def test_a_scene_of_python_is_found_by_name_in_any_case() -> None:

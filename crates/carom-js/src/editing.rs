@@ -34,7 +34,7 @@ impl World {
         let mut added = Added::default();
         // All is checked by now: nothing below is refused.
         self.add_forces(&part.forces, &mut added)?;
-        self.add_colliders(&part.colliders, &world, &mut added)?;
+        self.add_colliders(&part.all_colliders(), &world, &mut added)?;
         self.add_spheres(&world, &palette, &mut added)?;
         Ok(serde_json::to_string(&added)?)
     }

@@ -53,6 +53,7 @@ impl World {
         let mut members = Members::default();
         members.follow(world.spheres(), &palette);
         scene.spheres.clear();
+        scene.colliders = scene.all_colliders().into_owned();
         scene.generators.clear();
         let description = Description { scene: Rc::new(scene), palette, members };
         Ok(Self { world, description, impacts: None })

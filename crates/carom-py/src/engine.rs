@@ -125,6 +125,7 @@ impl Engine {
         let mut scene = Scene::from_toml(text, "scene").map_err(Failure::of_part)?;
         let (world, palette) = (scene.world()?, Arc::new(Palette::new(&scene)?));
         scene.spheres.clear();
+        scene.colliders = scene.all_colliders().into_owned();
         scene.generators.clear();
         let (described, arrays) = (Arc::new(scene), Arrays::default());
         Ok(Self(Mutex::new(Inner { world, described, palette, arrays, frame_start: 0.0 })))

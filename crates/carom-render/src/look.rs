@@ -17,7 +17,8 @@ pub fn draw_world(
 ) {
     drawing.clear();
     drawing.light = Light::of_scene(scene);
-    for (i, (collider, (_, now))) in scene.colliders.iter().zip(world.colliders()).enumerate() {
+    let all = scene.all_colliders();
+    for (i, (collider, (_, now))) in all.iter().zip(world.colliders()).enumerate() {
         if collider.visible {
             drawing.add_collider(now.shape, now.pose, palette.collider(i), now.trigger);
         }

@@ -45,8 +45,9 @@ fn colors(scene: &Scene) -> Vec<(String, Color)> {
         add(format!("spheres[{i}].color"), sphere.color);
     }
     for (i, generator) in scene.generators.iter().enumerate() {
-        let path = format!("generators[{i}].{}.sphere.color", generator.kind());
-        add(path, generator.template().color);
+        let path = format!("generators[{i}].{}", generator.kind());
+        add(format!("{path}.sphere.color"), generator.sphere().and_then(|it| it.color));
+        add(format!("{path}.collider.color"), generator.collider().and_then(|it| it.color));
     }
     for (i, collider) in scene.colliders.iter().enumerate() {
         add(format!("colliders[{i}].color"), collider.color);
@@ -68,7 +69,7 @@ fn colors(scene: &Scene) -> Vec<(String, Color)> {
 
 /// Refuses a touching distance that is no longer small against the smallest sphere.
 fn check_tolerance(scene: &Scene) -> Result<(), Problem> {
-    let spheres = scene.spheres.iter().chain(scene.generators.iter().map(Generator::template));
+    let spheres = scene.spheres.iter().chain(scene.generators.iter().filter_map(Generator::sphere));
     let spheres = spheres.chain(scene.emitters.iter().map(|emitter| &emitter.sphere));
     let radii = spheres.filter_map(|s| s.radius.or(s.diameter.map(|diameter| 0.5 * diameter)));
     let smallest = radii.filter(|radius| *radius > 0.0).fold(f64::INFINITY, f64::min);

@@ -4,13 +4,14 @@ use crate::error::SceneError;
 use crate::scene::Scene;
 
 impl Scene {
-    /// The same scene with every sphere of its generators written out.
+    /// The same scene with every sphere and collider of its generators written out.
     ///
     /// # Errors
     /// As [`Scene::world`].
     pub fn expanded(&self) -> Result<Self, SceneError> {
         // Random fillings keep clear of colliders and of the spheres before them.
-        let mut scene = Self { generators: Vec::new(), ..self.clone() };
+        let colliders = self.all_colliders().into_owned();
+        let mut scene = Self { generators: Vec::new(), colliders, ..self.clone() };
         scene.simulation.allow_overlap = true;
         for (i, generator) in self.generators.iter().enumerate() {
             let path = format!("generators[{i}].{}", generator.kind());

@@ -28,7 +28,8 @@ pub(crate) fn refuse(
         }
         carom::BodyPair::Collider { collider, sphere } => {
             let number = collider.number();
-            let name = &scene.colliders[number as usize].name;
+            let colliders = scene.all_colliders();
+            let name = colliders.get(number as usize).map_or("", |collider| &collider.name);
             (sphere, format!("colliders[{number}] \"{name}\""))
         }
     };

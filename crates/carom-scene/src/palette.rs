@@ -6,7 +6,7 @@ use carom::volume;
 
 use crate::error::SceneError;
 use crate::origin::{Origin, Origins};
-use crate::scene::{Collider, Color, Colors, Emitter, Generator, Scene, Sphere};
+use crate::scene::{Collider, Color, Colors, Emitter, Scene, Sphere};
 
 /// A density counts as listed if it differs by this part at most: mass / volume is off by a few
 /// roundings (1e-15), densities in a list differ by far more.
@@ -60,9 +60,9 @@ impl Palette {
             added: Vec::new(),
             painted: BTreeMap::new(),
             spheres: scene.spheres.iter().map(color).collect(),
-            generators: scene.generators.iter().map(Generator::template).map(color).collect(),
+            generators: scene.generators.iter().map(|it| it.sphere().and_then(color)).collect(),
             emitters: scene.emitters.iter().map(|emitter| emitter.sphere.color).collect(),
-            colliders: collider_colors(&scene.colliders),
+            colliders: collider_colors(&scene.all_colliders()),
             colors: scene.colors.clone().unwrap_or_default(),
         })
     }

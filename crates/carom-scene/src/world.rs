@@ -36,6 +36,14 @@ pub(crate) fn build(scene: &Scene) -> Result<World, Problem> {
         let added = world.add_collider(self::collider(collider));
         added.map_err(|error| collider_problem(&path, &collider.shape, error))?;
     }
+    for (i, generator) in scene.generators.iter().enumerate() {
+        let path = format!("generators[{i}].{}", generator.kind());
+        for collider in generator.colliders(&path)? {
+            let added = world.add_collider(self::collider(&collider));
+            let path = format!("{path}.collider");
+            added.map_err(|error| collider_problem(&path, &collider.shape, error))?;
+        }
+    }
     for (i, sphere) in scene.spheres.iter().enumerate() {
         add_sphere(&mut world, sphere, &format!("spheres[{i}]"))?;
     }

@@ -147,3 +147,96 @@ fn generators_written_out_make_the_same_world() {
     assert!(expanded.generators.is_empty() && expanded.spheres.len() == 12);
     assert_eq!(expanded.world().unwrap().state_hash(), scene.world().unwrap().state_hash());
 }
+
+const PEGS: &str = "[[colliders]]\nname = 'floor'\nshape = 'half-space'\n\
+                    [[generators]]\n[generators.staggered-rows]\nrows = 5\ncounts = [4, 3]\n\
+                    start = [1, 9, 0]\nstep = [2, 0, 0]\nrow_step = [0, -1, 0]\n\
+                    [generators.staggered-rows.collider]\nname = 'peg'\nrestitution = 0.5\n\
+                    position = [0, 0, 7]\ncolor = [1, 0, 0]\nshape = { sphere = { radius = 0.25 } }\n";
+
+#[test]
+fn staggered_rows_of_pegs_come_after_single_colliders() {
+    let scene = read(PEGS);
+    let world = scene.world().unwrap();
+    let all = scene.all_colliders();
+    assert_eq!((all.len(), world.colliders().len()), (1 + 4 + 3 + 4 + 3 + 4, all.len()));
+    for (written, (_, collider)) in all.iter().zip(world.colliders()) {
+        assert_eq!(collider.pose.position.to_array(), written.position);
+    }
+    let named = |name: &str| all.iter().find(|it| it.name == name).unwrap().position;
+    assert_eq!(all[0].name, "floor");
+    assert_eq!(named("peg 1-1"), [1.0, 9.0, 7.0]);
+    assert_eq!(named("peg 1-4"), [7.0, 9.0, 7.0]);
+    // The second row is centred on the first.
+    assert_eq!((named("peg 2-1"), named("peg 2-3")), ([2.0, 8.0, 7.0], [6.0, 8.0, 7.0]));
+    assert_eq!(named("peg 5-4"), [7.0, 5.0, 7.0]);
+    assert!(world.colliders().skip(1).all(|(_, collider)| collider.restitution == 0.5));
+    let palette = carom_scene::Palette::new(&scene).unwrap();
+    assert_eq!(
+        (palette.collider(0), palette.collider(19 - 1)),
+        (palette.collider(0), [1.0, 0.0, 0.0])
+    );
+}
+
+#[test]
+fn pegs_written_out_make_the_same_world() {
+    let scene = read(PEGS);
+    let expanded = scene.expanded().unwrap();
+    assert!(expanded.generators.is_empty());
+    assert_eq!(expanded.colliders, *scene.all_colliders());
+    assert_eq!(expanded.world().unwrap().state_hash(), scene.world().unwrap().state_hash());
+    let again = Scene::from_toml(&scene.to_toml(), "again").unwrap();
+    assert_eq!(again, scene);
+}
+
+#[test]
+fn staggered_rows_of_spheres_make_a_triangle() {
+    let text = "generators = [{ staggered-rows = { rows = 5, counts = [1, 2, 3, 4, 5], \
+                start = [0, 0, 0], step = [1, 0, 0], row_step = [0, 0, 0.8660254037844387], \
+                sphere = { radius = 0.5 } } }]";
+    let centers = centers(&read(text));
+    assert_eq!(centers.len(), 15);
+    let touching = neighbours(&centers, 1.0);
+    assert_eq!(touching.iter().filter(|count| **count == 2).count(), 3, "corners");
+    assert_eq!(touching.iter().filter(|count| **count == 6).count(), 3, "in the middle");
+    let straight = read(&text.replace("[1, 2, 3, 4, 5]", "[3]").replace("0.8660254037844387", "1"));
+    assert_eq!(straight.world().unwrap().spheres().len(), 15);
+}
+
+#[test]
+fn a_sphere_may_not_overlap_a_peg() {
+    let text = format!("{PEGS}[[spheres]]\nposition = [2, 8.3, 7]\nradius = 0.1\n");
+    let text = refusal(&text);
+    assert!(text.contains("sphere number 0 overlaps colliders[5] \"peg 2-1\""), "{text}");
+}
+
+#[test]
+fn a_mistake_in_staggered_rows_is_reported_with_line_and_field() {
+    let both = "[generators.staggered-rows.sphere]\nradius = 1\n";
+    let cases = [
+        ("rows = 5", "rows = 0", "7: generators[0].staggered-rows.rows: must be at least 1"),
+        ("[4, 3]", "[4, 0]", "8: generators[0].staggered-rows.counts: must be at least 1 each"),
+        ("[4, 3]", "[]", "8: generators[0].staggered-rows.counts: must make 1 to 1000000 coll"),
+        ("[4, 3]", "[4e9]", "8: generators[0].staggered-rows.counts[0]: invalid"),
+        ("[4, 3]", "[4000000000]", "8: generators[0].staggered-rows.counts: must make 1 to"),
+        ("[1, 9, 0]", "[nan, 9, 0]", "9: generators[0].staggered-rows.start: must be finite"),
+        ("[2, 0, 0]", "[inf, 0, 0]", "10: generators[0].staggered-rows.step: must be finite"),
+        ("[0, -1, 0]", "[inf, 0, 0]", "11: generators[0].staggered-rows.row_step: must be"),
+        ("row_step", "rowstep", "11: generators[0].staggered-rows.rowstep: unknown field"),
+        ("0.5", "1.5", "14: generators[0].staggered-rows.collider.restitution: must be in"),
+        ("[1, 0, 0]", "[1, 0, 2]", "16: generators[0].staggered-rows.collider.color: must have"),
+        ("0.25", "-1", "17: generators[0].staggered-rows.collider.shape.sphere.radius: must be"),
+        (
+            "[generators.staggered-rows.coll",
+            &format!("{both}[generators.staggered-rows.coll"),
+            "14: generators[0].staggered-rows.collider: `sphere` says",
+        ),
+    ];
+    for (word, wrong, expected) in cases {
+        let text = refusal(&PEGS.replacen(word, wrong, 1));
+        assert!(text.starts_with(&format!("test.toml:{expected}")), "{wrong}: {text}");
+    }
+    let neither = PEGS.split("[generators.staggered-rows.collider]").next().unwrap();
+    let text = refusal(neither);
+    assert!(text.contains("generators[0].staggered-rows: needs `sphere` or `collider`"), "{text}");
+}

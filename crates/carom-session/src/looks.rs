@@ -49,7 +49,7 @@ impl Looks {
     /// At the start of a scene, of which `world` was made.
     pub fn new(scene: &Scene, world: &World) -> Self {
         let single = scene.spheres.iter().map(|sphere| (sphere, 1));
-        let all = single.chain(scene.generators.iter().map(generated));
+        let all = single.chain(scene.generators.iter().filter_map(generated));
         let colors = all.flat_map(|(sphere, count)| {
             std::iter::repeat_n(sphere.color.or_else(|| color_of_template(scene, sphere)), count)
         });
@@ -129,8 +129,8 @@ impl Looks {
 }
 
 /// What the spheres of a generator have in common, and how many there are.
-fn generated(generator: &Generator) -> (&scene::Sphere, usize) {
-    (generator.template(), usize::try_from(generator.count()).unwrap_or(usize::MAX))
+fn generated(generator: &Generator) -> Option<(&scene::Sphere, usize)> {
+    Some((generator.sphere()?, usize::try_from(generator.count()).unwrap_or(usize::MAX)))
 }
 
 /// The colour that a scene gives spheres of this description by their density.

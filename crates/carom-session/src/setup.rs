@@ -21,7 +21,8 @@ impl Setup {
     /// Of a scene and the world that was made of it.
     pub fn new(scene: &Scene, world: &World) -> Self {
         let forces = world.forces().map(|(id, _)| id).zip(scene.forces.iter().cloned());
-        let colliders = world.colliders().map(|(id, _)| id).zip(scene.colliders.iter().cloned());
+        let all = scene.all_colliders();
+        let colliders = world.colliders().map(|(id, _)| id).zip(all.iter().cloned());
         let emitters = world.emitters().map(|(id, _)| id).zip(scene.emitters.iter().cloned());
         Self {
             simulation: scene.simulation.clone(),

@@ -81,10 +81,20 @@ export interface Sphere {
   color: Color;
 }
 
-/** Places for many spheres, as scene files describe them. */
+/** Places for many spheres or colliders, as scene files describe them. */
 export type Generator =
   | { row: { count: number; start: Vector; step: Vector; sphere: SphereDescription } }
   | { lattice: { counts: Vector; start: Vector; spacing: Vector; sphere: SphereDescription } }
+  /** Rows, each centred on the one before; `counts` begin anew where there are more rows. */
+  | {
+      staggeredRows: {
+        rows: number;
+        counts: number[];
+        start: Vector;
+        step: Vector;
+        rowStep: Vector;
+      } & ({ sphere: SphereDescription } | { collider: ColliderDescription });
+    }
   /** Hexagonal layers, one above the other along +y; `spacing` is the diameter unless given. */
   | {
       closePacking: {

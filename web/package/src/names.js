@@ -3,6 +3,7 @@
 /** Of all names with two words, scene files write these with a hyphen. */
 const HYPHENATED = new Map([
   ["closePacking", "close-packing"],
+  ["staggeredRows", "staggered-rows"],
   ["viscousDrag", "viscous-drag"],
 ]);
 const UNHYPHENATED = new Map([...HYPHENATED].map(([camel, kebab]) => [kebab, camel]));
@@ -21,7 +22,7 @@ export function camel(name) {
 
 /** A text in which every `word_with_underscores` is spelled as JavaScript does. */
 export function camelWords(text) {
-  return text.replace(/\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|viscous-drag)\b/g, camel);
+  return text.replace(/\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|viscous-drag)\b/g, camel);
 }
 
 /** What the engine tells as JSON, with JavaScript's spelling of names. */

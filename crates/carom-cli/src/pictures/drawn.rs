@@ -16,7 +16,8 @@ pub fn draw(
 ) {
     drawing.clear();
     drawing.light = Light::of_scene(scene);
-    let colliders = scene.colliders.iter().zip(running.world().colliders());
+    let all = scene.all_colliders();
+    let colliders = all.iter().zip(running.world().colliders());
     for (i, ((written, (_, now)), pose)) in colliders.zip(running.poses(time)).enumerate() {
         if written.visible {
             drawing.add_collider(now.shape, pose, palette.collider(i), now.trigger);

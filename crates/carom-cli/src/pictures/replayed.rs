@@ -33,7 +33,7 @@ impl Replayed {
         }
         let mut empty = scene.clone();
         empty.spheres.clear();
-        empty.generators.clear();
+        empty.generators.retain(|generator| generator.collider().is_some());
         empty.emitters.clear();
         Ok(Self {
             surfaces: Running::new(&empty)?,

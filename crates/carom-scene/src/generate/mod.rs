@@ -1,7 +1,8 @@
-//! Generators of spheres.
+//! Generators of spheres and colliders.
 
 mod random;
 mod regular;
+mod rows;
 
 use carom::{DVec3, World};
 
@@ -21,12 +22,16 @@ impl Generator {
         let centers = match self {
             Self::Row { count, start, step, .. } => regular::row(*count, [*start, *step], path)?,
             Self::Lattice { counts, start, spacing, .. } => {
-                check_count(self.count(), &format!("{path}.counts"))?;
+                check_spheres(self.count(), &format!("{path}.counts"))?;
                 regular::lattice(*counts, [*start, *spacing], path)?
             }
-            Self::ClosePacking { counts, start, stacking, .. } => {
-                check_count(self.count(), &format!("{path}.counts"))?;
-                let spacing = self.spacing(path)?;
+            Self::StaggeredRows(rows) => {
+                let centers = rows.centers(path)?.into_iter();
+                centers.map(|(center, _)| center).collect()
+            }
+            Self::ClosePacking { counts, start, spacing, stacking, sphere } => {
+                check_spheres(self.count(), &format!("{path}.counts"))?;
+                let spacing = distance(*spacing, sphere, path)?;
                 regular::close_packing(*counts, *stacking, (*start, spacing), path)?
             }
             Self::Ring { count, center, radius, axis, .. } => {
@@ -34,16 +39,10 @@ impl Generator {
             }
             Self::Random { .. } => return self.scatter(world, path),
         };
-        Ok(centers.into_iter().map(|center| at(center, self.template())).collect())
-    }
-
-    /// Distance of neighbours in a close packing \[m\], a diameter unless given.
-    fn spacing(&self, path: &str) -> Result<f64, Problem> {
-        let Self::ClosePacking { spacing: Some(spacing), .. } = self else {
-            return Ok(2.0 * sphere(self.template(), &format!("{path}.sphere"))?.radius);
+        let Some(template) = self.sphere() else {
+            return Ok(Vec::new());
         };
-        check_positive(*spacing, &format!("{path}.spacing"))?;
-        Ok(*spacing)
+        Ok(centers.into_iter().map(|center| at(center, template)).collect())
     }
 }
 
@@ -53,6 +52,15 @@ fn at(place: DVec3, template: &Sphere) -> Sphere {
     Sphere { position, ..template.clone() }
 }
 
+/// Distance of neighbours in a close packing \[m\], a diameter unless given.
+fn distance(given: Option<f64>, template: &Sphere, path: &str) -> Result<f64, Problem> {
+    let Some(spacing) = given else {
+        return Ok(2.0 * sphere(template, &format!("{path}.sphere"))?.radius);
+    };
+    check_positive(spacing, &format!("{path}.spacing"))?;
+    Ok(spacing)
+}
+
 /// Adds the spheres of a generator, written at `path`, to a world.
 pub(crate) fn fill(world: &mut World, generator: &Generator, path: &str) -> Result<(), Problem> {
     let spheres = generator.spheres(world, path)?;
@@ -60,8 +68,12 @@ pub(crate) fn fill(world: &mut World, generator: &Generator, path: &str) -> Resu
     spheres.iter().try_for_each(|sphere| add_sphere(world, sphere, &path))
 }
 
-fn check_count(count: u64, path: &str) -> Result<(), Problem> {
-    check((1..=MOST_SPHERES).contains(&count), path, || {
-        format!("must make 1 to {MOST_SPHERES} spheres, not {count}")
+fn check_spheres(count: u64, path: &str) -> Result<(), Problem> {
+    check_count(count, (MOST_SPHERES, "spheres"), path)
+}
+
+fn check_count(count: u64, (most, made): (u64, &str), path: &str) -> Result<(), Problem> {
+    check((1..=most).contains(&count), path, || {
+        format!("must make 1 to {most} {made}, not {count}")
     })
 }

@@ -2,7 +2,7 @@
 
 use carom::DVec3;
 
-use super::check_count;
+use super::check_spheres;
 use crate::error::Problem;
 use crate::requirement::{check_direction, check_positive, check_vector};
 use crate::scene::values::vector;
@@ -14,7 +14,7 @@ pub(super) fn row(
     [start, step]: [Vector; 2],
     path: &str,
 ) -> Result<Vec<DVec3>, Problem> {
-    check_count(count.into(), &format!("{path}.count"))?;
+    check_spheres(count.into(), &format!("{path}.count"))?;
     check_vector(start, &format!("{path}.start"))?;
     check_vector(step, &format!("{path}.step"))?;
     let (start, step) = (vector(start), vector(step));
@@ -78,7 +78,7 @@ pub(super) fn ring(
 ) -> Result<Vec<DVec3>, Problem> {
     /// Beyond this, the axis is nearly along x: the circle hardly reaches to that side.
     const NEARLY: f64 = 0.9;
-    check_count(count.into(), &format!("{path}.count"))?;
+    check_spheres(count.into(), &format!("{path}.count"))?;
     check_vector(center, &format!("{path}.center"))?;
     check_positive(radius, &format!("{path}.radius"))?;
     check_direction(axis, &format!("{path}.axis"))?;

@@ -365,7 +365,7 @@ impl Balls {
         let origins = palette::origins(scene)?;
         let color = |number| match origins.of(number)? {
             Origin::Sphere(index) => scene.spheres[index].color,
-            Origin::Generator(index) => scene.generators[index].template().color,
+            Origin::Generator(index) => scene.generators[index].sphere().and_then(|it| it.color),
             Origin::Emitter(_) => None,
         };
         let spheres = world.spheres();

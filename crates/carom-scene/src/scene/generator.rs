@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::collider::Collider;
 use super::sphere::Sphere;
 use super::values::Vector;
 
@@ -33,6 +34,9 @@ pub enum Generator {
         /// What they have in common.
         sphere: Sphere,
     },
+    /// Rows, each centred on the one before: staggered, in a triangle, or straight. Of spheres, or
+    /// of colliders like the pegs of a Galton board.
+    StaggeredRows(StaggeredRows),
     /// Close packing of equal spheres in hexagonal layers, one above the other along +y: in a layer
     /// rows run along x, and every second row is shifted by half a sphere.
     ClosePacking {
@@ -90,6 +94,44 @@ pub enum Generator {
     },
 }
 
+/// Rows, each centred on the one before.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [{ "required": ["sphere"] }, { "required": ["collider"] }]))]
+pub struct StaggeredRows {
+    /// How many rows, >= 1.
+    #[schemars(range(min = 1))]
+    pub rows: u32,
+    /// How many in each row, >= 1: [13, 12] staggers rows, [1, 2, 3] is a triangle. Where there are
+    /// more rows than numbers, these begin anew.
+    #[schemars(length(min = 1))]
+    pub counts: Vec<u32>,
+    /// Centre of the first of the first row, in m.
+    pub start: Vector,
+    /// From each to the next in a row, in m.
+    pub step: Vector,
+    /// From the middle of each row to that of the next, in m.
+    pub row_step: Vector,
+    /// What spheres have in common. Give this or `collider`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sphere: Option<Sphere>,
+    /// What colliders have in common; its position is an offset, its name gets the numbers of row
+    /// and place. Give this or `sphere`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub collider: Option<Collider>,
+}
+
+impl StaggeredRows {
+    /// How many places there are in all rows.
+    pub(crate) fn places(&self) -> u64 {
+        let sum = |counts: &[u32]| counts.iter().map(|&count| u64::from(count)).sum::<u64>();
+        let (rows, length) = (self.rows as usize, self.counts.len().max(1));
+        let (times, rest) = (rows / length, rows % length);
+        let whole = sum(&self.counts).saturating_mul(times as u64);
+        whole.saturating_add(sum(&self.counts[..rest.min(self.counts.len())]))
+    }
+}
+
 /// In which order the layers of a close packing follow each other.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -107,6 +149,7 @@ impl Generator {
         match self {
             Self::Row { .. } => "row",
             Self::Lattice { .. } => "lattice",
+            Self::StaggeredRows(_) => "staggered-rows",
             Self::ClosePacking { .. } => "close-packing",
             Self::Ring { .. } => "ring",
             Self::Random { .. } => "random",
@@ -119,18 +162,29 @@ impl Generator {
             Self::Row { count, .. } | Self::Ring { count, .. } | Self::Random { count, .. } => {
                 (*count).into()
             }
+            Self::StaggeredRows(rows) if rows.sphere.is_none() => 0,
+            Self::StaggeredRows(rows) => rows.places(),
             Self::Lattice { counts, .. } | Self::ClosePacking { counts, .. } => product(counts),
         }
     }
 
-    /// What its spheres have in common.
-    pub fn template(&self) -> &Sphere {
+    /// What its spheres have in common; `None` if it makes colliders.
+    pub fn sphere(&self) -> Option<&Sphere> {
         match self {
             Self::Row { sphere, .. }
             | Self::Lattice { sphere, .. }
             | Self::ClosePacking { sphere, .. }
             | Self::Ring { sphere, .. }
-            | Self::Random { sphere, .. } => sphere,
+            | Self::Random { sphere, .. } => Some(sphere),
+            Self::StaggeredRows(rows) => rows.sphere.as_ref(),
+        }
+    }
+
+    /// What its colliders have in common; `None` if it makes spheres.
+    pub fn collider(&self) -> Option<&Collider> {
+        match self {
+            Self::StaggeredRows(rows) => rows.collider.as_ref(),
+            _ => None,
         }
     }
 }

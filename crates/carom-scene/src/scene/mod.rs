@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 pub use collider::{Collider, Shape};
 pub use emitter::Emitter;
 pub use force::Force;
-pub use generator::{Generator, Stacking};
+pub use generator::{Generator, Stacking, StaggeredRows};
 pub use look::{Camera, Colors, DensityColor, Sun};
 pub use simulation::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule,
@@ -51,7 +51,7 @@ pub struct Scene {
     /// Single spheres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub spheres: Vec<Sphere>,
-    /// Places for many spheres, which come after the single ones.
+    /// Places for many spheres or colliders, which come after the single ones.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub generators: Vec<Generator>,
     /// Fixed shapes, in the order in which the rule `discrete` looks at them.

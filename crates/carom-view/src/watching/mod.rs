@@ -216,7 +216,9 @@ impl Watching {
         let view = self.driver.view();
         let mut scene = view.setup.scene(&view.scene);
         scene.spheres = view.scene.spheres.clone();
-        scene.generators = view.scene.generators.clone();
+        // Their colliders are among those of the setup already.
+        let of_spheres = view.scene.generators.iter().filter(|it| it.collider().is_none());
+        scene.generators = of_spheres.cloned().collect();
         self.commands.push(if view.other.is_some() {
             Command::Open(Box::new(scene))
         } else {
