@@ -31,6 +31,56 @@ pub enum Shape {
         /// Full lengths along local x, y, z \[m\], each > 0.
         size: DVec3,
     },
+    /// A hollow box about the origin: walls without thickness, off which spheres bounce on either
+    /// side.
+    Container {
+        /// Full lengths along local x, y, z \[m\], each > 0.
+        size: DVec3,
+        /// Where there is no wall.
+        open: Sides,
+    },
+}
+
+/// Some of the six sides of a box, in its own frame.
+///
+/// ```
+/// use carom::Sides;
+///
+/// let open = Sides { top: true, ..Sides::NONE };
+/// assert_eq!(open, Sides::from_array([false, false, false, true, false, false]));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct Sides {
+    /// Towards -x.
+    pub left: bool,
+    /// Towards +x.
+    pub right: bool,
+    /// Towards -y.
+    pub bottom: bool,
+    /// Towards +y.
+    pub top: bool,
+    /// Towards -z.
+    pub back: bool,
+    /// Towards +z.
+    pub front: bool,
+}
+
+impl Sides {
+    /// No side.
+    pub const NONE: Self = Self::from_array([false; 6]);
+    /// All sides.
+    pub const ALL: Self = Self::from_array([true; 6]);
+
+    /// Those towards -x, +x, -y, +y, -z, +z.
+    pub const fn from_array([left, right, bottom, top, back, front]: [bool; 6]) -> Self {
+        Self { left, right, bottom, top, back, front }
+    }
+
+    /// Whether those towards -x, +x, -y, +y, -z, +z are among them.
+    pub const fn to_array(self) -> [bool; 6] {
+        let Self { left, right, bottom, top, back, front } = self;
+        [left, right, bottom, top, back, front]
+    }
 }
 
 /// Where a collider is and how it is turned: `x_world = position + rotation x_local`.
@@ -156,7 +206,7 @@ impl Collider {
                 validate::positive("size_z", size_z)?;
             }
             Shape::HalfSpace => {}
-            Shape::Box { size } => {
+            Shape::Box { size } | Shape::Container { size, .. } => {
                 validate::positive("size.x", size.x)?;
                 validate::positive("size.y", size.y)?;
                 validate::positive("size.z", size.z)?;

@@ -61,7 +61,7 @@ mod world;
 pub use glam::{DQuat, DVec3};
 
 pub use bodies::{Mass, SOLID_BALL, Sphere, Spheres, THIN_SHELL, volume};
-pub use collider::{Collider, Pose, Shape};
+pub use collider::{Collider, Pose, Shape, Sides};
 pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;

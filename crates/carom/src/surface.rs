@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::collider::{Collider, Pose, Shape};
+use crate::collider::{Collider, Pose, Shape, Sides};
 use crate::friction::Friction;
 use crate::id::ColliderId;
 
@@ -121,7 +121,8 @@ pub(crate) struct Rectangle {
 }
 
 /// Appends the surfaces of a collider. Those of a solid box are its volume and then its faces, in
-/// the order -x, +x, -y, +y, -z, +z.
+/// the order -x, +x, -y, +y, -z, +z; those of a container its walls in the same order, each facing
+/// outward and then inward. A box or a container that only reports is its volume.
 pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surface>) {
     let Collider { shape, pose, velocity, angular_velocity, restitution, friction, trigger } =
         *collider;
@@ -150,10 +151,34 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surf
                 }
             }
         }
+        Shape::Container { size, open } => {
+            let hollow = SolidBox { center, axes, half: 0.5 * size };
+            if trigger {
+                add(Form::Box(hollow), Role::Reports);
+                return;
+            }
+            for face in hollow.walls(open) {
+                add(Form::Rectangle(face), Role::Deflects);
+                add(Form::Rectangle(face.turned()), Role::Deflects);
+            }
+        }
+    }
+}
+
+impl Rectangle {
+    /// The same rectangle, facing the other way.
+    fn turned(self) -> Self {
+        Self { normal: -self.normal, ..self }
     }
 }
 
 impl SolidBox {
+    /// The faces that are not open, outward.
+    fn walls(&self, open: Sides) -> impl Iterator<Item = Rectangle> {
+        let faces = self.faces().into_iter().zip(open.to_array());
+        faces.filter_map(|(face, is_open)| (!is_open).then_some(face))
+    }
+
     /// The six faces, outward.
     fn faces(&self) -> [Rectangle; 6] {
         std::array::from_fn(|number| {
