@@ -168,7 +168,31 @@ class Box(Part):
     size: Vector
 
 
-Shape: TypeAlias = Ball | Rectangle | HalfSpace | Box
+Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
+"""A side of a box in its own frame: towards -x, +x, -y, +y, -z, +z."""
+
+
+@dataclass(frozen=True)
+class Container(Part):
+    """A hollow box: walls without thickness, off which spheres bounce on either side.
+
+    Attributes:
+        size: Full lengths along local x, y, z [m], each > 0.
+        open: Sides without a wall: one, or several.
+    """
+
+    tag: ClassVar[str] = "container"
+    size: Vector
+    open: Side | Sequence[Side] = ()
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if len(self.open) == 1:
+            # As it comes back from text.
+            object.__setattr__(self, "open", self.open[0])
+
+
+Shape: TypeAlias = Ball | Rectangle | HalfSpace | Box | Container
 """Form of a collider in its own frame."""
 
 

@@ -105,7 +105,7 @@ _CHOICES: dict[str, tuple[type[parts.Part], ...]] = {
         parts.Ring,
         parts.RandomFill,
     ),
-    "shape": (parts.Ball, parts.Rectangle, parts.HalfSpace, parts.Box),
+    "shape": (parts.Ball, parts.Rectangle, parts.HalfSpace, parts.Box, parts.Container),
 }
 """What may be described under a name; tags distinguish the variants."""
 

@@ -165,7 +165,9 @@ pub(crate) fn bounds(maze: &Maze) -> [DVec3; 2] {
         let half = match collider.shape {
             Shape::Sphere { radius } => radius,
             Shape::Rectangle { size_x, size_z } => 0.5 * size_x.max(size_z),
-            Shape::Box { size } => 0.5 * DVec3::from_array(size).length(),
+            Shape::Box { size } | Shape::Container { size, .. } => {
+                0.5 * DVec3::from_array(size).length()
+            }
             Shape::HalfSpace => 0.0,
         };
         let center = DVec3::from_array(collider.position);

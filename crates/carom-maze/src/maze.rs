@@ -140,7 +140,9 @@ impl Maze {
     pub(crate) fn collectible_spheres(&self) -> impl Iterator<Item = (DVec3, f64)> + '_ {
         let inner = |shape: &Shape| match *shape {
             Shape::Sphere { radius } => radius,
-            Shape::Box { size } => 0.5 * DVec3::from_array(size).min_element(),
+            Shape::Box { size } | Shape::Container { size, .. } => {
+                0.5 * DVec3::from_array(size).min_element()
+            }
             Shape::Rectangle { .. } | Shape::HalfSpace => 0.0,
         };
         self.with_role(|role| matches!(role, Role::Collectible(_)))
@@ -151,7 +153,9 @@ impl Maze {
     pub(crate) fn collectible_reaches(&self) -> impl Iterator<Item = (DVec3, f64)> + '_ {
         let outer = |shape: &Shape| match *shape {
             Shape::Sphere { radius } => radius,
-            Shape::Box { size } => 0.5 * DVec3::from_array(size).length(),
+            Shape::Box { size } | Shape::Container { size, .. } => {
+                0.5 * DVec3::from_array(size).length()
+            }
             Shape::Rectangle { size_x, size_z } => 0.5 * (size_x * size_x + size_z * size_z).sqrt(),
             Shape::HalfSpace => 0.0,
         };
@@ -212,7 +216,7 @@ pub(crate) fn ground_height(collider: &Collider, place: DVec3) -> Option<f64> {
             local.x.abs() <= 0.5 * size_x && local.z.abs() <= 0.5 * size_z
         }
         Shape::HalfSpace => true,
-        Shape::Sphere { .. } | Shape::Box { .. } => false,
+        Shape::Sphere { .. } | Shape::Box { .. } | Shape::Container { .. } => false,
     };
     reaches.then_some(height)
 }

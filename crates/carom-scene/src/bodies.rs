@@ -1,11 +1,11 @@
 //! Spheres, colliders and emitters of scenes, as the physics knows them.
 
-use carom::{Friction, Mass, Pose, World};
+use carom::{Friction, Mass, Pose, Sides, World};
 
 use crate::error::{Problem, SceneError};
 use crate::requirement::check_positive;
 use crate::scene::values::{quaternion, vector};
-use crate::scene::{Collider, Emitter, Shape, Sphere};
+use crate::scene::{Collider, Emitter, Shape, Side, Sphere};
 
 /// Adds a sphere written at `path`.
 pub(crate) fn add_sphere(world: &mut World, sphere: &Sphere, path: &str) -> Result<(), Problem> {
@@ -107,14 +107,37 @@ impl Emitter {
     }
 }
 
+impl From<&Shape> for carom::Shape {
+    /// Its numbers are not checked.
+    fn from(shape: &Shape) -> Self {
+        match shape {
+            Shape::Sphere { radius } => Self::Sphere { radius: *radius },
+            Shape::Rectangle { size_x, size_z } => {
+                Self::Rectangle { size_x: *size_x, size_z: *size_z }
+            }
+            Shape::HalfSpace => Self::HalfSpace,
+            Shape::Box { size } => Self::Box { size: vector(*size) },
+            Shape::Container { size, open } => {
+                Self::Container { size: vector(*size), open: sides(open) }
+            }
+        }
+    }
+}
+
+fn sides(sides: &[Side]) -> Sides {
+    Sides {
+        left: sides.contains(&Side::Left),
+        right: sides.contains(&Side::Right),
+        bottom: sides.contains(&Side::Bottom),
+        top: sides.contains(&Side::Top),
+        back: sides.contains(&Side::Back),
+        front: sides.contains(&Side::Front),
+    }
+}
+
 /// A collider, its numbers not yet checked.
 pub(crate) fn collider(collider: &Collider) -> carom::Collider {
-    let shape = match collider.shape {
-        Shape::Sphere { radius } => carom::Shape::Sphere { radius },
-        Shape::Rectangle { size_x, size_z } => carom::Shape::Rectangle { size_x, size_z },
-        Shape::HalfSpace => carom::Shape::HalfSpace,
-        Shape::Box { size } => carom::Shape::Box { size: vector(size) },
-    };
+    let shape = (&collider.shape).into();
     let pose = Pose::at(vector(collider.position)).rotated(quaternion(collider.rotation));
     let solid = carom::Collider::new(shape, pose)
         .moving(vector(collider.velocity), vector(collider.angular_velocity))

@@ -1,6 +1,6 @@
 //! Scenes to worlds.
 
-use carom::World;
+use carom::{Sides, World};
 
 use crate::bodies::{add_sphere, collider, emitter};
 use crate::check::check_numbers;
@@ -8,7 +8,7 @@ use crate::error::Problem;
 use crate::generate;
 use crate::overlap;
 use crate::requirement::check;
-use crate::scene::{Emitter, Force, Scene, Shape, Simulation};
+use crate::scene::{Collider, Emitter, Force, Scene, Shape, Simulation};
 use crate::settings::settings_problem;
 
 impl Scene {
@@ -32,16 +32,12 @@ pub(crate) fn build(scene: &Scene) -> Result<World, Problem> {
         World::new(scene.settings()).map_err(|error| settings_problem(&scene.simulation, error))?;
     add_forces(&mut world, &scene.forces)?;
     for (i, collider) in scene.colliders.iter().enumerate() {
-        let path = format!("colliders[{i}]");
-        let added = world.add_collider(self::collider(collider));
-        added.map_err(|error| collider_problem(&path, &collider.shape, error))?;
+        add_collider(&mut world, collider, &format!("colliders[{i}]"))?;
     }
     for (i, generator) in scene.generators.iter().enumerate() {
         let path = format!("generators[{i}].{}", generator.kind());
         for collider in generator.colliders(&path)? {
-            let added = world.add_collider(self::collider(&collider));
-            let path = format!("{path}.collider");
-            added.map_err(|error| collider_problem(&path, &collider.shape, error))?;
+            add_collider(&mut world, &collider, &format!("{path}.collider"))?;
         }
     }
     for (i, sphere) in scene.spheres.iter().enumerate() {
@@ -75,6 +71,18 @@ fn add_forces(world: &mut World, forces: &[Force]) -> Result<(), Problem> {
     Ok(())
 }
 
+/// Adds a collider written at `path`.
+fn add_collider(world: &mut World, collider: &Collider, path: &str) -> Result<(), Problem> {
+    let physical = self::collider(collider);
+    if let carom::Shape::Container { open, .. } = physical.shape {
+        check(open != Sides::ALL, &format!("{path}.shape.container.open"), || {
+            "must leave one wall at least".into()
+        })?;
+    }
+    let added = world.add_collider(physical);
+    added.map(drop).map_err(|error| collider_problem(path, &collider.shape, error))
+}
+
 /// Adds an emitter written at `path`.
 fn add_emitter(
     world: &mut World,
@@ -98,6 +106,7 @@ fn collider_problem(path: &str, shape: &Shape, error: carom::Error) -> Problem {
         Shape::Rectangle { .. } => "rectangle",
         Shape::HalfSpace => "half-space",
         Shape::Box { .. } => "box",
+        Shape::Container { .. } => "container",
     };
     let is_length = |field: &str| field == "radius" || field.starts_with("size");
     match error {

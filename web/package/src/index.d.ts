@@ -135,7 +135,12 @@ export type Shape =
   | { rectangle: { sizeX: number; sizeZ: number } }
   /** Everything below the local xz plane. */
   | "half-space"
-  | { box: { size: [number, number, number] } };
+  | { box: { size: [number, number, number] } }
+  /** Hollow: walls without thickness, off which spheres bounce on either side. */
+  | { container: { size: [number, number, number]; open?: Side | Side[] } };
+
+/** A side of a box in its own frame: towards -x, +x, -y, +y, -z, +z. */
+export type Side = "left" | "right" | "bottom" | "top" | "back" | "front";
 
 /** A surface as it is added. */
 export interface ColliderDescription {

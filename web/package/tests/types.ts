@@ -26,6 +26,10 @@ const ball: number = own.addSphere({ position: new Float32Array(3), radius: 1, d
 // @ts-expect-error: a misspelled field
 own.addSphere({ radus: 1 });
 own.addCollider({ shape: { box: { size: [1, 2, 3] } }, angularVelocity: [0, 1, 0] });
+own.addCollider({ shape: { container: { size: [1, 2, 3], open: "top" } } });
+own.addCollider({ shape: { container: { size: [1, 2, 3], open: ["top", "front"] } } });
+// @ts-expect-error: not a side
+own.addCollider({ shape: { container: { size: [1, 2, 3], open: "above" } } });
 // @ts-expect-error: a collider needs a shape
 own.addCollider({ position: [0, 0, 0] });
 own.addForce({ viscousDrag: { coefficient: 0.1 } });
@@ -57,7 +61,7 @@ const size = (shape: Shape): number => {
   if (shape === "half-space") return Infinity;
   if ("sphere" in shape) return 2 * shape.sphere.radius;
   if ("rectangle" in shape) return Math.max(shape.rectangle.sizeX, shape.rectangle.sizeZ);
-  return Math.max(...shape.box.size);
+  return Math.max(...("box" in shape ? shape.box : shape.container).size);
 };
 const largest: number = Math.max(...world.colliders.map(({ shape }: Collider) => size(shape)));
 

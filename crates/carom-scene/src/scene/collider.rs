@@ -107,6 +107,83 @@ pub enum Shape {
         /// Full lengths along local x, y, z, in m, each > 0.
         size: Vector,
     },
+    /// A hollow box: walls without thickness, off which spheres bounce on either side. One sees
+    /// through those that are nearer than what is in it.
+    Container {
+        /// Full lengths along local x, y, z, in m, each > 0.
+        size: Vector,
+        /// Sides without a wall: one, or a list; none where it is missing.
+        #[schemars(with = "OneOrMore")]
+        #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_more")]
+        open: Vec<Side>,
+    },
+}
+
+/// A side of a box in its own frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Side {
+    /// Towards -x.
+    Left,
+    /// Towards +x.
+    Right,
+    /// Towards -y.
+    Bottom,
+    /// Towards +y.
+    Top,
+    /// Towards -z.
+    Back,
+    /// Towards +z.
+    Front,
+}
+
+/// How sides are written.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "describes what is written")]
+enum OneOrMore {
+    /// One side.
+    One(Side),
+    /// Several.
+    More(Vec<Side>),
+}
+
+/// One side as a word, others as a list.
+mod one_or_more {
+    use serde::de::value::{SeqAccessDeserializer, StrDeserializer};
+    use serde::de::{SeqAccess, Visitor};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::Side;
+
+    pub fn serialize<S: Serializer>(sides: &[Side], serializer: S) -> Result<S::Ok, S::Error> {
+        match sides {
+            [side] => side.serialize(serializer),
+            sides => sides.serialize(serializer),
+        }
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Side>, D::Error> {
+        deserializer.deserialize_any(Sides)
+    }
+
+    struct Sides;
+
+    impl<'de> Visitor<'de> for Sides {
+        type Value = Vec<Side>;
+
+        fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            formatter.write_str("a side or a list of sides")
+        }
+
+        fn visit_str<E: serde::de::Error>(self, side: &str) -> Result<Vec<Side>, E> {
+            Ok(vec![Side::deserialize(StrDeserializer::new(side))?])
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, sides: A) -> Result<Vec<Side>, A::Error> {
+            Vec::deserialize(SeqAccessDeserializer::new(sides))
+        }
+    }
 }
 
 fn yes() -> bool {

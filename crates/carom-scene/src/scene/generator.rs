@@ -36,7 +36,7 @@ pub enum Generator {
     },
     /// Rows, each centred on the one before: staggered, in a triangle, or straight. Of spheres, or
     /// of colliders like the pegs of a Galton board.
-    StaggeredRows(StaggeredRows),
+    StaggeredRows(Box<StaggeredRows>),
     /// Close packing of equal spheres in hexagonal layers, one above the other along +y: in a layer
     /// rows run along x, and every second row is shifted by half a sphere.
     ClosePacking {

@@ -14,7 +14,7 @@ pub(crate) mod values;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use collider::{Collider, Shape};
+pub use collider::{Collider, Shape, Side};
 pub use emitter::Emitter;
 pub use force::Force;
 pub use generator::{Generator, Stacking, StaggeredRows};
