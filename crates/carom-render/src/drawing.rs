@@ -13,7 +13,7 @@ const TRIGGER_OPACITY: f64 = 0.45;
 pub struct Drawing {
     /// Spheres.
     pub balls: Vec<Ball>,
-    /// Rectangles, boxes and half-spaces.
+    /// Rectangles, boxes, containers and half-spaces.
     pub panels: Vec<Panel>,
     /// Arrows and lines.
     pub arrows: Vec<Arrow>,
@@ -64,7 +64,7 @@ impl Ball {
 /// A surface of a collider.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Panel {
-    /// A rectangle, box or half-space.
+    /// A rectangle, box, container or half-space.
     pub shape: Shape,
     /// Where it is.
     pub pose: Pose,
@@ -162,7 +162,7 @@ impl Panel {
     pub fn bounds(&self) -> Option<Bounds> {
         let half = match self.shape {
             Shape::Rectangle { size_x, size_z } => 0.5 * DVec3::new(size_x, 0.0, size_z),
-            Shape::Box { size } => 0.5 * size,
+            Shape::Box { size } | Shape::Container { size, .. } => 0.5 * size,
             _ => return None,
         };
         let rotation = self.pose.rotation.normalize();

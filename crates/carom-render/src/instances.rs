@@ -3,6 +3,7 @@
 
 use carom::{DVec3, Shape};
 
+use crate::container::{self, Seen};
 use crate::drawing::{Arrow, Ball, Drawing, Material, Panel, linear};
 
 /// Numbers of a ball: centre and radius, colour and material, rotation.
@@ -14,6 +15,12 @@ pub(crate) type PackedArrow = [f32; 12];
 
 /// A half-space is drawn out to this many times the distance of the eye from what there is else.
 const HORIZON: f64 = 60.0;
+
+/// Kinds of panels in the shader.
+const RECTANGLE: f64 = 0.0;
+const BOX: f64 = 1.0;
+const HALF_SPACE: f64 = 2.0;
+const RIM: f64 = 3.0;
 
 /// All instances of a drawing, and how many panels of each kind there are.
 #[derive(Debug, Default)]
@@ -50,6 +57,9 @@ impl Instances {
         for panel in drawing.panels.iter().filter(is_clear) {
             add_panel(panel, eye, radius, faces, boxes);
         }
+        for panel in drawing.panels.iter().filter(|panel| !is_clear(panel)) {
+            add_walls(panel, eye, faces);
+        }
         arrows.extend(drawing.arrows.iter().map(|arrow| packed_arrow(arrow, eye)));
     }
 }
@@ -63,16 +73,31 @@ fn add_panel(
 ) {
     match panel.shape {
         Shape::Box { size } => boxes.push(packed_box(panel, size, eye)),
+        // As a trigger, it is a volume.
+        Shape::Container { size, .. } if panel.opacity < 1.0 => {
+            boxes.push(packed_box(panel, size, eye));
+        }
         Shape::Rectangle { size_x, size_z } => {
-            let half = 0.5 * DVec3::new(size_x, 0.0, size_z);
-            let size = (half, grid_distance(2.0 * half.max_element()));
-            faces.push(packed_panel(panel, panel.pose.position - eye, 0.0, size));
+            faces.push(packed_rectangle(panel, [size_x, size_z], RECTANGLE, eye));
         }
         // From within, a half-space would hide all there is: a box of walls is open towards the eye.
         Shape::HalfSpace if height_over(panel, eye) < 0.0 => {}
         Shape::HalfSpace => faces.push(packed_half_space(panel, eye, radius)),
         // Spheres are balls.
         _ => {}
+    }
+}
+
+/// Adds the walls of a container. They cast no shadows: those would change with the place of the eye.
+fn add_walls(panel: &Panel, eye: DVec3, faces: &mut Vec<PackedPanel>) {
+    let Shape::Container { size, open } = panel.shape else { return };
+    for (wall, seen) in container::walls(panel, size, open, eye) {
+        let Shape::Rectangle { size_x, size_z } = wall.shape else { continue };
+        let kind = match seen {
+            Seen::Whole => RECTANGLE,
+            Seen::Rim => RIM,
+        };
+        faces.push(packed_rectangle(&wall, [size_x, size_z], kind, eye));
     }
 }
 
@@ -127,13 +152,24 @@ fn packed_panel(
     ])
 }
 
+fn packed_rectangle(
+    panel: &Panel,
+    [size_x, size_z]: [f64; 2],
+    kind: f64,
+    eye: DVec3,
+) -> PackedPanel {
+    let half = 0.5 * DVec3::new(size_x, 0.0, size_z);
+    let size = (half, grid_distance(2.0 * half.max_element()));
+    packed_panel(panel, panel.pose.position - eye, kind, size)
+}
+
 fn packed_box(panel: &Panel, size: DVec3, eye: DVec3) -> PackedPanel {
     let size = (0.5 * size, grid_distance(size.max_element()));
-    packed_panel(panel, panel.pose.position - eye, 1.0, size)
+    packed_panel(panel, panel.pose.position - eye, BOX, size)
 }
 
 /// How far a point is in front of the plane of a panel \[m\].
-fn height_over(panel: &Panel, point: DVec3) -> f64 {
+pub(crate) fn height_over(panel: &Panel, point: DVec3) -> f64 {
     (panel.pose.rotation.normalize().inverse() * (point - panel.pose.position)).y
 }
 
@@ -148,7 +184,7 @@ fn packed_half_space(panel: &Panel, eye: DVec3, radius: f64) -> PackedPanel {
     let below = (DVec3::new(seen.x, 0.0, seen.z) / grid).round() * grid;
     let center = panel.pose.position + rotation * below;
     let half = DVec3::new(reach, 0.0, reach);
-    packed_panel(panel, center - eye, 2.0, (half, grid))
+    packed_panel(panel, center - eye, HALF_SPACE, (half, grid))
 }
 
 /// A round distance of grid lines, of which some ten are on a `length` \[m\].

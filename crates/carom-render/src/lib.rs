@@ -8,6 +8,7 @@
 
 mod bounds;
 mod camera;
+mod container;
 mod drawing;
 #[cfg(feature = "film")]
 mod film;

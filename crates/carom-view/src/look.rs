@@ -1,6 +1,6 @@
 //! What a session looks like: its view as a drawing.
 
-use carom::{DQuat, DVec3, Shape, SphereId};
+use carom::{DQuat, DVec3, SphereId};
 use carom_render::{Arrow, Ball, Drawing, Light, Material};
 use carom_scene::Palette;
 use carom_scene::scene::{self, Color};
@@ -82,16 +82,7 @@ fn add_colliders(view: &View, drawing: &mut Drawing) {
             continue;
         }
         let color = collider_color(collider, colors);
-        drawing.add_collider(shape(&collider.shape), *pose, color, collider.trigger);
-    }
-}
-
-fn shape(shape: &scene::Shape) -> Shape {
-    match *shape {
-        scene::Shape::Sphere { radius } => Shape::Sphere { radius },
-        scene::Shape::Rectangle { size_x, size_z } => Shape::Rectangle { size_x, size_z },
-        scene::Shape::HalfSpace => Shape::HalfSpace,
-        scene::Shape::Box { size } => Shape::Box { size: DVec3::from_array(size) },
+        drawing.add_collider((&collider.shape).into(), *pose, color, collider.trigger);
     }
 }
 

@@ -24,6 +24,8 @@ struct Varying {
 
 const BOX: f32 = 1.0;
 const HALF_SPACE: f32 = 2.0;
+// A rectangle of which nothing but the rim is seen.
+const RIM: f32 = 3.0;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
@@ -72,7 +74,15 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
         color = mix(color * 0.45, vec3<f32>(0.10, 0.11, 0.14), 0.5);
         color *= 1.0 + 0.5 * stripes(place.x + place.y, in.extent.w * 0.5, pixel.x + pixel.y);
     }
-    if in.kind != HALF_SPACE {
+    var opacity = in.color.w;
+    if in.kind == RIM {
+        let to_edge = (reach - abs(place)) / pixel;
+        opacity = 1.0 - smoothstep(1.4, 2.4, min(to_edge.x, to_edge.y));
+        if opacity < 0.1 {
+            discard;
+        }
+        color = in.color.rgb * 0.55;
+    } else if in.kind != HALF_SPACE {
         let to_edge = (reach - abs(place)) / pixel;
         let edge = 1.0 - smoothstep(0.4, 1.6, min(to_edge.x, to_edge.y));
         color *= 1.0 - 0.35 * edge;
@@ -89,7 +99,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
         let haze = smoothstep(0.12, 0.75, distance / in.extent.x);
         shown = mix(shown, sky(in.point / max(distance, 1e-12)), haze);
     }
-    return vec4<f32>(encoded(shown), in.color.w);
+    return vec4<f32>(encoded(shown), opacity);
 }
 
 // How much of a pixel lies on the lines of a square grid; none where they come too close.
