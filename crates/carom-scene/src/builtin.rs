@@ -24,4 +24,7 @@ embed!(
     "billiards.toml",
     "galton.toml",
     "granular-column.toml",
+    "hourglass.toml",
+    "avalanche.toml",
+    "chain-reaction.toml",
 );
