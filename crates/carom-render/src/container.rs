@@ -3,7 +3,6 @@
 use carom::{DQuat, DVec3, Pose, Shape, Sides};
 
 use crate::drawing::Panel;
-use crate::instances::height_over;
 
 /// How a wall is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,7 +42,7 @@ pub(crate) fn walls(
         let shape = Shape::Rectangle { size_x, size_z };
         let out = Pose { position, rotation: rotation * turn };
         let wall = Panel { shape, pose: out, color, opacity };
-        if height_over(&wall, eye) > 0.0 {
+        if wall.height_of(eye) > 0.0 {
             return (wall, Seen::Rim);
         }
         let inward = out.rotated(out.rotation * DQuat::from_rotation_x(std::f64::consts::PI));

@@ -158,6 +158,11 @@ pub(crate) fn linear(color: Color) -> [f32; 3] {
 }
 
 impl Panel {
+    /// How far a point is in front of its plane \[m\].
+    pub(crate) fn height_of(&self, point: DVec3) -> f64 {
+        (self.pose.rotation.normalize().inverse() * (point - self.pose.position)).y
+    }
+
     /// The box around it; `None` for a half-space, which has none.
     pub fn bounds(&self) -> Option<Bounds> {
         let half = match self.shape {

@@ -81,7 +81,7 @@ fn add_panel(
             faces.push(packed_rectangle(panel, [size_x, size_z], RECTANGLE, eye));
         }
         // From within, a half-space would hide all there is: a box of walls is open towards the eye.
-        Shape::HalfSpace if height_over(panel, eye) < 0.0 => {}
+        Shape::HalfSpace if panel.height_of(eye) < 0.0 => {}
         Shape::HalfSpace => faces.push(packed_half_space(panel, eye, radius)),
         // Spheres are balls.
         _ => {}
@@ -166,11 +166,6 @@ fn packed_rectangle(
 fn packed_box(panel: &Panel, size: DVec3, eye: DVec3) -> PackedPanel {
     let size = (0.5 * size, grid_distance(size.max_element()));
     packed_panel(panel, panel.pose.position - eye, BOX, size)
-}
-
-/// How far a point is in front of the plane of a panel \[m\].
-pub(crate) fn height_over(panel: &Panel, point: DVec3) -> f64 {
-    (panel.pose.rotation.normalize().inverse() * (point - panel.pose.position)).y
 }
 
 /// A half-space as a large square, moved along with the eye in steps of its grid, so that neither
