@@ -157,7 +157,7 @@ fn the_maze_holds_the_figures_of_the_course() {
                 assert!(collider.trigger);
                 (theirs, "position", None, false)
             }
-            Shape::HalfSpace => panic!("no half-space in the maze"),
+            Shape::HalfSpace | Shape::Container { .. } => panic!("neither is in the maze"),
         };
         assert_eq!(collider.position.to_vec(), vector(&theirs[center]));
         assert_eq!(size, size.as_ref().map(|_| vector(&theirs["size"])));

@@ -1,20 +1,18 @@
 //! Generators of spheres and colliders.
 
+mod count;
 mod random;
 mod regular;
 mod rows;
 
 use carom::{DVec3, World};
 
+use self::count::check_spheres;
 use crate::bodies::{add_sphere, sphere};
 use crate::error::Problem;
-use crate::requirement::{check, check_positive};
+use crate::requirement::check_positive;
 use crate::scene::values::vector;
 use crate::scene::{Generator, Sphere};
-
-/// More spheres than this in one generator are a slip of the keyboard, and would fill the memory
-/// (about 1 GB for the world alone).
-const MOST_SPHERES: u64 = 10_000_000;
 
 impl Generator {
     /// The spheres it stands for, one by one, when `world` holds what comes before them.
@@ -66,14 +64,4 @@ pub(crate) fn fill(world: &mut World, generator: &Generator, path: &str) -> Resu
     let spheres = generator.spheres(world, path)?;
     let path = format!("{path}.sphere");
     spheres.iter().try_for_each(|sphere| add_sphere(world, sphere, &path))
-}
-
-fn check_spheres(count: u64, path: &str) -> Result<(), Problem> {
-    check_count(count, (MOST_SPHERES, "spheres"), path)
-}
-
-fn check_count(count: u64, (most, made): (u64, &str), path: &str) -> Result<(), Problem> {
-    check((1..=most).contains(&count), path, || {
-        format!("must make 1 to {most} {made}, not {count}")
-    })
 }

@@ -6,7 +6,7 @@ use carom::{DVec3, World};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use super::check_spheres;
+use super::count::check_spheres;
 use crate::bodies::sphere;
 use crate::error::Problem;
 use crate::requirement::{check, check_non_negative, check_positive, check_vector};

@@ -2,7 +2,7 @@
 
 use carom::DVec3;
 
-use super::check_spheres;
+use super::count::check_spheres;
 use crate::error::Problem;
 use crate::requirement::{check_direction, check_positive, check_vector};
 use crate::scene::values::vector;

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use carom::DVec3;
 
-use super::{MOST_SPHERES, check_count};
+use super::count::{MOST_SPHERES, check_count};
 use crate::error::Problem;
 use crate::requirement::{check, check_vector};
 use crate::scene::values::vector;
