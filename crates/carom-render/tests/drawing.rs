@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use carom::{DQuat, DVec3, Pose, Shape};
+use carom::{DQuat, DVec3, Pose, Shape, Sides};
 use carom_render::{
     Ball, Bounds, Camera, Drawing, GpuError, Light, Material, Offscreen, Picture, Quality,
 };
@@ -110,6 +110,22 @@ fn a_wall_seen_from_within_hides_nothing() {
     drawing.add_collider(Shape::HalfSpace, wall(DVec3::NEG_Z), [0.9, 0.9, 0.9], false);
     let picture = drawn(&drawing, &camera_in_front(6.0), Quality::DRAFT);
     assert_eq!(pixel(&picture, 200, 150), [255, 0, 0]);
+}
+
+#[test]
+fn one_sees_what_a_container_holds_and_its_far_walls() {
+    let mut drawing = in_the_dark();
+    drawing.balls.push(ball(DVec3::ZERO, 0.5, [1.0, 0.0, 0.0]));
+    let open = Sides { top: true, ..Sides::NONE };
+    let shape = Shape::Container { size: DVec3::splat(2.0), open };
+    drawing.add_collider(shape, Pose::at(DVec3::ZERO), [0.9, 0.9, 0.9], false);
+    for quality in [Quality::DRAFT, Quality::FINE] {
+        let picture = drawn(&drawing, &camera_in_front(6.0), quality);
+        assert_eq!(pixel(&picture, 200, 150), [255, 0, 0]);
+        let bare = drawn(&in_the_dark(), &camera_in_front(6.0), quality);
+        // Beside the ball, the wall behind it.
+        assert_ne!(pixel(&picture, 235, 150), pixel(&bare, 235, 150));
+    }
 }
 
 #[test]
