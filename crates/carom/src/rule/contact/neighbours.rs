@@ -20,7 +20,7 @@ use crate::id::SphereId;
 use crate::interval::Interval;
 use crate::parallel;
 use crate::report::StepReport;
-use crate::surface::Role;
+use crate::surface::{Form, Role};
 use crate::system::System;
 
 /// Puts spheres into the order of space, finds which may touch, and makes contacts of them, which go on
@@ -221,8 +221,14 @@ impl Known<'_> {
             let speed = motion.velocity.length() + motion.angular_velocity.length() * arm;
             margin += speed * self.left;
         }
-        // From behind a rectangle, a sphere may come round its edge.
-        sphere_surface(form, center, radius).is_none_or(|it| it.distance <= margin)
+        match (sphere_surface(form, center, radius), form) {
+            (Some(separation), _) => separation.distance <= margin,
+            // From just behind a rectangle, a sphere may come round its edge.
+            (None, Form::Rectangle(rectangle)) => {
+                (center - rectangle.center).dot(rectangle.normal) >= -margin
+            }
+            (None, _) => true,
+        }
     }
 
     fn contact(&self, slot: usize, relative: u32, surface: u32) -> SurfaceContact {
