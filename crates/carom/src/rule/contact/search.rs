@@ -16,6 +16,10 @@ use crate::parallel;
 const LEAST_MARGIN: f64 = 0.04;
 /// A sphere may go at most this part of its radius, unless it goes farther in a sub-step.
 const MOST_MARGIN: f64 = 0.3;
+/// Where fewer than this part of all, or so many, would go farther, these may go [`MOST_OF_FEW`] times
+/// their radius: for a few there are few pairs more.
+const FEW: (f64, usize) = (1.0 / 32.0, 16);
+const MOST_OF_FEW: f64 = 8.0;
 /// Margins are to be this part of the mean radius in the mean: with wider ones there are fewer searches,
 /// but more contacts that bear nothing.
 const MEAN_MARGIN: f64 = 0.15;
@@ -29,11 +33,15 @@ const WIDE: f64 = 1.5;
 /// With more wide ones than this part of all, spheres are found by a hierarchy of grids.
 const MOST_WIDE: f64 = 1.0 / 16.0;
 
-/// How far a sphere of this radius \[m\] and speed \[m/s\] beside the common motion may go until the next
-/// search \[m\], which is to come after a time of `lasting` \[s\]. It goes at least `least` \[m\].
-fn margin(radius: f64, speed: f64, lasting: f64, least: f64) -> f64 {
-    let bounded = (FASTER * speed * lasting).clamp(LEAST_MARGIN * radius, MOST_MARGIN * radius);
-    bounded.max(least)
+/// How far spheres of this mean radius \[m\] may go, as a part of it: farther the more room there is for
+/// each, up to where another one lies in the mean.
+fn most_among(slots: &Slots, radius: f64) -> f64 {
+    let bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let centers = slots.position.iter().map(|row| row.vector());
+    let (low, high) = centers.fold(bounds, |(low, high), it| (low.min(it), high.max(it)));
+    let extent = (high - low).max(DVec3::splat(2.0 * radius)) / radius;
+    let room = extent.x * extent.y * extent.z / slots.len() as f64;
+    (0.5 * libm::cbrt(room) - 1.0).clamp(MOST_MARGIN, MOST_OF_FEW)
 }
 
 /// Working memory of a search.
@@ -98,13 +106,21 @@ impl Search {
         let lasting = (MEAN_MARGIN * radii / speeds.max(f64::MIN_POSITIVE)).clamp(least, most);
         // What is slow among fast ones may be hit, and fly as they do.
         let mean_speed = speeds / count;
-        let rows = slots.position.iter().zip(&slots.velocity);
+        let wanted = |slot: usize| {
+            FASTER * lasting * speed(&slots.velocity[slot]).max(mean_speed)
+                / slots.position[slot].number()
+        };
+        let fast = (0..slots.len()).filter(|&slot| wanted(slot) > MOST_MARGIN).count();
+        let are_few = fast <= FEW.1 || fast as f64 <= FEW.0 * count;
+        let most = if are_few { MOST_OF_FEW } else { most_among(slots, radii / count) };
         self.margins.clear();
-        self.margins.extend(rows.map(|(position, row)| {
-            let beside = speed(row).max(mean_speed);
+        self.margins.extend((0..slots.len()).map(|slot| {
+            let bounded = wanted(slot).clamp(LEAST_MARGIN, most) * slots.position[slot].number();
             // Within a sub-step it goes on by half of what it does in one, or turns round at an impact.
-            let fastest = (1.5 * beside).max(row.vector().length() + velocity.length());
-            margin(position.number(), beside, lasting, FASTER * fastest * h)
+            let row = &slots.velocity[slot];
+            let beside = 1.5 * speed(row).max(mean_speed);
+            let fastest = beside.max(row.vector().length() + velocity.length());
+            bounded.max(FASTER * fastest * h)
         }));
         Drift::begin(velocity, lasting)
     }
