@@ -13,12 +13,14 @@
 
 mod accelerate;
 mod advance;
+mod aim;
 mod batch;
 mod dormant;
 mod drift;
 mod energy;
 mod found;
 mod frame;
+mod gather;
 mod impacts;
 mod kept;
 mod kernel;

@@ -1,5 +1,6 @@
 //! The stages that work on contacts, slab by slab.
 
+use super::aim;
 use super::found::Found;
 use super::kernel;
 use super::slab::Direction;
@@ -23,7 +24,7 @@ const MOST_SWEEPS: u32 = 20_000;
 pub(super) fn prepare(solver: &mut Solver, sub_step: &SubStep) {
     let Solver { slots, slabs, places, .. } = solver;
     slabs.each_contact(slots, Direction::Forwards, |run, slab| {
-        kernel::prepare(run, &mut slab.batches, sub_step);
+        aim::prepare(run, &mut slab.batches, sub_step);
         surfaces::prepare(run, &mut slab.surfaces, places, sub_step);
     });
 }

@@ -1,0 +1,239 @@
+//! How the contacts of pairs of spheres begin a sub-step: a batch at a time, one contact in each lane of the
+//! processor's vectors.
+
+use fearless_simd::{Level, Simd, SimdMask, dispatch, mask64x4};
+
+use super::batch::{ApproachBatch, Batches, FrictionBatch, Hit, PairBatch, Quad, RollingBatch};
+use super::gather::{
+    TINY, apply, apply_spin, arrays, difference, gathered, is_any, slip, smaller, sum, turn,
+    vector, xyz,
+};
+use super::slots::Run;
+use super::sub_step::{GROWTH, SubStep};
+use super::swept;
+use crate::lanes::{LANES, Lanes};
+use crate::real::{Real, Vector};
+
+/// Prepares the contacts of a run: normals, gaps, what velocities must come to, and the impulses to
+/// start from, which it applies.
+pub(super) fn prepare(run: &mut Run, batches: &mut Batches, sub_step: &SubStep) {
+    let level = Level::new();
+    if batches.frictions.is_empty() {
+        dispatch!(level, simd => prepare_all::<_, false>(simd, run, batches, sub_step));
+    } else {
+        dispatch!(level, simd => prepare_all::<_, true>(simd, run, batches, sub_step));
+    }
+}
+
+#[inline(always)]
+fn prepare_all<S: Simd, const FRICTION: bool>(
+    simd: S,
+    run: &mut Run,
+    batches: &mut Batches,
+    sub_step: &SubStep,
+) {
+    let Batches { pairs, approaches, restitutions, hits, frictions, rollings, .. } = batches;
+    hits.clear();
+    for (number, (batch, approach)) in pairs.iter_mut().zip(approaches).enumerate() {
+        let aimed = aim(simd, run, (batch, approach), sub_step);
+        let mut speed = [0.0; LANES];
+        if aimed.is_any() {
+            let traits = (&*approach, &restitutions[number]);
+            speed = aimed.meet(simd, run, batch, traits, sub_step);
+            if speed != [0.0; LANES] {
+                hits.push(Hit { batch: number as u32, speed });
+            }
+        }
+        if FRICTION {
+            let friction = &mut frictions[number];
+            friction.aim(simd, run, batch, speed);
+            start_friction(simd, run, batch, friction, rollings.get_mut(number));
+        } else {
+            let impulse = Lanes::each(simd, batch.impulse);
+            if is_any(simd, impulse) {
+                apply(simd, run.velocity, batch, vector(simd, &batch.normal) * impulse);
+            }
+        }
+    }
+}
+
+/// How the pairs of a batch come near each other in a sub-step.
+struct Aimed<S: Simd> {
+    /// Speeds of approach of impacts \[m/s\]; 0 elsewhere.
+    impact: Lanes<S>,
+    /// Where the spheres go so far that they may meet on their way.
+    goes_far: mask64x4<S>,
+    /// Where there is an impact.
+    is_hit: mask64x4<S>,
+    /// Where neither sphere bears anything.
+    is_free: mask64x4<S>,
+}
+
+/// Normals and gaps of now; the velocities that contacts are to have after the sub-step if none bounces;
+/// the impulses to start from.
+#[inline(always)]
+fn aim<S: Simd>(
+    simd: S,
+    run: &Run,
+    (batch, approach): (&mut PairBatch, &mut ApproachBatch),
+    sub_step: &SubStep,
+) -> Aimed<S> {
+    let all = |number| Lanes::all(simd, number);
+    let zero = all(0.0);
+    let offset = xyz(difference(simd, run.position, batch));
+    let length = offset.length_squared().sqrt();
+    let is_lost = length.is_less(all(TINY));
+    let inverse = all(1.0) / length.max(all(TINY));
+    let mut normal = offset * inverse;
+    // Any direction would do for centres that coincide, but it must be the same always.
+    normal.y = all(1.0).select(is_lost, normal.y);
+    let radius_sum = Lanes::each(simd, approach.radius_sum);
+    let gap = length - radius_sum;
+
+    let [vx, vy, vz, bear] = difference(simd, run.before, batch);
+    let velocity = Vector { x: vx, y: vy, z: vz };
+    let speed = velocity.dot(normal);
+
+    let carried = Lanes::each(simd, batch.impulse);
+    let before = Lanes::each(simd, approach.previous);
+    // What stopped an impact is no longer needed, once the two part.
+    let has_bounced = Lanes::each(simd, batch.bias).is_less(zero) & zero.is_at_most(speed);
+    let carried = smaller(carried, before).select(has_bounced, carried);
+    let effective_mass = Lanes::each(simd, batch.effective_mass);
+    let most = before * GROWTH + effective_mass * sub_step.growth;
+    approach.previous = carried.to_array();
+    batch.impulse = smaller(carried, most).to_array();
+    batch.bias = (gap.max(zero) * (1.0 / sub_step.h)).to_array();
+    batch.normal = arrays(normal);
+
+    let rests = zero.is_less(carried);
+    let is_free = bear.is_equal(zero);
+    let least = all(sub_step.impact_speed);
+    let shaken = shaken_speed(simd, run, (batch, normal), sub_step);
+    let threshold = all(sub_step.resting_speed).select(rests, least);
+    let threshold = threshold.select(is_free, threshold.max(shaken));
+    let closing = zero - speed;
+    let meets = gap.is_less(closing * sub_step.h) & threshold.is_less(closing);
+    let way = velocity.length_squared() * (sub_step.h * sub_step.h);
+    let reach = radius_sum * swept::FAR;
+    Aimed {
+        impact: closing.select(meets, zero),
+        goes_far: (reach * reach).is_less(way),
+        is_hit: meets,
+        is_free,
+    }
+}
+
+impl<S: Simd> Aimed<S> {
+    /// Whether there is an impact, or may be one.
+    #[inline(always)]
+    fn is_any(&self) -> bool {
+        (self.is_hit | self.goes_far).any_true()
+    }
+
+    /// The velocities that impacts are to end with. Gives speeds of approach \[m/s\], 0 where there is no
+    /// impact.
+    #[inline(always)]
+    fn meet(
+        self,
+        simd: S,
+        run: &Run,
+        batch: &mut PairBatch,
+        (approach, restitution): (&ApproachBatch, &Quad),
+        sub_step: &SubStep,
+    ) -> Quad {
+        let zero = Lanes::all(simd, 0.0);
+        let rebound = zero - Lanes::each(simd, *restitution) * self.impact;
+        // What bears something already does not bounce: it would lose the impulse to start from.
+        let is_new = Lanes::each(simd, approach.previous).is_equal(zero);
+        let bounces = is_new & rebound.is_less(zero);
+        let bias = rebound.select(bounces, Lanes::each(simd, batch.bias));
+        batch.bias = bias.to_array();
+        let mut speed = self.impact.to_array();
+        let is_swept = (self.goes_far | bounces) & (self.is_free | self.is_hit);
+        let is_swept = Lanes::all(simd, 1.0).select(is_swept, zero).to_array();
+        for lane in (0..LANES).filter(|&lane| is_swept[lane] > 0.0) {
+            let traits = [approach.radius_sum[lane], restitution[lane]];
+            if let Some(found) = swept::aim_pair(run, batch, (lane, traits), sub_step) {
+                speed[lane] = found;
+            }
+        }
+        speed
+    }
+}
+
+/// Speeds of approach below which the spheres of a batch that bear something do not bounce \[m/s\].
+#[inline(always)]
+fn shaken_speed<S: Simd>(
+    simd: S,
+    run: &Run,
+    (batch, normal): (&PairBatch, Vector<Lanes<S>>),
+    sub_step: &SubStep,
+) -> Lanes<S> {
+    let along = if let Some(acceleration) = sub_step.common_acceleration {
+        Vector::all(simd, acceleration).dot(normal).abs()
+    } else {
+        let first = xyz(Lanes::transposed(gathered(simd, run.acceleration, &batch.first)));
+        let second = xyz(Lanes::transposed(gathered(simd, run.acceleration, &batch.second)));
+        first.dot(normal).abs().max(second.dot(normal).abs())
+    };
+    let [by_weight, least] = sub_step.shaken();
+    along * by_weight + Lanes::all(simd, least)
+}
+
+impl FrictionBatch {
+    /// The slip that impacts are to end with.
+    #[inline(always)]
+    fn aim<S: Simd>(&mut self, simd: S, run: &Run, batch: &PairBatch, speed: Quad) {
+        let restitution = Lanes::each(simd, self.tangential_restitution);
+        let impact = Lanes::each(simd, speed);
+        if !is_any(simd, impact * restitution) {
+            self.slip = [[0.0; LANES]; 3];
+            return;
+        }
+        let normal = vector(simd, &batch.normal);
+        let velocity = xyz(difference(simd, run.before, batch));
+        let slip = slip(velocity, normal, xyz(sum(simd, run.spin_before, batch)));
+        let is_impact = Lanes::all(simd, 0.0).is_less(impact);
+        let part = (Lanes::all(simd, 0.0) - restitution).select(is_impact, Lanes::all(simd, 0.0));
+        self.slip = arrays(slip * part);
+    }
+}
+
+/// Applies the impulses to start from, normal and tangential.
+#[inline(always)]
+fn start_friction<S: Simd>(
+    simd: S,
+    run: &mut Run,
+    batch: &PairBatch,
+    friction: &mut FrictionBatch,
+    rolling: Option<&mut RollingBatch>,
+) {
+    let zero = Lanes::all(simd, 0.0);
+    let impulse = Lanes::each(simd, batch.impulse);
+    let bears = zero.is_less(impulse);
+    let normal = vector(simd, &batch.normal);
+    // What the normal turned away from goes; nothing is left where the contact bears nothing.
+    let kept = vector(simd, &friction.tangential);
+    let along = kept - normal * kept.dot(normal);
+    let tangential = Vector {
+        x: along.x.select(bears, zero),
+        y: along.y.select(bears, zero),
+        z: along.z.select(bears, zero),
+    };
+    friction.tangential = arrays(tangential);
+    if let Some(rolling) = rolling {
+        let kept = vector(simd, &rolling.angular);
+        let angular = Vector {
+            x: kept.x.select(bears, zero),
+            y: kept.y.select(bears, zero),
+            z: kept.z.select(bears, zero),
+        };
+        rolling.angular = arrays(angular);
+        turn(simd, run.spin, batch, rolling, angular);
+    }
+    if bears.any_true() {
+        apply(simd, run.velocity, batch, normal * impulse + tangential);
+        apply_spin(simd, run.spin, batch, normal.cross(tangential));
+    }
+}

@@ -1,0 +1,153 @@
+//! Contacts of pairs side by side: what of the spheres they read, one in each lane of the processor's
+//! vectors, and what they give back.
+//!
+//! Every operation is the one that a single contact needs, so no bit depends on the vectors.
+
+use fearless_simd::{Simd, SimdMask};
+
+use super::batch::{PairBatch, Quad, RollingBatch};
+use super::row::Row;
+use crate::lanes::{LANES, Lanes};
+use crate::real::{Real, Vector};
+
+/// Smaller than what it is compared with, unless that is zero.
+pub(super) const TINY: f64 = f64::MIN_POSITIVE;
+
+/// Slip of the surfaces where they touch: what of the velocity is across the normal, with spin.
+#[inline(always)]
+pub(super) fn slip<S: Simd>(
+    velocity: Vector<Lanes<S>>,
+    normal: Vector<Lanes<S>>,
+    spin: Vector<Lanes<S>>,
+) -> Vector<Lanes<S>> {
+    velocity - normal * velocity.dot(normal) - spin.cross(normal)
+}
+
+/// Vectors, shortened to a length where they are longer.
+#[inline(always)]
+pub(super) fn limited<S: Simd>(
+    simd: S,
+    vector: Vector<Lanes<S>>,
+    most: Lanes<S>,
+) -> Vector<Lanes<S>> {
+    let length = vector.length_squared().sqrt().max(Lanes::all(simd, TINY));
+    vector * (most / length).min(1.0)
+}
+
+/// Second minus first of each pair.
+#[inline(always)]
+pub(super) fn difference<S: Simd>(simd: S, all: &[Row], batch: &PairBatch) -> [Lanes<S>; LANES] {
+    let [first, second] = [gathered(simd, all, &batch.first), gathered(simd, all, &batch.second)];
+    let ([a, b, c, d], [e, f, g, h]) = (first, second);
+    Lanes::transposed([e - a, f - b, g - c, h - d])
+}
+
+/// First plus second of each pair.
+#[inline(always)]
+pub(super) fn sum<S: Simd>(simd: S, all: &[Row], batch: &PairBatch) -> [Lanes<S>; LANES] {
+    let [first, second] = [gathered(simd, all, &batch.first), gathered(simd, all, &batch.second)];
+    let ([a, b, c, d], [e, f, g, h]) = (first, second);
+    Lanes::transposed([e + a, f + b, g + c, h + d])
+}
+
+/// The rows of these slots. Written out, for closures are not compiled for the processor's vectors.
+#[inline(always)]
+pub(super) fn gathered<S: Simd>(simd: S, all: &[Row], slots: &[u32; LANES]) -> [Lanes<S>; LANES] {
+    let [a, b, c, d] = *slots;
+    [
+        Lanes::each(simd, all[a as usize].0),
+        Lanes::each(simd, all[b as usize].0),
+        Lanes::each(simd, all[c as usize].0),
+        Lanes::each(simd, all[d as usize].0),
+    ]
+}
+
+/// Gives spheres 2 impulses, and spheres 1 the opposite ones.
+#[inline(always)]
+pub(super) fn apply<S: Simd>(
+    simd: S,
+    velocities: &mut [Row],
+    batch: &PairBatch,
+    impulse: Vector<Lanes<S>>,
+) {
+    let rows = rows_of(simd, impulse);
+    for (lane, row) in rows.into_iter().enumerate() {
+        let first = &mut velocities[batch.first[lane] as usize];
+        shift(simd, first, row * -first.number());
+        let second = &mut velocities[batch.second[lane] as usize];
+        shift(simd, second, row * second.number());
+    }
+}
+
+/// Turns both spheres of each pair by the impulses that act at their surfaces, of which this is the cross
+/// product with the normal.
+#[inline(always)]
+pub(super) fn apply_spin<S: Simd>(
+    simd: S,
+    spins: &mut [Row],
+    batch: &PairBatch,
+    turn: Vector<Lanes<S>>,
+) {
+    let rows = rows_of(simd, turn);
+    for (lane, row) in rows.into_iter().enumerate() {
+        for slot in [batch.first[lane], batch.second[lane]] {
+            let spin = &mut spins[slot as usize];
+            shift(simd, spin, row * -spin.number());
+        }
+    }
+}
+
+/// Gives spheres 2 angular impulses, and spheres 1 the opposite ones.
+#[inline(always)]
+pub(super) fn turn<S: Simd>(
+    simd: S,
+    spins: &mut [Row],
+    batch: &PairBatch,
+    rolling: &RollingBatch,
+    angular: Vector<Lanes<S>>,
+) {
+    let rows = rows_of(simd, angular);
+    for (lane, row) in rows.into_iter().enumerate() {
+        let first = &mut spins[batch.first[lane] as usize];
+        shift(simd, first, row * -(first.number() * rolling.curvature[0][lane]));
+        let second = &mut spins[batch.second[lane] as usize];
+        shift(simd, second, row * (second.number() * rolling.curvature[1][lane]));
+    }
+}
+
+#[inline(always)]
+pub(super) fn shift<S: Simd>(simd: S, row: &mut Row, by: Lanes<S>) {
+    row.0 = (Lanes::each(simd, row.0) + by).to_array();
+}
+
+#[inline(always)]
+pub(super) fn rows_of<S: Simd>(simd: S, Vector { x, y, z }: Vector<Lanes<S>>) -> [Lanes<S>; LANES] {
+    Lanes::transposed([x, y, z, Lanes::all(simd, 0.0)])
+}
+
+#[inline(always)]
+pub(super) fn xyz<S: Simd>([x, y, z, _]: [Lanes<S>; LANES]) -> Vector<Lanes<S>> {
+    Vector { x, y, z }
+}
+
+#[inline(always)]
+pub(super) fn vector<S: Simd>(simd: S, quads: &[Quad; 3]) -> Vector<Lanes<S>> {
+    let [x, y, z] = *quads;
+    Vector { x: Lanes::each(simd, x), y: Lanes::each(simd, y), z: Lanes::each(simd, z) }
+}
+
+#[inline(always)]
+pub(super) fn arrays<S: Simd>(Vector { x, y, z }: Vector<Lanes<S>>) -> [Quad; 3] {
+    [x.to_array(), y.to_array(), z.to_array()]
+}
+
+#[inline(always)]
+pub(super) fn smaller<S: Simd>(first: Lanes<S>, second: Lanes<S>) -> Lanes<S> {
+    first.select(first.is_less(second), second)
+}
+
+/// Whether any of them is not zero.
+#[inline(always)]
+pub(super) fn is_any<S: Simd>(simd: S, numbers: Lanes<S>) -> bool {
+    !numbers.is_equal(Lanes::all(simd, 0.0)).all_true()
+}
