@@ -19,6 +19,11 @@ pub(super) struct Found {
 }
 
 impl Found {
+    /// The largest change of an impulse, as a part of the largest impulse.
+    pub fn residual(&self) -> f64 {
+        if self.impulse > 0.0 { self.change / self.impulse } else { 0.0 }
+    }
+
     /// The larger changes, excesses and impulses of two parts.
     pub fn or_larger(self, other: Self) -> Self {
         let change = self.change.max(other.change);

@@ -15,6 +15,7 @@ mod accelerate;
 mod advance;
 mod aim;
 mod batch;
+mod descent;
 mod dormant;
 mod drift;
 mod energy;

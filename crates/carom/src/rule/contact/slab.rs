@@ -6,6 +6,7 @@
 //! are follows from the spheres, never from the threads.
 
 use super::batch::Batches;
+use super::descent::Descent;
 use super::found::Found;
 use super::slots::{Run, Slots};
 use super::surfaces::SurfaceContact;
@@ -25,6 +26,7 @@ pub(super) struct Slab {
     pub surfaces: Vec<SurfaceContact>,
     /// Pairs of slots that a search found, until contacts are made of them.
     pub pairs: Vec<[u32; 2]>,
+    pub descent: Descent,
     /// Pairs that the search tested.
     pub tests: u64,
     /// What a stage found in this slab.

@@ -1,6 +1,7 @@
 //! The stages that work on contacts, slab by slab.
 
 use super::aim;
+use super::descent;
 use super::found::Found;
 use super::kernel;
 use super::slab::Direction;
@@ -37,24 +38,54 @@ pub(super) fn sweep(
     parameters: Contact,
     report: &mut StepReport,
 ) {
-    let least = parameters.sweeps;
-    let most = if parameters.converged { MOST_SWEEPS } else { MORE * least };
-    let mut residual = 0.0;
-    for number in 0..most {
-        let found = sweep_once(solver, number % 2 == 0, report);
-        residual = if found.impulse > 0.0 { found.change / found.impulse } else { 0.0 };
-        let is_done = if parameters.converged {
-            residual <= CONVERGED
-        } else {
-            let overlap = sub_step.h * found.excess;
-            number + 1 >= least && overlap <= TOLERABLE * solver.smallest_radius
-        };
-        if is_done {
-            break;
-        }
-    }
+    let residual = if parameters.converged {
+        converge(solver, report)
+    } else {
+        sweep_until_apart(solver, sub_step, parameters.sweeps, report)
+    };
     let account = &mut report.contact_account;
     account.residual = account.residual.max(residual);
+}
+
+/// Sweeps a number of times at least. Gives the residual.
+fn sweep_until_apart(
+    solver: &mut Solver,
+    sub_step: &SubStep,
+    least: u32,
+    report: &mut StepReport,
+) -> f64 {
+    let mut number = 0;
+    loop {
+        let found = sweep_once(solver, number % 2 == 0, report);
+        number += 1;
+        let overlap = sub_step.h * found.excess;
+        let is_apart = overlap <= TOLERABLE * solver.smallest_radius;
+        if number >= MORE * least || (number >= least && is_apart) {
+            return found.residual();
+        }
+    }
+}
+
+/// Sweeps there and back until impulses hardly change; without friction along conjugate directions in
+/// between. Gives the residual.
+fn converge(solver: &mut Solver, report: &mut StepReport) -> f64 {
+    let descends = !solver.kinds.friction;
+    if descends {
+        descent::begin(&mut solver.slots, &mut solver.slabs);
+    }
+    let (mut last, mut sweeps) = (f64::INFINITY, 0);
+    loop {
+        sweep_once(solver, true, report);
+        let residual = sweep_once(solver, false, report).residual();
+        sweeps += 2;
+        if residual <= CONVERGED || sweeps >= MOST_SWEEPS {
+            descent::end(&mut solver.slabs);
+            return residual;
+        }
+        if descends {
+            last = descent::follow(&mut solver.slots, &mut solver.slabs, last);
+        }
+    }
 }
 
 /// Sweeps over all contacts once.
