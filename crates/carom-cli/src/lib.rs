@@ -3,6 +3,7 @@
 
 #![warn(clippy::unwrap_used)]
 
+mod advice;
 mod args;
 mod bench;
 mod choice;

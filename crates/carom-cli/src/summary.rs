@@ -8,6 +8,7 @@ use carom_scene::scene::{ImpactLaw, Integrator, Rule, WindBack};
 use carom_session::{Replay, SessionError};
 use serde::Serialize;
 
+use crate::advice::{Conduct, advice};
 use crate::contact_totals::ContactTotals;
 use crate::stage_work::StageWork;
 
@@ -121,6 +122,22 @@ pub struct Summary {
     wall_time: f64,
     stepping_time: f64,
     state_hash: String,
+    /// Which rule would have been better.
+    advice: Option<String>,
+}
+
+impl Conduct {
+    fn of(replay: &Replay, observer: &Observer) -> Self {
+        let world = replay.world();
+        let (spheres, radii) = (world.spheres().len().max(1) as f64, world.spheres().radii());
+        let radius = radii.iter().sum::<f64>() / spheres;
+        Self {
+            rule: replay.simulation().rule,
+            has_forces: !replay.scene().forces.is_empty(),
+            overlap: if radius > 0.0 { observer.largest_overlap / radius } else { 0.0 },
+            impact_rate: observer.impacts as f64 / (spheres * world.time().max(f64::MIN_POSITIVE)),
+        }
+    }
 }
 
 impl Summary {
@@ -129,6 +146,7 @@ impl Summary {
         let is_bisect = simulation.rule == Rule::Bisect;
         let is_exact = simulation.rule == Rule::Exact;
         let is_contact = simulation.rule == Rule::Contact;
+        let advice = advice(Conduct::of(replay, &observer));
         Self {
             scene: replay.scene().name.clone(),
             rule: simulation.rule,
@@ -163,6 +181,7 @@ impl Summary {
             wall_time: observer.began.elapsed().as_secs_f64(),
             stepping_time: observer.stepping.as_secs_f64(),
             state_hash: world.state_hash().to_string(),
+            advice,
         }
     }
 
@@ -246,6 +265,7 @@ impl Summary {
             );
             rows.push(("note", text));
         }
+        rows.extend(self.advice.iter().map(|advice| ("advice", advice.clone())));
         rows
     }
 }

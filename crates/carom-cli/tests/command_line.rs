@@ -375,6 +375,31 @@ fn the_rule_contact_tells_what_it_did_to_energy() {
     assert!(compared.contains("\ncontact "), "{compared}");
 }
 
+/// Balls that are dropped onto each other, in a box of their width.
+const STACK: &str = r#"
+name = "stack"
+forces = [{ gravity = { acceleration = [0.0, -9.81, 0.0] } }]
+colliders = [{ shape = { container = { size = [1.02, 12, 1.02], open = "top" } }, position = [0, 6, 0] }]
+generators = [{ lattice = { counts = [1, 5, 1], start = [0, 0.6, 0], spacing = [1, 1.1, 1], sphere = { radius = 0.5 } } }]
+"#;
+
+#[test]
+fn a_heap_under_another_rule_is_advised_to_use_contact() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = path(&folder, "stack.toml");
+    std::fs::write(&scene, STACK).unwrap();
+    let advice = |rule: &str| {
+        let figures = summary(&["run", &scene, "--rule", rule, "--seconds", "3"]);
+        figures["advice"].as_str().map(str::to_owned)
+    };
+    for rule in ["discrete", "exact"] {
+        let advice = advice(rule).unwrap_or_default();
+        assert!(advice.contains("--rule contact"), "{rule}: {advice}");
+    }
+    assert_eq!(advice("contact"), None);
+    assert!(summary(&["run", "simtest1"])["advice"].is_null());
+}
+
 /// A pile whose one frame would take minutes.
 #[cfg(unix)]
 const PILE: &str = r#"

@@ -39,7 +39,7 @@ pub enum Error {
         "sphere {sphere}{}, at {at} s: more impacts and other work than the {limit} per sphere and \
          frame that `max_impacts` allows; the state before the step, at {time} s, was kept. Shorter \
          frames, a longer `contact_duration`, a smaller `restitution` or a larger `max_impacts` may \
-         help", in_contact_with(*companions)
+         help; the rule `contact` is made for heaps", in_contact_with(*companions)
     )]
     TooManyImpacts {
         /// A sphere that was at work then.

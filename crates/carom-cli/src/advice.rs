@@ -1,0 +1,38 @@
+//! Which rule a run would have been better off with.
+
+use carom_scene::scene::Rule;
+
+/// Under the rules that know nothing but frames, balls may overlap by this part of their radius before it
+/// shows.
+const OVERLAP: f64 = 0.5;
+/// More impacts than this of a ball in a second \[1/s\], under forces, are those of balls that lie on each
+/// other.
+const IMPACT_RATE: f64 = 300.0;
+
+/// What a run was like.
+#[derive(Debug, Clone, Copy)]
+pub struct Conduct {
+    pub rule: Rule,
+    /// Whether there are forces.
+    pub has_forces: bool,
+    /// Largest overlap at the end of a frame, as a part of the mean radius.
+    pub overlap: f64,
+    /// Impacts of a sphere in a second \[1/s\].
+    pub impact_rate: f64,
+}
+
+/// Advice to whoever sees the run, if there is any.
+pub fn advice(conduct: Conduct) -> Option<String> {
+    let Conduct { rule, has_forces, overlap, impact_rate } = conduct;
+    match rule {
+        Rule::Discrete | Rule::Bisect if overlap > OVERLAP => Some(format!(
+            "balls overlap by {overlap:.1} of a radius: `--rule contact` keeps them apart in heaps, \
+             `--rule exact` in bounces"
+        )),
+        Rule::Exact if has_forces && impact_rate > IMPACT_RATE => Some(format!(
+            "each ball has {impact_rate:.0} impacts in a second, as in a heap: `--rule contact` is made \
+             for those"
+        )),
+        _ => None,
+    }
+}
