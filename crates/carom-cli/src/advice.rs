@@ -21,7 +21,7 @@ pub struct Conduct {
     pub impact_rate: f64,
 }
 
-/// Advice to whoever sees the run, if there is any.
+/// The rule that would have been better, in a sentence; `None` where this one does.
 pub fn advice(conduct: Conduct) -> Option<String> {
     let Conduct { rule, has_forces, overlap, impact_rate } = conduct;
     match rule {

@@ -15,6 +15,7 @@ mod accelerate;
 mod advance;
 mod aim;
 mod batch;
+mod conjugate;
 mod descent;
 mod dormant;
 mod drift;

@@ -1,7 +1,7 @@
 //! The stages that work on contacts, slab by slab.
 
 use super::aim;
-use super::descent;
+use super::conjugate;
 use super::found::Found;
 use super::kernel;
 use super::slab::Direction;
@@ -71,7 +71,7 @@ fn sweep_until_apart(
 fn converge(solver: &mut Solver, report: &mut StepReport) -> f64 {
     let descends = !solver.kinds.friction;
     if descends {
-        descent::begin(&mut solver.slots, &mut solver.slabs);
+        conjugate::begin(&mut solver.slots, &mut solver.slabs);
     }
     let (mut last, mut sweeps) = (f64::INFINITY, 0);
     loop {
@@ -79,11 +79,11 @@ fn converge(solver: &mut Solver, report: &mut StepReport) -> f64 {
         let residual = sweep_once(solver, false, report).residual();
         sweeps += 2;
         if residual <= CONVERGED || sweeps >= MOST_SWEEPS {
-            descent::end(&mut solver.slabs);
+            conjugate::end(&mut solver.slabs);
             return residual;
         }
         if descends {
-            last = descent::follow(&mut solver.slots, &mut solver.slabs, last);
+            last = conjugate::follow(&mut solver.slots, &mut solver.slabs, last);
         }
     }
 }
