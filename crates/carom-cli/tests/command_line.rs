@@ -380,7 +380,7 @@ const STACK: &str = r#"
 name = "stack"
 forces = [{ gravity = { acceleration = [0.0, -9.81, 0.0] } }]
 colliders = [{ shape = { container = { size = [1.02, 12, 1.02], open = "top" } }, position = [0, 6, 0] }]
-generators = [{ lattice = { counts = [1, 5, 1], start = [0, 0.6, 0], spacing = [1, 1.1, 1], sphere = { radius = 0.5 } } }]
+generators = [{ lattice = { counts = [1, 5, 1], start = [0, 0.6, 0], spacing = [1, 1.1, 1], sphere = { radius = 0.5, restitution = 0.5 } } }]
 "#;
 
 #[test]
@@ -392,7 +392,7 @@ fn a_heap_under_another_rule_is_advised_to_use_contact() {
         let figures = summary(&["run", &scene, "--rule", rule, "--seconds", "3"]);
         figures["advice"].as_str().map(str::to_owned)
     };
-    for rule in ["discrete", "exact"] {
+    for rule in ["discrete", "bisect"] {
         let advice = advice(rule).unwrap_or_default();
         assert!(advice.contains("--rule contact"), "{rule}: {advice}");
     }

@@ -44,15 +44,20 @@ mod swept;
 pub(crate) use listing::persistent_contacts;
 pub(crate) use solver::{Scratch, Solver};
 
+use glam::DVec3;
+
 use crate::bodies::Motion;
 use crate::interval::Interval;
 use crate::report::StepReport;
 use crate::settings::Contact;
 use crate::system::System;
 
-/// A frame in which all spheres sleep.
-pub(crate) fn rest(solver: &Solver, report: &mut StepReport) {
+/// A frame of `h` \[s\] in which all spheres sleep; one that spins where it lies goes on with that.
+pub(crate) fn rest(solver: &Solver, motion: &mut Motion, h: f64, report: &mut StepReport) {
     report.contact_account.asleep = solver.slots.len() as u32;
+    if motion.spin.angular_velocity.iter().any(|&it| it != DVec3::ZERO) {
+        motion.spin.advance(h);
+    }
 }
 
 /// Advances all spheres by one frame.

@@ -14,6 +14,9 @@ use super::sub_step::SubStep;
 /// A sphere is calm below this part of the speed `sqrt(a r)` that it would have after falling through half
 /// its radius.
 const CALM: f64 = 0.02;
+/// A spin is steady that a sub-step changes by less than this part of the speed of free fall over it: that
+/// of a ball about the normal on which it lies, without spinning friction.
+const STEADY: f64 = 1e-3;
 /// Time that all spheres of an island are calm before it sleeps \[s\].
 const PATIENCE: f64 = 0.5;
 /// Islands are looked for once in so many frames: to find them costs as much as a sweep.
@@ -26,7 +29,7 @@ pub(super) fn fall_asleep(solver: &mut Solver, frame: f64) {
     if !solver.may_sleep {
         return;
     }
-    let longest = note_calm(&mut solver.slots, frame);
+    let longest = note_calm(&mut solver.slots, frame, solver.h);
     solver.frames = (solver.frames + 1) % FRAMES;
     if longest < PATIENCE || solver.frames != 0 {
         return;
@@ -44,7 +47,10 @@ pub(super) fn fall_asleep(solver: &mut Solver, frame: f64) {
         if slots.island[slot] == AWAKE && calm[root] >= PATIENCE {
             slots.island[slot] = slots.index[root];
             slots.velocity[slot] = slots.velocity[slot].with_vector(DVec3::ZERO);
-            if let Some(spin) = slots.spin.get_mut(slot) {
+            let slow = calm_speed_squared(slots, slot);
+            if let Some(spin) = slots.spin.get_mut(slot)
+                && spin.vector().length_squared() < slow
+            {
                 *spin = spin.with_vector(DVec3::ZERO);
             }
             has_changed = true;
@@ -56,18 +62,34 @@ pub(super) fn fall_asleep(solver: &mut Solver, frame: f64) {
     }
 }
 
-/// Counts for how long each sphere has been calm \[s\]. Gives the longest time of one that is awake.
-fn note_calm(slots: &mut Slots, frame: f64) -> f64 {
+/// Square of the speed below which a sphere is calm \[m²/s²\].
+fn calm_speed_squared(slots: &Slots, slot: usize) -> f64 {
+    let acceleration = slots.acceleration[slot].vector().length();
+    CALM * CALM * acceleration * slots.position[slot].number()
+}
+
+/// Whether a sphere has no spin that does anything: it is slow, or steady over a sub-step of `h` \[s\].
+fn turns_calmly(slots: &Slots, slot: usize, h: f64) -> bool {
+    let (Some(spin), Some(before)) = (slots.spin.get(slot), slots.spin_before.get(slot)) else {
+        return true;
+    };
+    let change = (spin.vector() - before.vector()).length();
+    let steady = STEADY * h * slots.acceleration[slot].vector().length();
+    spin.vector().length_squared() < calm_speed_squared(slots, slot) || change < steady
+}
+
+/// Counts for how long each sphere has been calm \[s\], in sub-steps of `h` \[s\]. Gives the longest time of
+/// one that is awake.
+fn note_calm(slots: &mut Slots, frame: f64, h: f64) -> f64 {
     let mut longest = 0.0_f64;
     for slot in 0..slots.len() {
         if slots.island[slot] != AWAKE {
             continue;
         }
-        let radius = slots.position[slot].number();
-        let acceleration = slots.acceleration[slot].vector().length();
-        let speed = slots.velocity[slot].vector().length_squared();
-        let spin = slots.spin.get(slot).map_or(0.0, |spin| spin.vector().length_squared());
-        let is_calm = speed.max(spin) < CALM * CALM * acceleration * radius && slots.bears[slot];
+        let speed_squared = slots.velocity[slot].vector().length_squared();
+        let is_calm = speed_squared < calm_speed_squared(slots, slot)
+            && turns_calmly(slots, slot, h)
+            && slots.bears[slot];
         slots.calm[slot] = if is_calm { slots.calm[slot] + frame } else { 0.0 };
         longest = longest.max(slots.calm[slot]);
     }

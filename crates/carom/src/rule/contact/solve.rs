@@ -15,7 +15,7 @@ use crate::settings::Contact;
 /// end there.
 const CONVERGED: f64 = 1e-10;
 /// Overlap that a sub-step may add, as a part of the smallest radius, before there are more sweeps.
-const TOLERABLE: f64 = 0.01;
+const TOLERABLE: f64 = 0.001;
 /// Sweeps are this many times as many as the parameters say, at most.
 const MORE: u32 = 8;
 /// Sweeps at most with `converged`.
