@@ -506,6 +506,32 @@ fn a_heap_wakes_when_an_emitter_takes_a_sleeper_out() {
 }
 
 #[test]
+fn spheres_can_be_taken_out_while_others_sleep_and_one_comes_near() {
+    let mut world = under_gravity();
+    add_wall(&mut world, DVec3::Y, DVec3::ZERO, 0.0);
+    let ball = Sphere::new(DVec3::new(0.0, 0.1, 0.0), 0.1).with_restitution(0.0);
+    for number in 0..30 {
+        let place = DVec3::new(0.3 * f64::from(number), 0.1, 0.0);
+        world.add_sphere(Sphere::new(place, 0.1).with_restitution(0.0)).unwrap();
+    }
+    let above = Emitter::new(ball, 3.0).with_position(DVec3::new(0.3 * 28.0, 0.7, 0.0));
+    world.add_emitter(above).unwrap();
+    run(&mut world, 180);
+    // The next one falls.
+    for _ in 0..20 {
+        run(&mut world, 1);
+        let before = world.snapshot();
+        let ids = world.spheres().ids().to_vec();
+        for id in &ids[..20] {
+            world.remove_sphere(*id).unwrap();
+        }
+        run(&mut world, 2);
+        assert_eq!(world.spheres().len(), ids.len() - 20);
+        world.restore(&before);
+    }
+}
+
+#[test]
 fn a_ball_that_is_emitted_falls_though_all_others_sleep() {
     let mut world = under_gravity();
     add_wall(&mut world, DVec3::Y, DVec3::ZERO, 0.0);

@@ -35,6 +35,8 @@ pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
         });
         solver.kept = Some(kept);
         solver.slots.arrange(ids);
+        // By slot: the search finds them anew.
+        solver.watched.clear();
         solver.slabs = Slabs::of_one(ids.len());
         solver.materials = Materials::of(system);
         (solver.kinds, solver.is_stale, solver.is_changed) = (kinds, true, false);
