@@ -22,7 +22,10 @@ export function camel(name) {
 
 /** A text in which every `word_with_underscores` is spelled as JavaScript does. */
 export function camelWords(text) {
-  return text.replace(/\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|viscous-drag)\b/g, camel);
+  return text.replace(
+    /\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|viscous-drag)\b/g,
+    camel,
+  );
 }
 
 /** What the engine tells as JSON, with JavaScript's spelling of names. */
