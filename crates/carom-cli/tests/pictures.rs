@@ -141,7 +141,7 @@ fn balls_of_a_recorded_run_turn_as_they_did() {
     good(&[&["run", "simtest1", "--seconds", "1", "--out", &table], &spun[..]].concat());
     film(&live, &[&["simtest1", "--seconds", "1", "--fps", "25"], &spun[..]].concat());
     film(&replayed, &[&["simtest1", "--from", &table, "--fps", "25"], &spun[..]].concat());
-    // The same table without its columns of rotation, as older versions wrote it.
+    // That table without its columns of rotation, as older versions wrote it.
     let text = std::fs::read_to_string(&table).unwrap();
     let cut = |line: &str| line.split(',').take(8).collect::<Vec<_>>().join(",") + "\n";
     std::fs::write(&plain, text.lines().map(cut).collect::<String>()).unwrap();

@@ -4,7 +4,7 @@ use crate::error::SceneError;
 use crate::scene::Scene;
 
 impl Scene {
-    /// The same scene with every sphere and collider of its generators written out.
+    /// The scene with every sphere and collider of its generators written out.
     ///
     /// # Errors
     /// As [`Scene::world`].

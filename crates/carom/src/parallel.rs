@@ -14,8 +14,7 @@ pub(crate) fn map<M: Default, T: Send>(
 ) -> Vec<T> {
     use rayon::prelude::*;
     if count < 2 * FEW {
-        let mut memory = M::default();
-        return (0..count).map(|number| f(&mut memory, number)).collect();
+        return map_in_order(count, f);
     }
     (0..count).into_par_iter().with_min_len(FEW).map_init(M::default, f).collect()
 }
@@ -26,6 +25,10 @@ pub(crate) fn map<M: Default, T: Send>(
     count: usize,
     f: impl Fn(&mut M, usize) -> T + Sync + Send,
 ) -> Vec<T> {
+    map_in_order(count, f)
+}
+
+fn map_in_order<M: Default, T>(count: usize, f: impl Fn(&mut M, usize) -> T) -> Vec<T> {
     let mut memory = M::default();
     (0..count).map(|number| f(&mut memory, number)).collect()
 }

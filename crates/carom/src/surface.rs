@@ -166,7 +166,7 @@ pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surf
 }
 
 impl Rectangle {
-    /// The same rectangle, facing the other way.
+    /// A rectangle in its place that faces the other way.
     fn turned(self) -> Self {
         Self { normal: -self.normal, ..self }
     }

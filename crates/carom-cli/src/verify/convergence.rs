@@ -56,7 +56,7 @@ fn order_by(
     Ok(Measured::in_world(&short, libm::log2(error(&long) / error(&short))))
 }
 
-/// The same, with the distance of balls from where they should be.
+/// The order, with the distance of balls from where they should be for the error.
 fn order_of(motion: fn(Contact) -> Result<World, Error>, limit: &World) -> Outcome {
     order_by(motion, |world| distance(world, limit))
 }

@@ -216,19 +216,12 @@ fn start_friction<S: Simd>(
     // What the normal turned away from goes; nothing is left where the contact bears nothing.
     let kept = vector(simd, &friction.tangential);
     let along = kept - normal * kept.dot(normal);
-    let tangential = Vector {
-        x: along.x.select(bears, zero),
-        y: along.y.select(bears, zero),
-        z: along.z.select(bears, zero),
-    };
+    let none = Vector { x: zero, y: zero, z: zero };
+    let tangential = along.select(bears, none);
     friction.tangential = arrays(tangential);
     if let Some(rolling) = rolling {
         let kept = vector(simd, &rolling.angular);
-        let angular = Vector {
-            x: kept.x.select(bears, zero),
-            y: kept.y.select(bears, zero),
-            z: kept.z.select(bears, zero),
-        };
+        let angular = kept.select(bears, none);
         rolling.angular = arrays(angular);
         turn(simd, run.spin, batch, rolling, angular);
     }

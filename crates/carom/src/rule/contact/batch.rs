@@ -307,8 +307,6 @@ impl PairBatch {
 /// What occurs in the contacts of a world.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct ContactKinds {
-    /// An impact may give something back.
-    pub bounce: bool,
     /// There is friction of any kind.
     pub friction: bool,
     /// There is rolling or spinning friction.
