@@ -5,7 +5,7 @@ use fearless_simd::{Level, Simd, SimdMask, dispatch};
 use super::drift::Drift;
 use super::found::Found;
 use super::row::{self, Row};
-use super::slots::{AWAKE, Run};
+use super::slots::Run;
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use crate::interval::Interval;
@@ -59,7 +59,7 @@ fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64, drift: Drift) -> Foun
         let (before, inverse_mass) = row::columns(simd, run.velocity, slot);
         let (acceleration, drag_rate) = row::columns(simd, run.acceleration, slot);
         let mut now = accelerated(simd, before, (acceleration, drag_rate), h);
-        let sleeps = row::flags(simd, run.island, slot, |island| island != AWAKE);
+        let sleeps = row::flags(simd, run.sleeps, slot, |sleeps| sleeps);
         if sleeps.any_true() {
             now = before.select(sleeps, now);
         }
@@ -68,7 +68,7 @@ fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64, drift: Drift) -> Foun
         let bears = Lanes::all(simd, BEARS).select(bears, zero);
         row::store(run.before, slot, (before, bears));
 
-        energy = energy + now.length_squared() / inverse_mass;
+        energy = energy + twice_energy(simd, now, inverse_mass);
         change = change.max((now - before).length_squared());
         // A flight ends between where its first velocity takes it and where its last one does.
         let (position, _) = row::columns(simd, run.position, slot);
@@ -110,7 +110,19 @@ pub(super) fn kinetic_energy<S: Simd>(simd: S, rows: &[Row]) -> f64 {
     let mut energy = Lanes::all(simd, 0.0);
     for slot in (0..rows.len()).step_by(LANES) {
         let (velocity, inverse_mass) = row::columns(simd, rows, slot);
-        energy = energy + velocity.length_squared() / inverse_mass;
+        energy = energy + twice_energy(simd, velocity, inverse_mass);
     }
     0.5 * energy.sum()
+}
+
+/// Twice the kinetic energy \[J\]; none of what nothing moves.
+#[inline(always)]
+fn twice_energy<S: Simd>(
+    simd: S,
+    velocity: Vector<Lanes<S>>,
+    inverse_mass: Lanes<S>,
+) -> Lanes<S> {
+    let zero = Lanes::all(simd, 0.0);
+    let energy = velocity.length_squared() / inverse_mass;
+    energy.select(zero.is_less(inverse_mass), zero)
 }

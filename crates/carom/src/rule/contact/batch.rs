@@ -279,13 +279,17 @@ impl Batches {
         if batch.bias[lane] >= 0.0 {
             return None;
         }
-        let impulse = batch.impulse[lane];
         let own = batch.effective_mass[lane] * (1.0 + self.restitutions[number][lane]) * speed;
+        Some(self.impulse(number, lane) * (own / batch.impulse[lane]).min(1.0))
+    }
+
+    /// The impulse on sphere 2, normal and tangential \[N s\].
+    pub fn impulse(&self, number: usize, lane: usize) -> DVec3 {
+        let batch = &self.pairs[number];
         let tangential =
             self.frictions.get(number).map_or([0.0; 3], |it| get(&it.tangential, lane));
         let normal = DVec3::from_array(get(&batch.normal, lane));
-        let whole = impulse * normal + DVec3::from_array(tangential);
-        Some(whole * (own / impulse).min(1.0))
+        batch.impulse[lane] * normal + DVec3::from_array(tangential)
     }
 
     pub fn count(&self) -> usize {

@@ -80,7 +80,11 @@ fn take_less(solver: &mut Solver, gain: f64, h: f64) {
 
 /// Kinetic energy of what the impulses changed \[J\].
 fn of_change(run: &Run, h: f64) -> f64 {
-    let of = |now: Row, before: DVec3| (now.vector() - before).length_squared() / now.number();
+    // What sleeps does not change, and has no mass here.
+    let of = |now: Row, before: DVec3| {
+        let change = (now.vector() - before).length_squared();
+        if change > 0.0 { change / now.number() } else { 0.0 }
+    };
     let velocities =
         (0..run.velocity.len()).map(|slot| of(run.velocity[slot], run.accelerated(slot, h)));
     let spins =

@@ -1,14 +1,15 @@
 //! The beginning and the end of a frame: from the world to the solver, and back.
 
 use super::batch::ContactKinds;
+use super::dormant;
 use super::found::Found;
 use super::kept::Kept;
 use super::materials::Materials;
 use super::slab::Slabs;
 use super::sleep;
-use super::slots::GONE;
 use super::solver::Solver;
 use super::surfaces;
+use super::wake;
 use crate::bodies::Motion;
 use crate::friction::Friction;
 use crate::interval::Interval;
@@ -22,18 +23,18 @@ pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
     let kinds = kinds_of(system);
     solver.has_moving_surfaces = system.surfaces.iter().any(|it| !it.motion.is_at_rest());
     if solver.is_changed || solver.has_moving_surfaces || !system.spheres.applied_force.is_empty() {
-        sleep::wake_all(solver);
+        wake::all(solver);
     }
     if solver.is_changed || !solver.slots.are_of(ids) || solver.kinds != kinds {
         solver.slots.follow(ids);
-        sleep::wake_incomplete(solver);
+        wake::bereft(solver);
         let mut kept = Kept::default();
         // They are to be in slots by their index.
-        kept.collect(&solver.slabs, ids.len(), |slot| solver.slots.index[slot]);
-        kept.collect_dormant(&solver.dormant, ids.len(), |id| {
-            ids.binary_search(&id).map_or(GONE, |index| index as u32)
-        });
+        let index_of = |slot: usize| solver.slots.index[slot];
+        kept.collect(&solver.slabs, ids.len(), index_of);
+        kept.collect_dormant(solver.dormant.iter(), ids.len(), index_of);
         solver.kept = Some(kept);
+        dormant::renumber(&mut solver.dormant, index_of);
         solver.slots.arrange(ids);
         // By slot: the search finds them anew.
         solver.watched.clear();
@@ -74,14 +75,15 @@ fn kinds_of(system: &System) -> ContactKinds {
 
 /// Gives the world where spheres are and how they move.
 pub(super) fn end(
+    system: &System,
     motion: &mut Motion,
     frame: Interval,
     solver: &mut Solver,
     report: &mut StepReport,
 ) {
-    sleep::wake_moved(solver);
+    wake::loaded(system, solver);
     sleep::fall_asleep(solver, frame.h);
-    report.contact_account.asleep = solver.slots.asleep().count() as u32;
+    report.contact_account.asleep = solver.slots.asleep() as u32;
     solver.slots.write(motion);
     if solver.slots.turn.is_empty() {
         motion.spin.advance(frame.h);

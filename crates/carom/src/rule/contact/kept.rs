@@ -4,7 +4,6 @@ use super::batch::Impulses;
 use super::dormant::{Dormant, Partner};
 use super::slab::{Slab, Slabs};
 use super::slots::GONE;
-use crate::id::SphereId;
 
 /// Marks the number of a surface as the partner of a sphere.
 const SURFACE: u32 = 1 << 31;
@@ -34,21 +33,23 @@ impl Kept {
         self.sort(spheres);
     }
 
-    /// Keeps what the contacts of islands that sleep have, too; `now` tells the slot of a sphere.
-    pub fn collect_dormant(
+    /// Keeps what the contacts of spheres that sleep have, too; `now` tells the slot of now of a sphere that
+    /// was in one when they fell asleep.
+    pub fn collect_dormant<'a>(
         &mut self,
-        dormant: &[Dormant],
+        dormant: impl Iterator<Item = &'a Dormant>,
         spheres: usize,
-        now: impl Fn(SphereId) -> u32,
+        now: impl Fn(usize) -> u32,
     ) {
         for &Dormant { sphere, partner, impulses, .. } in dormant {
-            let slot = now(sphere);
+            let slot = now(sphere as usize);
             match partner {
-                Partner::Sphere(other) => self.add_pair([now(other), slot], impulses),
+                Partner::Sphere(other) => self.add_pair([now(other as usize), slot], impulses),
                 Partner::Surface(surface) if slot != GONE => {
                     self.add(slot, surface | SURFACE, impulses);
                 }
-                Partner::Surface(_) => {}
+                // The slabs have that of one that is awake.
+                Partner::Awake(_) | Partner::Surface(_) => {}
             }
         }
         self.sort(spheres);

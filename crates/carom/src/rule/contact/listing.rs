@@ -1,15 +1,11 @@
 //! The contacts of a world, as they are listed.
 
-use std::collections::BTreeMap;
-
 use glam::DVec3;
 
 use super::batch::{self, Impulses};
 use super::dormant::{Dormant, Partner};
-use super::slots::AWAKE;
 use super::solver::Solver;
 use crate::detect::{Separation, sphere_sphere, sphere_surface};
-use crate::id::SphereId;
 use crate::persistent_contact::PersistentContact;
 use crate::report::BodyPair;
 use crate::system::System;
@@ -43,7 +39,7 @@ fn of_pairs(solver: &Solver, contacts: &mut Vec<PersistentContact>) {
             let impulses =
                 Impulses { normal: pair.impulse[lane], tangential, ..Impulses::default() };
             let slots = slots.map(|slot| slab.start + slot as usize);
-            if slots.iter().all(|&slot| solver.slots.island[slot] != AWAKE) {
+            if slots.iter().all(|&slot| solver.slots.sleeps[slot]) {
                 continue;
             }
             let sliding = friction.map_or(0.0, |it| it.sliding[lane]);
@@ -75,7 +71,7 @@ fn of_surfaces(solver: &Solver, system: &System, contacts: &mut Vec<PersistentCo
     for slab in solver.slabs.iter() {
         for contact in slab.surfaces.iter().filter(|it| it.impulses.normal > 0.0) {
             let slot = slab.start + contact.slot as usize;
-            if solver.slots.island[slot] != AWAKE {
+            if solver.slots.sleeps[slot] {
                 continue;
             }
             let forces = forces(contact.impulses, contact.friction.sliding, solver.h);
@@ -103,16 +99,14 @@ fn of_surface(
 
 /// The contacts of spheres that sleep, with the forces with which they fell asleep.
 fn of_sleepers(solver: &Solver, system: &System, contacts: &mut Vec<PersistentContact>) {
-    if solver.dormant.is_empty() {
-        return;
-    }
-    let slots: BTreeMap<SphereId, usize> = solver.slots.id.iter().copied().zip(0..).collect();
-    for &Dormant { sphere, partner, impulses, sliding } in &solver.dormant {
-        let slot = slots[&sphere];
+    for &Dormant { sphere, partner, impulses, sliding, .. } in &solver.dormant {
+        let slot = sphere as usize;
         match partner {
             Partner::Sphere(other) => {
-                contacts.push(of_pair(solver, [slots[&other], slot], impulses, sliding));
+                contacts.push(of_pair(solver, [other as usize, slot], impulses, sliding));
             }
+            // It is among the others.
+            Partner::Awake(_) => {}
             Partner::Surface(surface) => {
                 let forces = forces(impulses, sliding, solver.h);
                 contacts.extend(of_surface(solver, system, (slot, surface), forces));

@@ -40,6 +40,7 @@ mod solver;
 mod sub_step;
 mod surfaces;
 mod swept;
+mod wake;
 
 pub(crate) use listing::persistent_contacts;
 pub(crate) use solver::{Scratch, Solver};
@@ -71,8 +72,8 @@ pub(crate) fn step(
 ) {
     frame::begin(system, motion, solver);
     for number in 0..parameters.sub_steps {
+        wake::touched(system, solver, frame.h / f64::from(parameters.sub_steps));
         let sub_step = accelerate::accelerate(system, parameters, frame, number, solver);
-        sleep::wake_touched(solver, &sub_step);
         if solver.is_stale {
             neighbours::search(system, frame, &sub_step, solver, scratch, report);
         }
@@ -84,5 +85,5 @@ pub(crate) fn step(
         advance::advance(system, solver, &sub_step);
         solve::correct(solver, report);
     }
-    frame::end(motion, frame, solver, report);
+    frame::end(system, motion, frame, solver, report);
 }

@@ -1,22 +1,20 @@
 //! Neighbours: when they are found anew, and what contacts are made of them.
 
-use std::collections::BTreeSet;
-
 use glam::DVec3;
 
 use super::batch::{ContactKinds, Pair};
+use super::dormant;
 use super::kept::Kept;
 use super::materials::{ContactMaterial, Materials};
 use super::search::Search;
 use super::slab::{self, Slab, Slabs};
-use super::slots::{AWAKE, GONE, Slots};
+use super::slots::Slots;
 use super::solver::{Scratch, Solver};
 use super::sub_step::SubStep;
 use super::surfaces::{Place, SurfaceContact};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
 use crate::detect::surface_tree::Bounds;
-use crate::id::SphereId;
 use crate::interval::Interval;
 use crate::parallel;
 use crate::report::StepReport;
@@ -36,21 +34,22 @@ pub(super) fn search(
     let Scratch { search, kept } = scratch;
     match solver.kept.take() {
         Some(collected) => *kept = collected,
-        None => collect(system, solver, kept),
+        None => collect(solver, kept),
     }
     let Solver { slots, slabs, watched, dormant, .. } = solver;
     solver.is_stale = false;
     solver.drift = search.arrange(slots, [frame.h, sub_step.h]);
     divide(slots, slabs, search);
-    let some_sleep = slots.asleep().next().is_some();
+    slots.read_masses(system);
     if !dormant.is_empty() {
-        let sleeps: BTreeSet<SphereId> = slots.asleep().collect();
-        dormant.retain(|contact| sleeps.contains(&contact.sphere));
+        let places = search.places();
+        dormant::renumber(dormant, |slot| places[slot]);
+        dormant::renew(dormant, &slots.sleeps);
     }
     watched.clear();
     if system.settings.spheres_collide {
         search.find_pairs(slots, slabs);
-        if some_sleep {
+        if slots.asleep() > 0 {
             for slab in &mut slabs.list {
                 watch_sleepers(slots, &mut slab.pairs, watched);
             }
@@ -72,18 +71,14 @@ pub(super) fn search(
     report.work.pair_tests += search.take_tests();
 }
 
-/// Keeps the impulses of all contacts.
-fn collect(system: &System, solver: &Solver, kept: &mut Kept) {
-    let slots = &solver.slots;
-    kept.collect(&solver.slabs, slots.len(), |slot| slot as u32);
-    if solver.dormant.is_empty() {
-        return;
+/// Keeps the impulses of all contacts that are not to sleep on.
+fn collect(solver: &Solver, kept: &mut Kept) {
+    let Solver { slots, slabs, dormant, .. } = solver;
+    kept.collect(slabs, slots.len(), |slot| slot as u32);
+    let mut woken = dormant.iter().filter(|contact| contact.wakes(&slots.sleeps)).peekable();
+    if woken.peek().is_some() {
+        kept.collect_dormant(woken, slots.len(), |slot| slot as u32);
     }
-    let mut slot_of = vec![GONE; slots.len()];
-    slots.index.iter().zip(0..).for_each(|(&index, slot)| slot_of[index as usize] = slot);
-    kept.collect_dormant(&solver.dormant, slots.len(), |id| {
-        system.spheres.id.binary_search(&id).map_or(GONE, |index| slot_of[index])
-    });
 }
 
 /// Divides the slots into slabs, without contacts.
@@ -107,7 +102,7 @@ fn divide(slots: &Slots, slabs: &mut Slabs, search: &Search) {
 /// Takes out the pairs of which both sleep, and notes those of which one does.
 fn watch_sleepers(slots: &Slots, pairs: &mut Vec<[u32; 2]>, watched: &mut Vec<[u32; 2]>) {
     pairs.retain(|&[first, second]| {
-        let is_awake = |slot: u32| slots.island[slot as usize] == AWAKE;
+        let is_awake = |slot: u32| !slots.sleeps[slot as usize];
         match [is_awake(first), is_awake(second)] {
             [true, true] => {}
             [true, false] => watched.push([second, first]),
@@ -181,7 +176,7 @@ impl Known<'_> {
         let slots = self.slots;
         let mut near = Vec::new();
         let some_move = self.places.iter().any(|place| !place.1.is_at_rest());
-        let awake = (slab.start..slab.end).filter(|&slot| slots.island[slot] == AWAKE);
+        let awake = (slab.start..slab.end).filter(|&slot| !slots.sleeps[slot]);
         for slot in awake {
             let (center, radius) = (slots.position[slot].vector(), slots.position[slot].number());
             let margin = slots.reference[slot].number() + self.drift;

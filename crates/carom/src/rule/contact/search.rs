@@ -24,7 +24,7 @@ const MOST_OF_FEW: f64 = 8.0;
 /// but more contacts that bear nothing.
 const MEAN_MARGIN: f64 = 0.15;
 /// A search is to last so many frames at least and at most, at the speeds of now.
-const LASTING: [f64; 2] = [1.5, 4.0];
+const LASTING: [f64; 2] = [1.5, 16.0];
 /// Speeds may grow by this factor meanwhile.
 const FASTER: f64 = 1.1;
 /// A sphere is wide whose reach is more than this many times the mean: it is looked for in all cells that
@@ -155,7 +155,7 @@ impl Search {
         if self.wide.len() as f64 > MOST_WIDE * slots.len() as f64 {
             self.find_by_hierarchy(slots);
         } else {
-            let cells = Cells { grid: &self.grid, starts: &self.starts, position, reference };
+            let cells = Cells { grid: &self.grid, starts: &self.starts, slots };
             let tasks = slabs.list.iter_mut().collect();
             parallel::for_each(tasks, |slab: &mut Slab| {
                 slab.tests = cells.find_pairs(slab.start..slab.end, &mut slab.pairs);
@@ -174,6 +174,13 @@ impl Search {
             slab.pairs.extend_from_slice(&rest[..count]);
             rest = &rest[count..];
         }
+    }
+
+    /// The slot that the sphere of each slot was moved to.
+    pub fn places(&self) -> Vec<u32> {
+        let mut places = vec![0; self.from.len()];
+        self.from.iter().zip(0..).for_each(|(&from, slot)| places[from as usize] = slot);
+        places
     }
 
     /// The slot that each sphere was in before it was moved.
@@ -233,15 +240,14 @@ impl Search {
 struct Cells<'a> {
     grid: &'a Grid,
     starts: &'a [u32],
-    position: &'a [Row],
-    reference: &'a [Row],
+    slots: &'a Slots,
 }
 
 impl Cells<'_> {
-    /// Pairs of spheres none of which is wide, in one cell or in neighbouring ones, the smaller slot among
-    /// these. Gives how many were tested.
+    /// Pairs of spheres none of which is wide, and one of which is awake, in one cell or in neighbouring
+    /// ones, the smaller slot among these. Gives how many were tested.
     fn find_pairs(&self, slots: Range<usize>, pairs: &mut Vec<[u32; 2]>) -> u64 {
-        let Self { grid, position, reference, .. } = *self;
+        let Self { grid, slots: Slots { position, reference, sleeps, .. }, .. } = *self;
         let [layers, rows, columns] = grid.cells;
         let widest = 0.5 * grid.width();
         let reach = |slot: usize| position[slot].number() + reference[slot].number();
@@ -261,7 +267,8 @@ impl Cells<'_> {
                     if distance_squared < farthest * farthest {
                         let other_reach = reach(second);
                         let sum = own_reach + other_reach;
-                        if distance_squared < sum * sum && other_reach <= widest {
+                        let is_idle = sleeps[first] && sleeps[second];
+                        if distance_squared < sum * sum && other_reach <= widest && !is_idle {
                             pairs.push([first as u32, second as u32]);
                         }
                     }

@@ -29,6 +29,8 @@ pub(super) struct Slab {
     pub descent: Descent,
     /// Pairs that the search tested.
     pub tests: u64,
+    /// Whether sweeps pass over it.
+    pub is_done: bool,
     /// What a stage found in this slab.
     pub found: Found,
 }

@@ -17,12 +17,12 @@ pub(super) struct Slots {
     pub index: Vec<u32>,
     /// Centre \[m\] and radius \[m\].
     pub position: Vec<Row>,
-    /// Velocity \[m/s\] and 1/m \[1/kg\].
+    /// Velocity \[m/s\] and 1/m \[1/kg\], 0 for one that sleeps: nothing moves it.
     pub velocity: Vec<Row>,
     /// Velocity at the start of the sub-step \[m/s\].
     pub before: Vec<Row>,
-    /// Velocity of the surface by spin, r w \[m/s\], and 1/(k m) \[1/kg\] with the inertia k m r². Empty
-    /// without friction.
+    /// Velocity of the surface by spin, r w \[m/s\], and 1/(k m) \[1/kg\] with the inertia k m r², 0 for one
+    /// that sleeps. Empty without friction.
     pub spin: Vec<Row>,
     /// Spin at the start of the sub-step \[m/s\]. Empty without friction.
     pub spin_before: Vec<Row>,
@@ -30,8 +30,8 @@ pub(super) struct Slots {
     pub turn: Vec<Row>,
     /// Centre at the last search for neighbours \[m\], and how far the sphere may go from there \[m\].
     pub reference: Vec<Row>,
-    /// The island of each sphere that sleeps; [`AWAKE`] for the others.
-    pub island: Vec<u32>,
+    /// Which spheres sleep.
+    pub sleeps: Vec<bool>,
     /// For how long each sphere has been calm \[s\].
     pub calm: Vec<f64>,
     /// Whether a contact that is no bounce had an impulse in the sub-step before.
@@ -42,9 +42,6 @@ pub(super) struct Slots {
     linear: Vec<Row>,
 }
 
-/// The number of an island that is awake.
-pub(super) const AWAKE: u32 = u32::MAX;
-
 /// The index of a sphere that was taken out of the world.
 pub(super) const GONE: u32 = u32::MAX;
 
@@ -53,9 +50,9 @@ impl Slots {
         self.id.len()
     }
 
-    /// The spheres that sleep.
-    pub fn asleep(&self) -> impl Iterator<Item = SphereId> {
-        self.id.iter().zip(&self.island).filter(|(_, island)| **island != AWAKE).map(|(&id, _)| id)
+    /// How many spheres sleep.
+    pub fn asleep(&self) -> usize {
+        self.sleeps.iter().filter(|sleeps| **sleeps).count()
     }
 
     /// Whether the same spheres are in the world, at the same indices.
@@ -79,14 +76,14 @@ impl Slots {
     /// those that were there.
     pub fn arrange(&mut self, ids: &[SphereId]) {
         let count = ids.len();
-        let (mut island, mut calm, mut bears) =
-            (vec![AWAKE; count], vec![0.0; count], vec![true; count]);
+        let (mut sleeps, mut calm, mut bears) =
+            (vec![false; count], vec![0.0; count], vec![true; count]);
         for (slot, &index) in self.index.iter().enumerate().filter(|(_, index)| **index != GONE) {
             let index = index as usize;
-            (island[index], calm[index]) = (self.island[slot], self.calm[slot]);
+            (sleeps[index], calm[index]) = (self.sleeps[slot], self.calm[slot]);
             bears[index] = self.bears[slot];
         }
-        (self.island, self.calm, self.bears) = (island, calm, bears);
+        (self.sleeps, self.calm, self.bears) = (sleeps, calm, bears);
         self.index = (0..count as u32).collect();
         self.id = ids.to_vec();
     }
@@ -99,18 +96,31 @@ impl Slots {
         position.clear();
         position.extend(indices().map(|i| Row::new(motion.position[i], spheres.radius[i])));
         velocity.clear();
-        velocity.extend(indices().map(|i| Row::new(motion.velocity[i], 1.0 / spheres.mass[i])));
+        velocity.extend(indices().map(|i| Row::new(motion.velocity[i], 0.0)));
         spin.clear();
         turn.clear();
         if with_spin {
             spin.extend(indices().map(|i| {
-                let surface = spheres.radius[i] * motion.spin.angular_velocity[i];
-                Row::new(surface, 1.0 / (spheres.inertia_factor(i) * spheres.mass[i]))
+                Row::new(spheres.radius[i] * motion.spin.angular_velocity[i], 0.0)
             }));
             turn.resize(index.len(), Row::default());
         }
+        self.read_masses(system);
         self.before.clone_from(&self.velocity);
         self.spin_before.clone_from(&self.spin);
+    }
+
+    /// Takes over from the world how hard spheres are to move and to turn; those that sleep are immovable.
+    pub fn read_masses(&mut self, system: &System) {
+        let spheres = system.spheres;
+        for (slot, &index) in self.index.iter().enumerate() {
+            let index = index as usize;
+            let mass = if self.sleeps[slot] { f64::INFINITY } else { spheres.mass[index] };
+            self.velocity[slot] = Row::new(self.velocity[slot].vector(), 1.0 / mass);
+            if let Some(spin) = self.spin.get_mut(slot) {
+                *spin = Row::new(spin.vector(), 1.0 / (spheres.inertia_factor(index) * mass));
+            }
+        }
     }
 
     /// Has each slot take what was in another one: that of the same place in `from`.
@@ -135,7 +145,7 @@ impl Slots {
         permute(&mut self.index, from);
         permute(&mut self.bears, from);
         permute(&mut self.calm, from);
-        permute(&mut self.island, from);
+        permute(&mut self.sleeps, from);
     }
 
     /// Has the accelerations of the forces of now, as far as they are linear. Tells whether there are
@@ -204,7 +214,7 @@ pub(super) struct Run<'a> {
     pub acceleration: &'a [Row],
     pub reference: &'a [Row],
     pub bears: &'a mut [bool],
-    pub island: &'a [u32],
+    pub sleeps: &'a [bool],
 }
 
 impl Slots {
@@ -220,7 +230,7 @@ impl Slots {
             acceleration: &self.acceleration,
             reference: &self.reference,
             bears: &mut self.bears,
-            island: &self.island,
+            sleeps: &self.sleeps,
         }
     }
 
@@ -247,7 +257,7 @@ impl Slots {
 impl Run<'_> {
     /// The velocity of a sphere at the end of a sub-step of `h` \[s\], without contacts \[m/s\].
     pub fn accelerated(&self, slot: usize, h: f64) -> DVec3 {
-        if self.island[slot] != AWAKE {
+        if self.sleeps[slot] {
             return self.before[slot].vector();
         }
         accelerated(self.before[slot], self.acceleration[slot], h)
@@ -267,7 +277,7 @@ impl<'a> Run<'a> {
             acceleration: front(&mut self.acceleration, count),
             reference: front(&mut self.reference, count),
             bears: front_mut(&mut self.bears, count),
-            island: front(&mut self.island, count),
+            sleeps: front(&mut self.sleeps, count),
         }
     }
 }
@@ -291,7 +301,7 @@ fn permute<T: Copy>(items: &mut Vec<T>, from: &[u32]) {
 }
 
 /// `(v + h a) / (1 + h c)` \[m/s\], with the rate c of drag: drag slows down, and never turns round.
-fn accelerated(before: Row, acceleration: Row, h: f64) -> DVec3 {
+pub(super) fn accelerated(before: Row, acceleration: Row, h: f64) -> DVec3 {
     let gained = before.vector() + h * acceleration.vector();
     let drag = h * acceleration.number();
     if drag > 0.0 { gained / (1.0 + drag) } else { gained }

@@ -47,20 +47,24 @@ pub(super) fn sweep(
     account.residual = account.residual.max(residual);
 }
 
-/// Sweeps a number of times at least. Gives the residual.
+/// Sweeps a number of times at least, and on over the slabs that are not apart. Gives the residual.
 fn sweep_until_apart(
     solver: &mut Solver,
     sub_step: &SubStep,
     least: u32,
     report: &mut StepReport,
 ) -> f64 {
+    let tolerable = TOLERABLE * solver.smallest_radius / sub_step.h;
     let mut number = 0;
     loop {
         let found = sweep_once(solver, number % 2 == 0, report);
         number += 1;
-        let overlap = sub_step.h * found.excess;
-        let is_apart = overlap <= TOLERABLE * solver.smallest_radius;
-        if number >= MORE * least || (number >= least && is_apart) {
+        let slabs = &mut solver.slabs;
+        if number >= least {
+            slabs.iter_mut().for_each(|slab| slab.is_done |= slab.found.excess <= tolerable);
+        }
+        if number >= MORE * least || slabs.iter().all(|slab| slab.is_done) {
+            slabs.iter_mut().for_each(|slab| slab.is_done = false);
             return found.residual();
         }
     }
@@ -88,11 +92,14 @@ fn converge(solver: &mut Solver, report: &mut StepReport) -> f64 {
     }
 }
 
-/// Sweeps over all contacts once.
+/// Sweeps over all contacts once, but for those of slabs that are done.
 pub(super) fn sweep_once(solver: &mut Solver, backwards: bool, report: &mut StepReport) -> Found {
     let Solver { slots, slabs, .. } = solver;
     let direction = if backwards { Direction::Backwards } else { Direction::Forwards };
     slabs.each_contact(slots, direction, |run, slab| {
+        if slab.is_done {
+            return;
+        }
         let Found { change, excess, impulse, .. } = if backwards {
             let surfaces = surfaces::sweep(run, &mut slab.surfaces, backwards);
             kernel::sweep(run, &mut slab.batches, backwards).or_larger(surfaces)

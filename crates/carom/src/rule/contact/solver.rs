@@ -9,7 +9,7 @@ use super::kept::Kept;
 use super::materials::Materials;
 use super::search::Search;
 use super::slab::Slabs;
-use super::slots::{AWAKE, Slots};
+use super::slots::Slots;
 use super::surfaces::Place;
 
 /// Spheres in their order of memory, their neighbours, and the impulses of their contacts: part of a
@@ -50,7 +50,7 @@ pub(crate) struct Solver {
     pub(super) dormant: Vec<Dormant>,
     /// Whether spheres at rest stay at rest: forces are constant, and surfaces fixed.
     pub(super) may_sleep: bool,
-    /// Frames since islands were looked for.
+    /// Frames since it was looked for what may fall asleep.
     pub(super) frames: u32,
 }
 
@@ -78,7 +78,7 @@ impl Solver {
 
     /// Whether nothing happens in a frame without emissions and changes from outside: all spheres sleep.
     pub fn is_idle(&self) -> bool {
-        let island = &self.slots.island;
-        !self.is_changed && !island.is_empty() && island.iter().all(|&island| island != AWAKE)
+        let sleeps = &self.slots.sleeps;
+        !self.is_changed && !sleeps.is_empty() && sleeps.iter().all(|&sleeps| sleeps)
     }
 }

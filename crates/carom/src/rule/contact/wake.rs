@@ -1,0 +1,166 @@
+//! What wakes spheres that sleep: something hits them, presses them otherwise than before, or takes away
+//! what they touch.
+
+use glam::DVec3;
+
+use super::dormant::{Dormant, Partner};
+use super::sleep;
+use super::slots::{self, GONE, Slots};
+use super::solver::Solver;
+use crate::system::System;
+
+/// A sphere that comes nearer than this part of the sum of radii touches.
+const TOUCH: f64 = 1e-3;
+/// An impact wakes what it hits, and what is near that, whose impulse would give that a speed above that of
+/// spheres that are calm. This many times that speed, and it wakes all that contacts connect with it.
+const HARD: f64 = 50.0;
+/// A sphere wakes where the force on it by those that are awake has changed by this part of that force and of its
+/// weight.
+const LOAD_CHANGE: f64 = 0.3;
+/// It is looked for that once in so many frames.
+const FRAMES: u32 = 8;
+/// A sphere bears another one that bears this part of its weight.
+const BORNE: f64 = 0.1;
+/// For how long those that a load has woken are awake at least, if they stay calm \[s\].
+const REST: f64 = 0.1;
+
+/// Wakes spheres that something is about to hit in a sub-step of `h` \[s\], and those around them.
+pub(super) fn touched(system: &System, solver: &mut Solver, h: f64) {
+    let Slots { position, velocity, index, acceleration, .. } = &solver.slots;
+    let (mut felt, mut hard) = (Vec::new(), Vec::new());
+    for &[sleeper, other] in &solver.watched {
+        let [sleeper, other] = [sleeper, other].map(|slot| slot as usize);
+        let radius_sum = position[sleeper].number() + position[other].number();
+        let offset = position[other].vector() - position[sleeper].vector();
+        let way = h * slots::accelerated(velocity[other], acceleration[other], h);
+        // The nearest point of the way.
+        let length_squared = way.length_squared();
+        let along = if length_squared > 0.0 {
+            (-offset.dot(way) / length_squared).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        let reach = radius_sum * (1.0 + TOUCH);
+        if (offset + along * way).length_squared() >= reach * reach {
+            continue;
+        }
+        let [own, others] =
+            [sleeper, other].map(|slot| system.spheres.mass[index[slot] as usize]);
+        // Without what it falls in the sub-step: that is so for what rests.
+        let gain = others / (own + others) * velocity[other].vector().length();
+        let calm = sleep::calm_speed_squared(&solver.slots, sleeper);
+        if gain * gain > HARD * HARD * calm {
+            hard.push(sleeper);
+        } else if gain * gain > calm {
+            felt.push(sleeper);
+        }
+    }
+    if felt.is_empty() && hard.is_empty() {
+        return;
+    }
+    wake(solver, felt, Some(sleep::NEAR), 0.0);
+    wake(solver, hard, None, 0.0);
+    solver.slots.read_masses(system);
+}
+
+/// Wakes spheres whose support has gone away, and, once in some frames, those on which what is awake presses
+/// otherwise than when they fell asleep.
+pub(super) fn loaded(system: &System, solver: &mut Solver) {
+    if solver.dormant.is_empty() {
+        return;
+    }
+    let mut loaded = left_alone(system, &solver.slots, &solver.dormant);
+    if solver.frames.is_multiple_of(FRAMES) {
+        loaded.extend(pressed_otherwise(system, solver));
+    }
+    wake(solver, loaded, Some(sleep::NEAR), sleep::PATIENCE - REST);
+}
+
+/// The spheres of which a part of the weight was borne by one that is awake, and has gone away.
+fn left_alone(system: &System, slots: &Slots, dormant: &[Dormant]) -> Vec<usize> {
+    let has_gone = |contact: &&Dormant| {
+        let Partner::Awake(other) = contact.partner else { return false };
+        let own = slots.position[contact.sphere as usize];
+        slots.position.get(other as usize).is_none_or(|other| {
+            let reach = (1.0 + TOUCH) * (own.number() + other.number());
+            (own.vector() - other.vector()).length_squared() > reach * reach
+        })
+    };
+    let bore = |contact: &&Dormant| {
+        let weight = weight(system, slots, contact.sphere as usize);
+        -contact.force.dot(weight) > BORNE * weight.length_squared()
+    };
+    dormant.iter().filter(has_gone).filter(bore).map(|it| it.sphere as usize).collect()
+}
+
+/// The spheres that sleep and are pressed otherwise than before by those that are awake.
+fn pressed_otherwise(system: &System, solver: &Solver) -> Vec<usize> {
+    let Solver { slots, slabs, dormant, .. } = solver;
+    let mut change = vec![DVec3::ZERO; slots.len()];
+    let mut known = change.clone();
+    for slab in slabs.iter() {
+        for (number, lane, _) in slab.batches.contacts() {
+            let force = slab.batches.impulse(number, lane) / solver.h;
+            let [first, second] = slab.slots_of(number, lane);
+            change[first] -= force;
+            change[second] += force;
+        }
+    }
+    for contact in dormant.iter().filter(|it| matches!(it.partner, Partner::Awake(_))) {
+        change[contact.sphere as usize] -= contact.force;
+        known[contact.sphere as usize] += contact.force;
+    }
+    let is_otherwise = |&slot: &usize| {
+        let weight = weight(system, slots, slot).length();
+        let most = LOAD_CHANGE * (weight + known[slot].length());
+        slots.sleeps[slot] && change[slot].length_squared() > most * most
+    };
+    (0..slots.len()).filter(is_otherwise).collect()
+}
+
+/// \[N\]
+fn weight(system: &System, slots: &Slots, slot: usize) -> DVec3 {
+    system.spheres.mass[slots.index[slot] as usize] * slots.acceleration[slot].vector()
+}
+
+/// Wakes what touched a sphere that was taken out of the world.
+pub(super) fn bereft(solver: &mut Solver) {
+    let index = &solver.slots.index;
+    let gone = (0..index.len()).filter(|&slot| index[slot] == GONE).collect();
+    wake(solver, gone, Some(sleep::NEAR), 0.0);
+}
+
+/// Wakes all spheres.
+pub(super) fn all(solver: &mut Solver) {
+    let sleeps = &solver.slots.sleeps;
+    let all = (0..sleeps.len()).filter(|&slot| sleeps[slot]).collect();
+    wake(solver, all, Some(0), 0.0);
+}
+
+/// Wakes spheres, and those so many contacts around them, or however far. They count as calm for so long
+/// already \[s\].
+fn wake(solver: &mut Solver, from: Vec<usize>, contacts: Option<u32>, calm_for: f64) {
+    if from.is_empty() {
+        return;
+    }
+    let Slots { sleeps, calm, .. } = &mut solver.slots;
+    let mut wakes = vec![false; sleeps.len()];
+    from.into_iter().for_each(|slot| wakes[slot] = true);
+    let mut round = 0;
+    loop {
+        let before = wakes.clone();
+        for [first, second] in solver.dormant.iter().filter_map(Dormant::sleepers) {
+            if before[first] || before[second] {
+                (wakes[first], wakes[second]) = (true, true);
+            }
+        }
+        round += 1;
+        if wakes == before || contacts.is_some_and(|most| round >= most) {
+            break;
+        }
+    }
+    for (slot, _) in wakes.iter().enumerate().filter(|(_, wakes)| **wakes) {
+        (sleeps[slot], calm[slot]) = (false, calm_for);
+    }
+    solver.is_stale = true;
+}
