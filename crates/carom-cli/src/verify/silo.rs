@@ -70,8 +70,8 @@ fn column(count: usize) -> Outcome {
     let sinking = world.collider(floor)?.moving(-speed * DVec3::Y, DVec3::ZERO);
     world.set_collider(floor, sinking)?;
     let (looks, apart) = (20, 0.2);
-    // A tall column needs a diameter of way until it slides along all of its walls.
-    let begin = world.time() + 10.0;
+    // A tall column needs some diameters of way until it slides along all of its walls.
+    let begin = world.time() + 30.0;
     let mut sums = [0.0; 2];
     for look in 0..looks {
         run_until(&mut world, begin + apart * f64::from(look), FRAME)?;

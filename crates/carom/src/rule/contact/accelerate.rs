@@ -117,11 +117,7 @@ pub(super) fn kinetic_energy<S: Simd>(simd: S, rows: &[Row]) -> f64 {
 
 /// Twice the kinetic energy \[J\]; none of what nothing moves.
 #[inline(always)]
-fn twice_energy<S: Simd>(
-    simd: S,
-    velocity: Vector<Lanes<S>>,
-    inverse_mass: Lanes<S>,
-) -> Lanes<S> {
+fn twice_energy<S: Simd>(simd: S, velocity: Vector<Lanes<S>>, inverse_mass: Lanes<S>) -> Lanes<S> {
     let zero = Lanes::all(simd, 0.0);
     let energy = velocity.length_squared() / inverse_mass;
     energy.select(zero.is_less(inverse_mass), zero)

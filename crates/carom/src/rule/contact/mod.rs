@@ -3,13 +3,14 @@
 //!
 //! A frame is cut into sub-steps of equal length. Each goes through these stages:
 //!
-//! 1. **Accelerate.** Velocities gain what forces give them.
-//! 2. **Search.** Where a sphere may leave the margin of the last search, neighbours are found anew.
-//! 3. **Prepare.** Normals, gaps and impacts; contacts begin with the impulses of the sub-step before.
-//! 4. **Sweep.** Each contact in turn gets the impulse that it needs, by Gauss and Seidel.
-//! 5. **Keep energy.** Where impulses would add kinetic energy, less of them is taken.
-//! 6. **Advance.** Positions follow the velocities.
-//! 7. **Correct.** Overlaps are reduced, without a change of velocities.
+//! 1. **Wake.** What something is about to hit wakes.
+//! 2. **Accelerate.** Velocities gain what forces give them.
+//! 3. **Search.** Where a sphere may leave the margin of the last search, neighbours are found anew.
+//! 4. **Prepare.** Normals, gaps and impacts; contacts begin with the impulses of the sub-step before.
+//! 5. **Sweep.** Each contact in turn gets the impulse that it needs, by Gauss and Seidel.
+//! 6. **Keep energy.** Where impulses would add kinetic energy, less of them is taken.
+//! 7. **Advance.** Positions follow the velocities.
+//! 8. **Correct.** Overlaps are reduced, without a change of velocities.
 
 mod accelerate;
 mod advance;

@@ -16,6 +16,8 @@ const CALM: f64 = 0.02;
 /// A spin is steady that a sub-step changes by less than this part of the speed of free fall over it: that
 /// of a ball about the normal on which it lies, without spinning friction.
 const STEADY: f64 = 1e-3;
+/// A sphere is borne that accelerates by less than this part of what forces alone would do.
+const UNBORNE: f64 = 0.1;
 /// Time that a sphere, and all those so many contacts around it, are calm before it sleeps \[s\].
 pub(super) const PATIENCE: f64 = 0.5;
 /// How many contacts far a sphere that moves keeps others awake.
@@ -65,6 +67,13 @@ pub(super) fn is_slow(slots: &Slots, slot: usize) -> bool {
     slots.velocity[slot].vector().length_squared() < calm_speed_squared(slots, slot)
 }
 
+/// Whether contacts bear what forces do to a sphere in a sub-step of `h` \[s\].
+fn is_borne(slots: &Slots, slot: usize, h: f64) -> bool {
+    let change = slots.velocity[slot].vector() - slots.before[slot].vector();
+    let most = UNBORNE * h * slots.acceleration[slot].vector().length();
+    change.length_squared() < most * most
+}
+
 /// Whether a sphere has no spin that does anything: it is slow, or steady over a sub-step of `h` \[s\].
 fn turns_calmly(slots: &Slots, slot: usize, h: f64) -> bool {
     let (Some(spin), Some(before)) = (slots.spin.get(slot), slots.spin_before.get(slot)) else {
@@ -83,8 +92,10 @@ fn note_calm(slots: &mut Slots, frame: f64, h: f64) -> f64 {
         if slots.sleeps[slot] {
             continue;
         }
-        let is_calm =
-            is_slow(slots, slot) && turns_calmly(slots, slot, h) && slots.bears[slot];
+        let is_calm = slots.bears[slot]
+            && is_slow(slots, slot)
+            && is_borne(slots, slot, h)
+            && turns_calmly(slots, slot, h);
         slots.calm[slot] = if is_calm { slots.calm[slot] + frame } else { 0.0 };
         longest = longest.max(slots.calm[slot]);
     }

@@ -100,9 +100,10 @@ impl Slots {
         spin.clear();
         turn.clear();
         if with_spin {
-            spin.extend(indices().map(|i| {
-                Row::new(spheres.radius[i] * motion.spin.angular_velocity[i], 0.0)
-            }));
+            spin.extend(
+                indices()
+                    .map(|i| Row::new(spheres.radius[i] * motion.spin.angular_velocity[i], 0.0)),
+            );
             turn.resize(index.len(), Row::default());
         }
         self.read_masses(system);
