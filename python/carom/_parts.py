@@ -244,6 +244,8 @@ class Emitter(Part):
         position: Where spheres appear [m].
         rotation: How the emitter, and with it the velocity of its spheres, is turned.
         max_spheres: How many of its spheres live at most, the oldest making place; ``None``: any.
+        needs_room: Whether a sphere is left out that would overlap another one; ``None``: under the
+            rule ``contact``.
         name: What it is called.
     """
 
@@ -252,6 +254,7 @@ class Emitter(Part):
     position: Vector = _ORIGIN
     rotation: Quaternion = _UNTURNED
     max_spheres: int | None = None
+    needs_room: bool | None = None
     name: str = ""
 
 

@@ -23,6 +23,7 @@ pub struct Observer {
     trigger_contacts: u64,
     emitted: u64,
     retired: u64,
+    left_out: u64,
     unfinished_islands: u64,
     work: StageCounts,
     largest_overlap: f64,
@@ -45,6 +46,7 @@ impl Observer {
             trigger_contacts: 0,
             emitted: 0,
             retired: 0,
+            left_out: 0,
             unfinished_islands: 0,
             work: StageCounts::default(),
             largest_overlap: 0.0,
@@ -65,6 +67,7 @@ impl Observer {
         self.trigger_contacts += report.triggers.len() as u64;
         self.emitted += report.emitted.len() as u64;
         self.retired += report.retired.len() as u64;
+        self.left_out += report.left_out.len() as u64;
         self.unfinished_islands += u64::from(report.unfinished_islands);
         self.work += report.work;
         self.contact.add(report);
@@ -100,6 +103,8 @@ pub struct Summary {
     spheres: usize,
     emitted: u64,
     retired: u64,
+    /// Spheres that emitters left out, for there was no room.
+    left_out: u64,
     impacts: u64,
     /// Spheres in triggers, summed over all frames.
     trigger_contacts: u64,
@@ -166,6 +171,7 @@ impl Summary {
             spheres: world.spheres().len(),
             emitted: observer.emitted,
             retired: observer.retired,
+            left_out: observer.left_out,
             impacts: observer.impacts,
             trigger_contacts: observer.trigger_contacts,
             unfinished_islands: observer.unfinished_islands,
@@ -215,9 +221,12 @@ impl Summary {
     fn rows(&self) -> Vec<(&'static str, String)> {
         let start = DVec3::from_array(self.momentum_at_start);
         let end = DVec3::from_array(self.momentum_at_end);
-        let came_and_went = match (self.emitted, self.retired) {
-            (0, 0) => String::new(),
-            (emitted, retired) => format!(" ({emitted} emitted, {retired} retired)"),
+        let came_and_went = match (self.emitted, self.retired, self.left_out) {
+            (0, 0, 0) => String::new(),
+            (emitted, retired, 0) => format!(" ({emitted} emitted, {retired} retired)"),
+            (emitted, retired, left_out) => format!(
+                " ({emitted} emitted, {retired} retired, {left_out} left out: no room at the emitter)"
+            ),
         };
         let mut energy = energy_change(self.energy_at_start, self.energy_at_end);
         if self.emitted > 0 {

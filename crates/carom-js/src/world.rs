@@ -202,6 +202,12 @@ impl World {
         numbers(&self.world.report().retired)
     }
 
+    /// Ids of the spheres that emitters left out, for there was no room.
+    #[wasm_bindgen(getter, js_name = leftOut)]
+    pub fn left_out(&self) -> Vec<f64> {
+        numbers(&self.world.report().left_out)
+    }
+
     /// Spheres inside triggers at the end of the frame: collider, sphere, collider, sphere, ...
     #[wasm_bindgen(getter)]
     pub fn triggers(&self) -> Vec<f64> {

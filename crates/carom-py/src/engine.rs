@@ -444,4 +444,11 @@ impl Engine {
     fn retired<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
         Ok(arrays::numbers(py, &self.lock(py)?.world.report().retired))
     }
+
+    /// Ids of the spheres that emitters left out in the last frame, for there was no room: no sphere ever
+    /// has them.
+    #[getter]
+    fn left_out<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        Ok(arrays::numbers(py, &self.lock(py)?.world.report().left_out))
+    }
 }

@@ -157,5 +157,6 @@ pub(crate) fn emitter(emitter: &Emitter, path: &str) -> Result<carom::Emitter, P
     Ok(carom::Emitter::new(sphere, emitter.period)
         .with_position(vector(emitter.position))
         .with_rotation(quaternion(emitter.rotation))
-        .with_max_spheres(emitter.max_spheres))
+        .with_max_spheres(emitter.max_spheres)
+        .with_needs_room(emitter.needs_room))
 }

@@ -201,6 +201,7 @@ mod tests {
             rotation: [0.0, 0.0, 0.0, 1.0],
             period,
             max_spheres: None,
+            needs_room: None,
             sphere,
         }
     }

@@ -87,13 +87,17 @@ impl Looks {
         world: (&World, &Setup),
     ) {
         let (world, setup) = world;
-        if report.emitted.is_empty() {
+        // What was left out was due, too.
+        let mut due: Vec<_> = report.emitted.iter().chain(&report.left_out).copied().collect();
+        if due.is_empty() {
             return;
         }
+        due.sort_unstable();
         let is_exact = matches!(world.settings().rule, Rule::Exact(_));
-        let sources = self.sources(report.emitted.len(), start, is_exact, setup);
+        let sources = self.sources(due.len(), start, is_exact, setup);
         let template = |id| setup.emitters.iter().find(|it| it.0 == id).map(|it| &it.1.sphere);
-        for (&sphere, emitter) in report.emitted.iter().zip(sources) {
+        let came = due.into_iter().zip(sources);
+        for (sphere, emitter) in came.filter(|(id, _)| report.emitted.binary_search(id).is_ok()) {
             let template = template(emitter);
             let color = template.and_then(|it| it.color.or_else(|| color_of_template(scene, it)));
             self.paint(sphere, color);

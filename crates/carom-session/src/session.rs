@@ -325,8 +325,8 @@ impl Session {
         }
         self.frame += 1;
         let report = self.world.report();
+        self.looks.note(report, start, &self.scene, (&self.world, &self.setup));
         if !(report.emitted.is_empty() && report.retired.is_empty()) {
-            self.looks.note(report, start, &self.scene, (&self.world, &self.setup));
             self.stamp += 1;
         }
         self.previous.align(&self.world);

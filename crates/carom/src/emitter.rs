@@ -15,13 +15,16 @@ use crate::validate;
 /// (`docs/physics/motion.md`, "Emission").
 pub(crate) const DUE_TOLERANCE: f64 = 1e-9;
 
+/// Spheres that overlap by no more than this part of the sum of their radii have room.
+const OVERLAP: f64 = 1e-3;
+
 /// More spheres than this in one frame are a mistake in `period`, not a wish.
 const MAX_PER_FRAME: f64 = 1e6;
 
 /// Emits a sphere at the times 0, period, 2 period, ... after it entered the world.
 ///
-/// When it emits depends on no sphere: one that is in the way is overlapped. A stream of spheres needs
-/// a period in which each leaves its place, and room below it for all of them.
+/// When it emits depends on no sphere. One that is in the way is overlapped, or has the sphere that is due left
+/// out: [`Self::needs_room`].
 ///
 /// ```
 /// use carom::{DVec3, Emitter, Sphere, World};
@@ -51,13 +54,16 @@ pub struct Emitter {
     pub period: f64,
     /// With this many of its spheres alive, the oldest makes place for the next; `None`: no limit.
     pub max_spheres: Option<u32>,
+    /// Whether a sphere is left out that would overlap another one by more than a thousandth of the sum of
+    /// their radii; `None`: under the rule `contact`. Its id is never given to another one.
+    pub needs_room: Option<bool>,
 }
 
 impl Emitter {
     /// Emits this sphere at the origin of the world every `period` \[s\], without a limit.
     pub fn new(sphere: Sphere, period: f64) -> Self {
         let (position, rotation) = (DVec3::ZERO, DQuat::IDENTITY);
-        Self { sphere, position, rotation, period, max_spheres: None }
+        Self { sphere, position, rotation, period, max_spheres: None, needs_room: None }
     }
 
     /// The same emitter with its origin at this place in the world \[m\].
@@ -73,6 +79,12 @@ impl Emitter {
     /// The same emitter with at most this many of its spheres alive; `None`: no limit.
     pub fn with_max_spheres(self, max_spheres: impl Into<Option<u32>>) -> Self {
         Self { max_spheres: max_spheres.into(), ..self }
+    }
+
+    /// The same emitter, which leaves out spheres that would overlap others, or not; `None`: under the rule
+    /// `contact`.
+    pub fn with_needs_room(self, needs_room: impl Into<Option<bool>>) -> Self {
+        Self { needs_room: needs_room.into(), ..self }
     }
 
     /// The same emitter of other spheres.
@@ -113,7 +125,7 @@ pub(crate) struct EmitterState {
     pub emitter: Emitter,
     /// When it entered the world, and so emits first \[s\].
     pub start: f64,
-    /// Number of spheres emitted so far.
+    /// Number of spheres emitted or left out so far.
     pub emitted: u64,
     /// Its spheres that may still be alive, oldest first; empty without `max_spheres`.
     pub ring: VecDeque<SphereId>,
@@ -127,6 +139,10 @@ impl EmitterState {
     /// When its next sphere is due \[s\].
     fn due(&self) -> f64 {
         self.start + self.emitted as f64 * self.emitter.period
+    }
+
+    fn needs(&self, room: Room) -> bool {
+        self.emitter.needs_room.unwrap_or(room.is_needed)
     }
 
     fn is_due(&self, time: f64) -> bool {
@@ -150,6 +166,34 @@ pub(crate) struct Emission {
     pub due: Vec<f64>,
     /// In the order of leaving.
     pub retired: Vec<SphereId>,
+    /// Ids of spheres that were left out, ascending.
+    pub left_out: Vec<SphereId>,
+}
+
+/// What counts as overlapping where spheres are emitted.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Room {
+    /// Whether emitters that say nothing need room.
+    pub is_needed: bool,
+    /// Edges of the periodic box \[m\], infinite along open axes.
+    pub period: DVec3,
+}
+
+impl Room {
+    /// Whether a sphere overlaps none of these, one of them apart.
+    fn is_there(self, sphere: &Sphere, spheres: &Spheres, apart: Option<SphereId>) -> bool {
+        let apart = apart.and_then(|id| spheres.index_of(id));
+        let places = spheres.positions().iter().zip(spheres.radii()).enumerate();
+        places.filter(|(index, _)| Some(*index) != apart).all(|(_, (&position, &radius))| {
+            let offset = position - sphere.position;
+            // To the nearest image; 0 along open axes.
+            let images = (offset / self.period).round();
+            let nearest =
+                DVec3::select(self.period.is_finite_mask(), images * self.period, DVec3::ZERO);
+            let reach = (1.0 - OVERLAP) * (radius + sphere.radius);
+            (offset - nearest).length_squared() >= reach * reach
+        })
+    }
 }
 
 /// Whether any emitter has a sphere due until `time` \[s\].
@@ -162,12 +206,18 @@ pub(crate) fn next_due(emitters: &Numbered<EmitterState>) -> f64 {
     emitters.iter().map(|(_, state)| state.due()).fold(f64::INFINITY, f64::min)
 }
 
+/// Whether an emitter that has a sphere due until `time` \[s\] needs room for it.
+pub(crate) fn any_needs_room(emitters: &Numbered<EmitterState>, time: f64, room: Room) -> bool {
+    emitters.iter().any(|(_, state)| state.is_due(time) && state.needs(room))
+}
+
 /// Emits every sphere that is due until `time` \[s\], emitter by emitter.
 pub(crate) fn emit(
     emitters: &mut Numbered<EmitterState>,
     spheres: &mut Spheres,
     next_id: &mut u64,
     time: f64,
+    room: Room,
 ) -> Emission {
     let mut emission = Emission::default();
     for state in emitters.values_mut() {
@@ -176,11 +226,18 @@ pub(crate) fn emit(
         let sphere = state.emitter.emitted();
         let max = state.emitter.max_spheres.map(|max| max as usize);
         while state.is_due(time) {
-            if max.is_some_and(|max| state.ring.len() >= max) {
-                emission.retired.extend(state.ring.pop_front());
-            }
             let id = SphereId(*next_id);
             *next_id += 1;
+            let is_full = max.is_some_and(|max| state.ring.len() >= max);
+            let oldest = state.ring.front().copied().filter(|_| is_full);
+            if state.needs(room) && !room.is_there(&sphere, spheres, oldest) {
+                emission.left_out.push(id);
+                state.emitted += 1;
+                continue;
+            }
+            if is_full {
+                emission.retired.extend(state.ring.pop_front());
+            }
             spheres.push(id, &sphere);
             emission.emitted.push(id);
             emission.due.push(state.due());

@@ -38,6 +38,8 @@ pub struct StepReport {
     pub emitted: Vec<SphereId>,
     /// Spheres that emitters took out again to make place.
     pub retired: Vec<SphereId>,
+    /// Ids of spheres that emitters left out, for there was no room: no sphere ever has them.
+    pub left_out: Vec<SphereId>,
     /// Groups of spheres in which, under the rule `bisect`, two bodies met as often as they may in a
     /// frame: they count as come to rest, the rest of it was taken in one piece, and what then
     /// overlapped was answered as in `discrete`.
@@ -120,6 +122,7 @@ impl StepReport {
         self.groups.clear();
         self.triggers.clear();
         self.emitted.clear();
+        self.left_out.clear();
         self.retired.clear();
         self.unfinished_islands = 0;
         self.work = StageCounts::default();

@@ -2,7 +2,9 @@
 
 mod common;
 
-use carom::{DQuat, DVec3, Emitter, Sphere, World};
+use carom::{
+    Boundary, Contact, DQuat, DVec3, Emitter, Exact, Rule, Settings, Sphere, SphereId, World,
+};
 use common::{assert_close_vec, discrete, vec, world};
 
 fn emitter(period: f64, max_spheres: Option<u32>) -> Emitter {
@@ -108,4 +110,67 @@ fn a_runaway_emitter_is_an_error_that_names_the_period() {
     let error = world.step(0.02).unwrap_err().to_string();
     assert!(error.contains("emitter 0") && error.contains("`period`"), "{error}");
     assert_eq!(world.state_hash(), before);
+}
+
+/// A world by the rule `exact`, whose emitter is due every second.
+fn exact_world(boundary: Boundary, emitter: Emitter) -> World {
+    let mut world = World::new(Settings::default().with_boundary(boundary)).unwrap();
+    world.add_emitter(emitter).unwrap();
+    world
+}
+
+#[test]
+fn one_that_needs_room_leaves_spheres_out_until_there_is_some() {
+    let mut world = exact_world(Boundary::Open, emitter(1.0, None).with_needs_room(true));
+    // Those at 0, 1, 2 and 3 s: the first one stays where it is.
+    let report = world.step(3.5).unwrap();
+    let numbers = |ids: &[SphereId]| ids.iter().map(|id| id.number()).collect::<Vec<_>>();
+    assert_eq!(numbers(&report.emitted), [0]);
+    assert_eq!(numbers(&report.left_out), [1, 2, 3]);
+    // Moved away, it makes room between two frames; and, moving, within one.
+    let [first] = world.spheres().ids()[..] else { panic!("one sphere") };
+    let moving = world.sphere(first).unwrap().with_velocity(vec(2.0, 0.0, 0.0));
+    world.set_sphere(first, moving).unwrap();
+    let report = world.step(2.0).unwrap();
+    assert_eq!((numbers(&report.emitted), numbers(&report.left_out)), (vec![4], vec![5]));
+    // 0.5 s after 3.5 s it has moved by a metre, the sum of the radii.
+    let place = world.sphere(first).unwrap().position;
+    assert_close_vec(place, vec(5.0, 2.0, 3.0), 1e-15);
+}
+
+#[test]
+fn one_that_says_nothing_overlaps_but_under_the_rule_contact() {
+    let contact = Rule::Contact(Contact::default());
+    // Each goes by half the sum of two radii until the next is due.
+    let slow = emitter(1.0, None);
+    let slow = slow.with_sphere(slow.sphere.with_velocity(vec(0.5, 0.0, 0.0)));
+    for (rule, collide, expected) in [
+        (Rule::Exact(Exact::default()), true, 4),
+        (discrete(), true, 4),
+        (contact, true, 2),
+        (contact, false, 4),
+    ] {
+        let settings = Settings::default().with_rule(rule).with_spheres_collide(collide);
+        let mut world = World::new(settings).unwrap();
+        world.add_emitter(slow).unwrap();
+        assert_eq!(frames_of_emission(&mut world, 4, 1.0).len(), expected, "{rule:?}");
+    }
+}
+
+#[test]
+fn the_oldest_sphere_makes_room_for_the_next() {
+    let mut world = exact_world(Boundary::Open, emitter(1.0, Some(1)).with_needs_room(true));
+    let report = world.step(3.5).unwrap();
+    assert_eq!((report.emitted.len(), report.retired.len(), report.left_out.len()), (4, 3, 0));
+}
+
+#[test]
+fn images_across_the_faces_of_a_periodic_box_take_room() {
+    let periodic = Boundary::Periodic { size: vec(10.0, f64::INFINITY, 10.0) };
+    let near_face = emitter(1.0, None).with_needs_room(true).with_position(vec(4.9, 0.0, 0.0));
+    for (x, expected) in [(-4.9, 0), (-3.9, 1)] {
+        let mut world = exact_world(periodic, near_face);
+        world.add_sphere(Sphere::new(vec(x, 0.0, 0.0), 0.5)).unwrap();
+        assert_eq!(world.step(0.5).unwrap().emitted.len(), expected, "{x}");
+    }
 }

@@ -503,6 +503,9 @@ export class World {
   readonly emitted: number[];
   /** Spheres that emitters took out again to make place. */
   readonly retired: number[];
+  /** Numbers of the spheres that emitters left out, for there was no room (`needs_room` of an emitter, the
+   *  default under the rule `contact`): no sphere ever has them. */
+  readonly leftOut: number[];
   /** Spheres inside triggers at the end of the last frame. */
   readonly triggers: { collider: number; sphere: number }[];
   /** The work of the last frame. */

@@ -184,6 +184,10 @@ export class World {
     return Array.from(this.#world.retired);
   }
 
+  get leftOut() {
+    return Array.from(this.#world.leftOut);
+  }
+
   get triggers() {
     const pairs = this.#world.triggers;
     return Array.from({ length: pairs.length / 2 }, (_, i) => ({

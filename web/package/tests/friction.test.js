@@ -136,6 +136,20 @@ test("arrays of friction and rotation follow emitters", () => {
   assert.equal(world.orientations.length, 12);
 });
 
+test("an emitter that needs room leaves spheres out, and says which", () => {
+  const world = World.fromScene(`
+    name = "full"
+    [[emitters]]
+    period = 0.5
+    needs_room = true
+    sphere = { radius = 0.1 }
+  `);
+  world.step(1.2);
+  assert.deepEqual([...world.emitted], [0]);
+  assert.deepEqual(world.leftOut, [1, 2]);
+  assert.deepEqual([...world.ids], [0]);
+});
+
 test("a sphere gives back what it was added with", () => {
   const spun = {
     friction: 0.3,

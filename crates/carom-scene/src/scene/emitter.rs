@@ -26,6 +26,10 @@ pub struct Emitter {
     #[schemars(range(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_spheres: Option<u32>,
+    /// Whether a sphere is left out that would overlap another one; so under the rule `contact` where it is
+    /// missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub needs_room: Option<bool>,
     /// What is emitted.
     pub sphere: Sphere,
 }

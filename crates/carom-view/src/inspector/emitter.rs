@@ -1,6 +1,7 @@
 //! Sources of balls.
 
 use carom::{DVec3, Mass};
+use carom_scene::scene::Rule;
 use carom_session::{Command, Edit, View};
 use egui::{DragValue, Ui};
 
@@ -19,6 +20,7 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             // With another period it starts anew, and emits at once.
             number_at_last(ui, Field::positive("period", "s"), &mut after.period);
             most(ui, &mut after.max_spheres);
+            room(ui, &mut after.needs_room, view.setup.simulation.rule == Rule::Contact);
             let mut velocity = after.sphere.velocity.to_array();
             vector(ui, Field::any("velocity", "m/s"), &mut velocity);
             after.sphere.velocity = DVec3::from_array(velocity);
@@ -36,6 +38,19 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             }
         });
     }
+}
+
+/// Whether it leaves out balls that would overlap others, which it does under the rule `contact` unless it
+/// says otherwise.
+fn room(ui: &mut Ui, needs_room: &mut Option<bool>, is_contact: bool) {
+    ui.horizontal(|ui| {
+        name(ui, "needs room");
+        let mut is_needed = needs_room.unwrap_or(is_contact);
+        let hint = "A ball that would overlap another one is left out";
+        if ui.checkbox(&mut is_needed, "").on_hover_text(hint).changed() {
+            *needs_room = Some(is_needed);
+        }
+    });
 }
 
 /// How many of its balls live at a time.

@@ -3,12 +3,13 @@
 use crate::bodies::{Motion, Spheres};
 use crate::clock::Clock;
 use crate::detect::contacts::{self, Search};
-use crate::emitter::{self, Emission, EmitterState};
+use crate::emitter::{self, Emission, EmitterState, Room};
 use crate::error::Error;
 use crate::numbered::Numbered;
 use crate::report::{StepReport, TriggerContact};
 use crate::rule::contact::{self, Solver};
 use crate::rule::{bisect, discrete};
+use crate::settings::Rule;
 use crate::state::State;
 use crate::work::Work;
 
@@ -88,16 +89,30 @@ impl<'a> Attempt<'a> {
         });
     }
 
+    /// Notes what there is before an emission, to return to if the step fails.
+    pub fn expect_emission(&mut self) {
+        self.before_emission.get_or_insert_with(|| BeforeEmission::of(self.state));
+    }
+
+    /// What emitters take for room.
+    pub fn room(&self) -> Room {
+        let settings = &self.state.settings;
+        let is_needed = matches!(settings.rule, Rule::Contact(_)) && settings.spheres_collide;
+        Room { is_needed, period: settings.boundary.period() }
+    }
+
     /// Emits the spheres that are due at `time` \[s\]; notes what was before, the first time.
     pub fn emit(&mut self, time: f64) -> Emission {
         if !emitter::any_due(&self.state.emitters, time) {
             return Emission::default();
         }
-        self.before_emission.get_or_insert_with(|| BeforeEmission::of(self.state));
+        self.expect_emission();
+        let room = self.room();
         let State { emitters, spheres, next_id, .. } = &mut *self.state;
-        let emission = emitter::emit(emitters, spheres, next_id, time);
+        let emission = emitter::emit(emitters, spheres, next_id, time, room);
         self.report.emitted.extend(&emission.emitted);
         self.report.retired.extend(&emission.retired);
+        self.report.left_out.extend(&emission.left_out);
         emission
     }
 }

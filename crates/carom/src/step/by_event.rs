@@ -18,6 +18,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
         let end = advance(attempt, &mut timeline, end, until)?;
         attempt.end_at(end);
         place_spheres(attempt, &timeline, end)?;
+        attempt.state.spheres.motion.spin.advance(attempt.length);
         attempt.state.timeline = Some(timeline);
         Ok(())
     })?;
@@ -53,7 +54,7 @@ fn advance(
     until: Until,
 ) -> Result<f64, Error> {
     let (start, length) = (attempt.start, attempt.length);
-    emit(attempt, timeline, start);
+    emit(attempt, timeline, start)?;
     loop {
         let due = emitter::next_due(&attempt.state.emitters);
         let span = Span { start, length, end: due.min(end) };
@@ -65,14 +66,21 @@ fn advance(
         if due >= end || is_over {
             return Ok(came_to);
         }
-        emit(attempt, timeline, due);
+        emit(attempt, timeline, due)?;
     }
 }
 
 /// Emits the spheres that are due at `time` \[s\]; those that are there fly on.
-fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) {
+///
+/// # Errors
+/// [`Error::NonFiniteState`] if room is needed and a sphere is nowhere.
+fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) -> Result<(), Error> {
     if !emitter::any_due(&attempt.state.emitters, time) {
-        return;
+        return Ok(());
+    }
+    if emitter::any_needs_room(&attempt.state.emitters, time, attempt.room()) {
+        attempt.expect_emission();
+        place_spheres(attempt, timeline, time)?;
     }
     let known = attempt.state.spheres.ids().to_vec();
     let emission = attempt.emit(time);
@@ -84,6 +92,7 @@ fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) {
     let arrivals = Arrivals { known: &known, time_of, next };
     let (system, motion) = attempt.state.split();
     *timeline = exact::adopt(timeline, &system, motion, arrivals, time);
+    Ok(())
 }
 
 /// Puts all spheres where their flights are at `end` \[s\].
@@ -93,7 +102,6 @@ fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) {
 fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result<(), Error> {
     let (start, length) = (attempt.start, attempt.length);
     let (system, motion) = attempt.state.split();
-    motion.spin.advance(length);
     exact::end(timeline, &system, motion, Span { start, length, end }).map_err(
         |(index, quantity)| {
             let sphere = attempt.state.spheres.ids()[index];
