@@ -9,6 +9,7 @@ use glam::DVec3;
 use super::dormant::{self, Dormant, Partner};
 use super::slots::Slots;
 use super::solver::Solver;
+use super::sub_step::SLOP;
 
 /// A sphere is calm below this part of the speed `sqrt(a r)` that it would have after falling through half
 /// its radius.
@@ -20,6 +21,9 @@ const STEADY: f64 = 1e-3;
 const UNBORNE: f64 = 0.1;
 /// Time that a sphere, and all those so many contacts around it, are calm before it sleeps \[s\].
 pub(super) const PATIENCE: f64 = 0.5;
+/// Spheres that overlap by more than this part of the sum of their radii stay awake, for the overlap to be
+/// corrected.
+const DEEP: f64 = 4.0 * SLOP;
 /// How many contacts far a sphere that moves keeps others awake.
 pub(super) const NEAR: u32 = 2;
 /// It is looked for what may sleep once in so many frames: that costs as much as a sweep.
@@ -102,11 +106,22 @@ fn note_calm(slots: &mut Slots, frame: f64, h: f64) -> f64 {
     longest
 }
 
-/// By slot, whether a sphere has not been calm for long enough, or is [`NEAR`] one that has not.
+/// By slot, whether a sphere has not been calm for long enough, overlaps another one, or is [`NEAR`] one that is
+/// so.
 fn near_restless(solver: &Solver) -> Vec<bool> {
-    let Slots { sleeps, calm, .. } = &solver.slots;
+    let Slots { sleeps, calm, position, .. } = &solver.slots;
     let is_restless = |(&sleeps, &calm): (&bool, &f64)| !sleeps && calm < PATIENCE;
     let mut is_near: Vec<bool> = sleeps.iter().zip(calm).map(is_restless).collect();
+    for slab in solver.slabs.iter() {
+        for (number, lane, _) in slab.batches.contacts() {
+            let [first, second] = slab.slots_of(number, lane);
+            let offset = position[second].vector() - position[first].vector();
+            let reach = (1.0 - DEEP) * (position[first].number() + position[second].number());
+            if offset.length_squared() < reach * reach {
+                (is_near[first], is_near[second]) = (true, true);
+            }
+        }
+    }
     for _ in 0..NEAR {
         let nearer = is_near.clone();
         for slab in solver.slabs.iter() {

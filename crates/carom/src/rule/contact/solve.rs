@@ -4,7 +4,7 @@ use super::aim;
 use super::conjugate;
 use super::found::Found;
 use super::kernel;
-use super::slab::Direction;
+use super::slab::{Direction, Slab, Slabs};
 use super::solver::Solver;
 use super::sub_step::SubStep;
 use super::surfaces;
@@ -47,7 +47,8 @@ pub(super) fn sweep(
     account.residual = account.residual.max(residual);
 }
 
-/// Sweeps a number of times at least, and on over the slabs that are not apart. Gives the residual.
+/// Sweeps a number of times at least, and on over the slabs that are not apart and those beside them. Gives
+/// the residual.
 fn sweep_until_apart(
     solver: &mut Solver,
     sub_step: &SubStep,
@@ -61,13 +62,25 @@ fn sweep_until_apart(
         number += 1;
         let slabs = &mut solver.slabs;
         if number >= least {
-            slabs.iter_mut().for_each(|slab| slab.is_done |= slab.found.excess <= tolerable);
+            pass_over_apart(slabs, tolerable);
         }
         if number >= MORE * least || slabs.iter().all(|slab| slab.is_done) {
             slabs.iter_mut().for_each(|slab| slab.is_done = false);
             return found.residual();
         }
     }
+}
+
+/// Has sweeps pass over the slabs whose contacts close by no more than this speed \[m/s\], and those beside
+/// them: what presses there comes here next.
+fn pass_over_apart(slabs: &mut Slabs, tolerable: f64) {
+    let is_apart = |slab: &Slab| slab.found.excess <= tolerable;
+    let apart: Vec<bool> = slabs.list.iter().map(is_apart).collect();
+    for (number, slab) in slabs.list.iter_mut().enumerate() {
+        let near = number.saturating_sub(1)..(number + 2).min(apart.len());
+        slab.is_done = apart[near].iter().all(|it| *it);
+    }
+    slabs.far.is_done = is_apart(&slabs.far);
 }
 
 /// Sweeps there and back until impulses hardly change; without friction along conjugate directions in
