@@ -105,20 +105,20 @@ def test_parts_are_added_changed_and_removed() -> None:
     world.step(5.0)
     assert (world.ids.tolist(), world.emitters) == ([1, 2], {})
 
+    ball = carom.Sphere(position=(7, 7, 7), radius=0.25, mass=2.0, restitution=0.5)
+    world.set_sphere(1, ball)
+    assert world.sphere(1) == ball
 
-def test_an_emitter_that_needs_room_leaves_spheres_out():
+
+def test_an_emitter_that_needs_room_leaves_spheres_out() -> None:
     still = carom.Emitter(carom.Sphere(radius=0.1), period=0.5, needs_room=True)
-    world = carom.Scene(emitters=[still]).world()
+    world = carom.Scene(name="full", emitters=[still]).world()
     world.step(1.2)
     assert (world.emitted.tolist(), world.left_out.tolist()) == ([0], [1, 2])
     assert world.emitters[0].needs_room
     world.set_emitter(0, dataclasses.replace(still, needs_room=None))
     world.step(0.5)
     assert (world.emitted.tolist(), world.left_out.tolist()) == ([3], [])
-
-    ball = carom.Sphere(position=(7, 7, 7), radius=0.25, mass=2.0, restitution=0.5)
-    world.set_sphere(1, ball)
-    assert world.sphere(1) == ball
 
 
 def test_how_a_world_is_stepped_can_be_changed() -> None:
