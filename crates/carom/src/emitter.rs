@@ -81,8 +81,7 @@ impl Emitter {
         Self { max_spheres: max_spheres.into(), ..self }
     }
 
-    /// The same emitter, which leaves out spheres that would overlap others, or not; `None`: under the rule
-    /// `contact`.
+    /// This emitter with another [`Self::needs_room`].
     pub fn with_needs_room(self, needs_room: impl Into<Option<bool>>) -> Self {
         Self { needs_room: needs_room.into(), ..self }
     }
@@ -226,13 +225,13 @@ pub(crate) fn emit(
         let sphere = state.emitter.emitted();
         let max = state.emitter.max_spheres.map(|max| max as usize);
         while state.is_due(time) {
-            let id = SphereId(*next_id);
+            let (id, due) = (SphereId(*next_id), state.due());
             *next_id += 1;
+            state.emitted += 1;
             let is_full = max.is_some_and(|max| state.ring.len() >= max);
             let oldest = state.ring.front().copied().filter(|_| is_full);
             if state.needs(room) && !room.is_there(&sphere, spheres, oldest) {
                 emission.left_out.push(id);
-                state.emitted += 1;
                 continue;
             }
             if is_full {
@@ -240,11 +239,10 @@ pub(crate) fn emit(
             }
             spheres.push(id, &sphere);
             emission.emitted.push(id);
-            emission.due.push(state.due());
+            emission.due.push(due);
             if max.is_some() {
                 state.ring.push_back(id);
             }
-            state.emitted += 1;
         }
     }
     if !emission.retired.is_empty() {

@@ -71,15 +71,11 @@ fn settled(count: usize, width: f64, mu: f64, time: f64) -> Result<World, Error>
 
 /// The mean of some boxes that differ by chance. The world is that of the last.
 fn fraction(width: f64, mu: f64, time: f64) -> Outcome {
-    let mut sum = 0.0;
-    let mut last = None;
+    let (mut sum, mut world) = (0.0, World::default());
     for count in BOXES {
-        let world = settled(count, width, mu, time)?;
-        let region = Region::away_from_walls(&world, width);
-        sum += packing_fraction(&world, region);
-        last = Some(world);
+        world = settled(count, width, mu, time)?;
+        sum += packing_fraction(&world, Region::away_from_walls(&world, width));
     }
-    let world = last.unwrap_or_default();
     Ok(Measured::in_world(&world, sum / BOXES.len() as f64))
 }
 

@@ -8,30 +8,27 @@ use super::row::{self, Row};
 use super::slots::Run;
 use super::solver::Solver;
 use super::sub_step::SubStep;
-use crate::interval::Interval;
 use crate::lanes::{LANES, Lanes};
 use crate::real::{Real, Vector};
-use crate::settings::Contact;
 use crate::system::System;
 
 /// The number beside the velocity at the start of a sub-step, of a sphere that bears something: its
 /// difference to that of any other sphere is not zero.
 const BEARS: f64 = f64::INFINITY;
 
-/// Changes velocities over a sub-step by all forces, `v' = (v + h a) / (1 + h c)` with the rate c of
+/// Changes velocities over a sub-step of `h` \[s\], one of those of a frame that starts at a time \[s\], by all forces, `v' = (v + h a) / (1 + h c)` with the rate c of
 /// linear drag, which so slows down and never turns round.
 pub(super) fn accelerate(
     system: &System,
-    parameters: Contact,
-    frame: Interval,
+    frame_start: f64,
+    h: f64,
     number: u32,
     solver: &mut Solver,
 ) -> SubStep {
-    let h = frame.h / f64::from(parameters.sub_steps);
     let time = f64::from(number) * h;
     solver.h = h;
     if solver.has_other_forces {
-        solver.slots.add_other_forces(system, frame.time + time);
+        solver.slots.add_other_forces(system, frame_start + time);
     }
     let drift = solver.drift;
     solver.slabs.each(&mut solver.slots, |mut run, slab| {

@@ -47,7 +47,7 @@ impl Dormant {
         }
     }
 
-    /// The same contact as it acts on the partner, which sleeps; the sphere is awake.
+    /// What the contact is to the partner, which sleeps; the sphere is awake.
     fn reversed(self, partner: u32) -> Self {
         Self {
             sphere: partner,

@@ -72,9 +72,10 @@ pub(crate) fn step(
     report: &mut StepReport,
 ) {
     frame::begin(system, motion, solver);
+    let h = frame.h / f64::from(parameters.sub_steps);
     for number in 0..parameters.sub_steps {
-        wake::touched(system, solver, frame.h / f64::from(parameters.sub_steps));
-        let sub_step = accelerate::accelerate(system, parameters, frame, number, solver);
+        wake::touched(system, solver, h);
+        let sub_step = accelerate::accelerate(system, frame.time, h, number, solver);
         if solver.is_stale {
             neighbours::search(system, frame, &sub_step, solver, scratch, report);
         }

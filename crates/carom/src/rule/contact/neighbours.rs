@@ -40,7 +40,6 @@ pub(super) fn search(
     solver.is_stale = false;
     solver.drift = search.arrange(slots, [frame.h, sub_step.h]);
     divide(slots, slabs, search);
-    slots.read_masses(system);
     if !dormant.is_empty() {
         let places = search.places();
         dormant::renumber(dormant, |slot| places[slot]);

@@ -122,19 +122,33 @@ fn near_restless(solver: &Solver) -> Vec<bool> {
             }
         }
     }
-    for _ in 0..NEAR {
-        let nearer = is_near.clone();
-        for slab in solver.slabs.iter() {
-            for (number, lane, _) in slab.batches.contacts() {
-                let [first, second] = slab.slots_of(number, lane);
-                let bears = slab.batches.pairs[number].impulse[lane] > 0.0;
-                if bears && (nearer[first] || nearer[second]) {
-                    (is_near[first], is_near[second]) = (true, true);
-                }
+    let mut bearing = Vec::new();
+    for slab in solver.slabs.iter() {
+        for (number, lane, _) in slab.batches.contacts() {
+            if slab.batches.pairs[number].impulse[lane] > 0.0 {
+                bearing.push(slab.slots_of(number, lane));
             }
         }
     }
+    spread(&mut is_near, &bearing, Some(NEAR));
     is_near
+}
+
+/// Has what is so of spheres be so of those around them, too, as many contacts far or however far.
+pub(super) fn spread(is_so: &mut Vec<bool>, contacts: &[[usize; 2]], far: Option<u32>) {
+    let mut rounds = 0;
+    while far.is_none_or(|most| rounds < most) {
+        let before = is_so.clone();
+        for &[first, second] in contacts {
+            if before[first] || before[second] {
+                (is_so[first], is_so[second]) = (true, true);
+            }
+        }
+        rounds += 1;
+        if *is_so == before {
+            return;
+        }
+    }
 }
 
 /// Notes the contacts of spheres that fall asleep.

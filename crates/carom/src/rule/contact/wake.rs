@@ -145,19 +145,8 @@ fn wake(solver: &mut Solver, from: Vec<usize>, contacts: Option<u32>, calm_for: 
     let Slots { sleeps, calm, .. } = &mut solver.slots;
     let mut wakes = vec![false; sleeps.len()];
     from.into_iter().for_each(|slot| wakes[slot] = true);
-    let mut round = 0;
-    loop {
-        let before = wakes.clone();
-        for [first, second] in solver.dormant.iter().filter_map(Dormant::sleepers) {
-            if before[first] || before[second] {
-                (wakes[first], wakes[second]) = (true, true);
-            }
-        }
-        round += 1;
-        if wakes == before || contacts.is_some_and(|most| round >= most) {
-            break;
-        }
-    }
+    let sleepers: Vec<_> = solver.dormant.iter().filter_map(Dormant::sleepers).collect();
+    sleep::spread(&mut wakes, &sleepers, contacts);
     for (slot, _) in wakes.iter().enumerate().filter(|(_, wakes)| **wakes) {
         (sleeps[slot], calm[slot]) = (false, calm_for);
     }
