@@ -27,6 +27,7 @@ mod table;
 mod verify;
 #[cfg(feature = "view")]
 mod window;
+mod zone_totals;
 
 use std::ffi::OsString;
 

@@ -11,6 +11,7 @@ use serde::Serialize;
 use crate::advice::{Conduct, advice};
 use crate::contact_totals::ContactTotals;
 use crate::stage_work::StageWork;
+use crate::zone_totals::ZoneTotals;
 
 /// Watches a run.
 pub struct Observer {
@@ -30,8 +31,9 @@ pub struct Observer {
     /// In any group of impacts, under rules that keep a ledger.
     largest_momentum_error: f64,
     largest_energy_error: f64,
-    /// Under the rule `contact`.
+    /// Under the rule `contact`, and in zones.
     contact: ContactTotals,
+    zones: ZoneTotals,
 }
 
 impl Observer {
@@ -53,6 +55,7 @@ impl Observer {
             largest_momentum_error: 0.0,
             largest_energy_error: 0.0,
             contact: ContactTotals::default(),
+            zones: ZoneTotals::default(),
         }
     }
 
@@ -71,6 +74,7 @@ impl Observer {
         self.unfinished_islands += u64::from(report.unfinished_islands);
         self.work += report.work;
         self.contact.add(report);
+        self.zones.add(report);
         for group in &report.groups {
             self.largest_momentum_error = self.largest_momentum_error.max(group.momentum_error());
             self.largest_energy_error = self.largest_energy_error.max(group.energy_error());
@@ -122,8 +126,10 @@ pub struct Summary {
     /// Change of energy of any group of impacts against what restitution demands, relative to the
     /// energy at work; under the rule `exact`.
     largest_energy_error: Option<f64>,
-    /// Under the rule `contact`.
+    /// Under the rule `contact`, and where `exact` had stepped zones.
     contact: Option<ContactTotals>,
+    /// Where `exact` had stepped zones.
+    zones: Option<ZoneTotals>,
     wall_time: f64,
     stepping_time: f64,
     state_hash: String,
@@ -183,7 +189,8 @@ impl Summary {
             largest_overlap: observer.largest_overlap,
             largest_momentum_error: is_exact.then_some(observer.largest_momentum_error),
             largest_energy_error: is_exact.then_some(observer.largest_energy_error),
-            contact: is_contact.then_some(observer.contact),
+            contact: (is_contact || observer.zones.are_any()).then_some(observer.contact),
+            zones: observer.zones.are_any().then_some(observer.zones),
             wall_time: observer.began.elapsed().as_secs_f64(),
             stepping_time: observer.stepping.as_secs_f64(),
             state_hash: world.state_hash().to_string(),
@@ -247,6 +254,10 @@ impl Summary {
             ),
             ("state hash", self.state_hash.clone()),
         ];
+        if let Some(zones) = &self.zones {
+            let time = self.simulated_time;
+            rows.splice(6..6, [("stepped zones", zones.row(time))]);
+        }
         if let Some(contact) = &self.contact {
             // Before the momentum.
             rows.splice(6..6, contact.rows());

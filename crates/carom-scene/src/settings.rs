@@ -6,7 +6,7 @@ use crate::error::Problem;
 use crate::scene::values::vector;
 use crate::scene::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Scene,
-    Simulation, WindBack,
+    Simulation, WindBack, Zones,
 };
 
 impl Scene {
@@ -68,10 +68,17 @@ fn exact(parameters: &Exact) -> carom::Exact {
         ImpactLaw::Simultaneous => carom::ImpactLaw::Simultaneous,
         ImpactLaw::Reflection => carom::ImpactLaw::Reflection,
     };
+    let zones = match parameters.zones {
+        Zones::Automatic => carom::Zones::Automatic,
+        Zones::Never => carom::Zones::Never,
+    };
     carom::Exact::default()
         .with_impact_law(impact_law)
         .with_contact_duration(parameters.contact_duration)
         .with_max_impacts(parameters.max_impacts)
+        .with_zones(zones)
+        .with_zone_budget(parameters.zone_budget)
+        .with_zone_tick(parameters.zone_tick)
 }
 
 fn contact(parameters: &Contact) -> carom::Contact {

@@ -276,6 +276,19 @@ impl Properties {
         self.applied_force.get(index).map(|&force| force / self.mass[index])
     }
 
+    /// What some of the spheres are, by their indices, ascending.
+    pub fn of_some(&self, indices: &[u32]) -> Self {
+        Self {
+            id: some(&self.id, indices),
+            radius: some(&self.radius, indices),
+            mass: some(&self.mass, indices),
+            restitution: some(&self.restitution, indices),
+            friction: some(&self.friction, indices),
+            inertia_factor: some(&self.inertia_factor, indices),
+            applied_force: some(&self.applied_force, indices),
+        }
+    }
+
     /// What a sphere says of friction.
     pub fn friction(&self, index: usize) -> Friction {
         self.friction.get(index).copied().unwrap_or_default()
@@ -459,6 +472,12 @@ fn set<T: Copy + PartialEq>(values: &mut Vec<T>, count: usize, index: usize, val
         values.resize(count, usual);
         values[index] = value;
     }
+}
+
+/// Some items of an array that may be empty.
+fn some<T: Copy>(items: &[T], indices: &[u32]) -> Vec<T> {
+    let of_all = indices.iter().map(|&index| items.get(index as usize).copied());
+    of_all.flatten().collect()
 }
 
 /// Keeps the items that stay.

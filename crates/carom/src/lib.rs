@@ -72,11 +72,11 @@ pub use id::{ColliderId, EmitterId, ForceId, SphereId};
 pub use persistent_contact::PersistentContact;
 pub use report::{
     BodyPair, ContactAccount, Impact, ImpactGroup, LedgerEntry, Overlap, StageCounts, StepReport,
-    TriggerContact,
+    TriggerContact, ZoneAccount,
 };
 pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,
-    WindBack,
+    WindBack, Zones,
 };
 pub use work::StopRequest;
 pub use world::World;

@@ -46,11 +46,33 @@ pub struct StepReport {
     pub unfinished_islands: u32,
     /// The work of the step, by stage.
     pub work: StageCounts,
-    /// Under the rule `contact`, what became of kinetic energy, and how good the solution is.
+    /// Under the rule `contact`, and in the stepped zones of `exact`, what became of kinetic energy, and
+    /// how good the solution is.
     pub contact_account: ContactAccount,
+    /// Under the rule `exact`, which spheres were not moved from impact to impact, but stepped.
+    pub zone_account: ZoneAccount,
 }
 
-/// What became of kinetic energy in a step under the rule `contact`, and how good the solution is.
+/// What was stepped under the rule `exact`: spheres whose contacts took more work than
+/// [`Exact::zone_budget`](crate::Exact::zone_budget). How good their motion is,
+/// [`StepReport::contact_account`] tells.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
+pub struct ZoneAccount {
+    /// Spheres in a zone at the end of the step.
+    pub spheres: u32,
+    /// Time that spheres spent in a zone, of all of them together \[s\].
+    pub sphere_seconds: f64,
+    /// Ticks at which a zone was stepped.
+    pub ticks: u32,
+    /// Spheres that came into a zone.
+    pub joined: u32,
+    /// Spheres that left one.
+    pub left: u32,
+}
+
+/// What became of kinetic energy in a step under the rule `contact`, or in the stepped zones of `exact`,
+/// and how good the solution is.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ContactAccount {
@@ -127,6 +149,7 @@ impl StepReport {
         self.unfinished_islands = 0;
         self.work = StageCounts::default();
         self.contact_account = ContactAccount::default();
+        self.zone_account = ZoneAccount::default();
     }
 }
 

@@ -15,7 +15,7 @@ use crate::id::EmitterId;
 use crate::numbered::Numbered;
 use crate::persistent_contact::PersistentContact;
 use crate::rule::contact::{self, Solver};
-use crate::rule::exact::{self, Timeline};
+use crate::rule::exact::{self, Timeline, Zone};
 use crate::settings::{Rule, Settings};
 use crate::system::System;
 
@@ -34,6 +34,8 @@ pub(crate) struct State {
     /// Under the rule `exact`, the flights of the spheres; `None` where they have to begin anew,
     /// from the spheres as they are.
     pub timeline: Option<Timeline>,
+    /// Under the rule `exact`, what was stepped before the flights were dropped.
+    pub zone: Zone,
     /// Under the rule `contact`, neighbours and the impulses of contacts.
     pub solver: Solver,
 }
@@ -73,9 +75,16 @@ impl State {
     /// The state, to be changed from outside: nothing that was predicted holds any more, and neighbours
     /// are others.
     pub fn changed(&mut self) -> &mut Self {
-        self.timeline = None;
+        self.drop_flights();
         self.solver.set_changed();
         self
+    }
+
+    /// Has flights begin anew.
+    fn drop_flights(&mut self) {
+        if let Some(timeline) = self.timeline.take() {
+            self.zone = timeline.into_zone();
+        }
     }
 
     /// The colliders, to be changed from outside.
@@ -119,7 +128,9 @@ impl State {
     /// The flights, if all begin anew in each frame: then a change from outside to some of them leaves
     /// the others good. Any others are dropped.
     fn renewed_flights(&mut self) -> Option<&mut Timeline> {
-        self.timeline = self.timeline.take().filter(Timeline::is_renewed_each_frame);
+        if !self.timeline.as_ref().is_some_and(Timeline::is_renewed_each_frame) {
+            self.drop_flights();
+        }
         self.timeline.as_mut()
     }
 

@@ -21,7 +21,7 @@ pub use generator::{Generator, Stacking, StaggeredRows};
 pub use look::{Camera, Colors, DensityColor, Sun};
 pub use simulation::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule,
-    Simulation, WindBack,
+    Simulation, WindBack, Zones,
 };
 pub use sphere::Sphere;
 pub use values::{Color, Quaternion, Vector};

@@ -135,16 +135,55 @@ pub struct Exact {
     /// How long a contact lasts at least, in s, > 0: bodies that would meet again sooner stay together.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub contact_duration: f64,
-    /// Impacts and other work per sphere in a frame, >= 1; more is refused.
+    /// Impacts and other work per sphere in a frame, >= 1; more makes a stepped zone, or without zones is
+    /// refused.
     #[schemars(range(min = 1))]
     pub max_impacts: u32,
+    /// Whether spheres in contact that take too much work are stepped.
+    #[serde(skip_serializing_if = "is_default")]
+    pub zones: Zones,
+    /// Work of a group of spheres in a tick, in contacts times iterations, >= 1; more makes a stepped zone.
+    #[schemars(range(min = 1))]
+    #[serde(skip_serializing_if = "is_default_zone_budget")]
+    pub zone_budget: u32,
+    /// Time between two ticks, at which zones are stepped, in s, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[serde(skip_serializing_if = "is_default_zone_tick")]
+    pub zone_tick: f64,
+}
+
+fn is_default_zone_budget(zone_budget: &u32) -> bool {
+    *zone_budget == Exact::default().zone_budget
+}
+
+fn is_default_zone_tick(zone_tick: &f64) -> bool {
+    *zone_tick == Exact::default().zone_tick
 }
 
 impl Default for Exact {
     fn default() -> Self {
-        let carom::Exact { contact_duration, max_impacts, .. } = carom::Exact::default();
-        Self { impact_law: ImpactLaw::default(), contact_duration, max_impacts }
+        let carom::Exact { contact_duration, max_impacts, zone_budget, zone_tick, .. } =
+            carom::Exact::default();
+        Self {
+            impact_law: ImpactLaw::default(),
+            contact_duration,
+            max_impacts,
+            zones: Zones::default(),
+            zone_budget,
+            zone_tick,
+        }
     }
+}
+
+/// What becomes of spheres in contact whose impacts take too much work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Zones {
+    /// They are stepped as by the rule `contact`, until they have come apart.
+    #[default]
+    Automatic,
+    /// Every impact is answered, whatever it takes.
+    Never,
 }
 
 /// How spheres move under forces.

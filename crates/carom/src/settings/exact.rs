@@ -1,4 +1,4 @@
-use super::ImpactLaw;
+use super::{ImpactLaw, Zones};
 use crate::error::InvalidValue;
 use crate::validate;
 
@@ -15,9 +15,17 @@ pub struct Exact {
     /// resolved: `docs/physics/persistent-contacts.md`, "Contact duration".
     pub contact_duration: f64,
     /// Work of one sphere in a frame: its impacts, other events of its flight, and the work of the
-    /// groups it is in, in units of an impact. More is refused as an error, so that a step ends within
-    /// seconds.
+    /// groups it is in, in units of an impact. More makes a stepped zone, or, without zones, is refused
+    /// as an error, so that a step ends.
     pub max_impacts: u32,
+    /// Whether spheres in contact that take too much work are stepped.
+    pub zones: Zones,
+    /// Work of the groups of one sphere in a tick, in contacts times iterations of a solver: more makes a
+    /// stepped zone of the group.
+    pub zone_budget: u32,
+    /// Time between two ticks, at which zones are stepped \[s\], > 0. Ticks are at its multiples on the
+    /// world's clock.
+    pub zone_tick: f64,
 }
 
 impl Default for Exact {
@@ -30,6 +38,11 @@ impl Default for Exact {
             // More than a sphere at a third of the speed of light needs between walls 1 m apart in a
             // sixtieth of a second; some seconds of work.
             max_impacts: 5_000_000,
+            zones: Zones::default(),
+            // Some milliseconds; twice what a single impact of any validation case takes.
+            zone_budget: 300_000,
+            // A sub-step of the rule `contact` at 60 frames a second.
+            zone_tick: 1.0 / 480.0,
         }
     }
 }
@@ -50,8 +63,25 @@ impl Exact {
         Self { max_impacts, ..self }
     }
 
+    /// The same parameters, with or without stepped zones.
+    pub fn with_zones(self, zones: Zones) -> Self {
+        Self { zones, ..self }
+    }
+
+    /// The same parameters with this work of a group in a tick, from which on it is a zone.
+    pub fn with_zone_budget(self, zone_budget: u32) -> Self {
+        Self { zone_budget, ..self }
+    }
+
+    /// The same parameters with this time between two ticks \[s\].
+    pub fn with_zone_tick(self, zone_tick: f64) -> Self {
+        Self { zone_tick, ..self }
+    }
+
     pub(super) fn validate(&self) -> Result<(), InvalidValue> {
         validate::positive("contact_duration", self.contact_duration)?;
-        validate::at_least_one("max_impacts", self.max_impacts)
+        validate::at_least_one("max_impacts", self.max_impacts)?;
+        validate::at_least_one("zone_budget", self.zone_budget)?;
+        validate::positive("zone_tick", self.zone_tick)
     }
 }

@@ -10,6 +10,7 @@ mod exact;
 mod impact_law;
 mod integrator;
 mod rule;
+mod zones;
 
 pub use bisect::{Bisect, WindBack};
 pub use boundary::Boundary;
@@ -20,6 +21,7 @@ pub use exact::Exact;
 pub use impact_law::ImpactLaw;
 pub use integrator::Integrator;
 pub use rule::Rule;
+pub use zones::Zones;
 
 use crate::error::InvalidValue;
 use crate::validate;

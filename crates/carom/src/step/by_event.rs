@@ -36,10 +36,11 @@ fn begin(attempt: &mut Attempt, parameters: Exact, end: f64) -> Result<Timeline,
     let (state, time) = (&mut *attempt.state, attempt.start);
     check_count(state)?;
     check_box(state)?;
-    let before = state.timeline.take();
+    let (before, zone) = (state.timeline.take(), std::mem::take(&mut state.zone));
     let next_emission = emitter::next_due(&state.emitters);
     let (system, motion) = state.split();
-    let mut timeline = before.unwrap_or_else(|| exact::start(&system, parameters, motion, time));
+    let mut timeline =
+        before.unwrap_or_else(|| exact::start(&system, parameters, motion, zone, time));
     exact::begin(&mut timeline, &system, [time, end], next_emission)
         .map_err(|sphere| Error::NonFiniteState { sphere, quantity: "velocity", time })?;
     Ok(timeline)

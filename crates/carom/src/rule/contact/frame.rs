@@ -12,7 +12,6 @@ use super::surfaces;
 use super::wake;
 use crate::bodies::Motion;
 use crate::friction::Friction;
-use crate::interval::Interval;
 use crate::report::StepReport;
 use crate::rotation;
 use crate::system::System;
@@ -73,20 +72,20 @@ fn kinds_of(system: &System) -> ContactKinds {
     ContactKinds { friction: frictions().any(|it| it.acts()), rolling: frictions().any(rolls) }
 }
 
-/// Gives the world where spheres are and how they move.
+/// Gives the world where spheres are and how they move, after a time of `h` \[s\].
 pub(super) fn end(
     system: &System,
     motion: &mut Motion,
-    frame: Interval,
+    h: f64,
     solver: &mut Solver,
     report: &mut StepReport,
 ) {
     wake::loaded(system, solver);
-    sleep::fall_asleep(solver, frame.h);
+    sleep::fall_asleep(solver, h);
     report.contact_account.asleep = solver.slots.asleep() as u32;
     solver.slots.write(motion);
     if solver.slots.turn.is_empty() {
-        motion.spin.advance(frame.h);
+        motion.spin.advance(h);
     }
     for (slot, turn) in solver.slots.turn.iter().enumerate() {
         let orientation = &mut motion.spin.orientation[solver.slots.index[slot] as usize];

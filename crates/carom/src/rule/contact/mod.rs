@@ -15,6 +15,7 @@
 mod accelerate;
 mod advance;
 mod aim;
+mod apart;
 mod batch;
 mod conjugate;
 mod descent;
@@ -43,6 +44,7 @@ mod surfaces;
 mod swept;
 mod wake;
 
+pub(crate) use apart::near_others;
 pub(crate) use listing::persistent_contacts;
 pub(crate) use solver::{Scratch, Solver};
 
@@ -72,20 +74,46 @@ pub(crate) fn step(
     report: &mut StepReport,
 ) {
     frame::begin(system, motion, solver);
-    let h = frame.h / f64::from(parameters.sub_steps);
     for number in 0..parameters.sub_steps {
-        wake::touched(system, solver, h);
-        let sub_step = accelerate::accelerate(system, frame.time, h, number, solver);
-        if solver.is_stale {
-            neighbours::search(system, frame, &sub_step, solver, scratch, report);
-        }
-        solve::prepare(solver, &sub_step);
-        solve::sweep(solver, &sub_step, parameters, report);
-        energy::keep(solver, &sub_step, report);
-        impacts::report(system, solver, &sub_step, report);
-        impacts::note_bounces(solver, &sub_step);
-        advance::advance(system, solver, &sub_step);
-        solve::correct(solver, report);
+        sub_step(system, parameters, (frame, number), (solver, scratch), report);
     }
-    frame::end(system, motion, frame, solver, report);
+    frame::end(system, motion, frame.h, solver, report);
+}
+
+/// Advances all spheres by one sub-step, the first one of a frame: for a rule that looks at them after
+/// each.
+pub(crate) fn tick(
+    system: &System,
+    parameters: Contact,
+    motion: &mut Motion,
+    frame: Interval,
+    (solver, scratch): (&mut Solver, &mut Scratch),
+    report: &mut StepReport,
+) {
+    frame::begin(system, motion, solver);
+    sub_step(system, parameters, (frame, 0), (solver, scratch), report);
+    frame::end(system, motion, solver.h, solver, report);
+}
+
+/// Advances all spheres by a sub-step of a frame, by its number.
+fn sub_step(
+    system: &System,
+    parameters: Contact,
+    (frame, number): (Interval, u32),
+    (solver, scratch): (&mut Solver, &mut Scratch),
+    report: &mut StepReport,
+) {
+    let h = frame.h / f64::from(parameters.sub_steps);
+    wake::touched(system, solver, h);
+    let sub_step = accelerate::accelerate(system, frame.time, h, number, solver);
+    if solver.is_stale {
+        neighbours::search(system, frame, &sub_step, solver, scratch, report);
+    }
+    solve::prepare(solver, &sub_step);
+    solve::sweep(solver, &sub_step, parameters, report);
+    energy::keep(solver, &sub_step, report);
+    impacts::report(system, solver, &sub_step, report);
+    impacts::note_bounces(solver, &sub_step);
+    advance::advance(system, solver, &sub_step);
+    solve::correct(solver, report);
 }

@@ -10,7 +10,7 @@ use crate::detect::sphere_surface;
 use crate::id::SphereId;
 use crate::norm::Norm;
 use crate::report::{Impact, ImpactGroup, StageCounts, StepReport};
-use crate::settings::{CombineRule, Exact};
+use crate::settings::{CombineRule, Exact, Zones};
 use crate::surface::{Form, SurfaceMotion};
 use crate::system::System;
 use crate::work::Work;
@@ -46,6 +46,11 @@ impl<'a> StepContext<'a> {
         let period = system.settings.boundary.period();
         let (searches, counts) = Default::default();
         Self { system, parameters, report, counts, work, start, length, period, searches }
+    }
+
+    /// Whether what takes too much work is stepped. The rule `contact` knows no periodic box.
+    pub fn has_zones(&self) -> bool {
+        self.parameters.zones == Zones::Automatic && self.period == DVec3::INFINITY
     }
 
     pub fn combine_rule(&self) -> CombineRule {

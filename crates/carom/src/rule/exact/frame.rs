@@ -11,13 +11,15 @@ use super::pair_times::PairSearch;
 use super::persistent::{self, held_forces, piece_end};
 use super::predict;
 use super::span::Span;
+use super::stepped;
 use super::timeline::Timeline;
+use super::zone::Zone;
 use crate::bodies::Motion;
 use crate::id::SphereId;
 use crate::parallel;
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
-use crate::settings::Exact;
+use crate::settings::{Exact, Zones};
 use crate::surface::Role;
 use crate::system::System;
 use crate::work::Work;
@@ -41,10 +43,26 @@ pub(crate) struct Arrivals<'a, F: Fn(SphereId) -> f64> {
     pub next: f64,
 }
 
-/// Begins a flight of every sphere from its state at `time` \[s\].
-pub(crate) fn start(system: &System, parameters: Exact, motion: &Motion, time: f64) -> Timeline {
-    let flights = Flights::new(system, motion, |_| Err(time));
-    let mut timeline = Timeline { parameters, flights, frame: [time; 2], ..Timeline::default() };
+/// Begins a flight of every sphere from its state at `time` \[s\]. Those of a zone are in it again.
+pub(crate) fn start(
+    system: &System,
+    parameters: Exact,
+    motion: &Motion,
+    mut zone: Zone,
+    time: f64,
+) -> Timeline {
+    let mut flights = Flights::new(system, motion, |_| Err(time));
+    if parameters.zones == Zones::Never {
+        zone = Zone::default();
+    }
+    let velocity_of = |id| {
+        let index = system.spheres.id.binary_search(&id).ok()?;
+        flights.set_stepped(flights.slot_of[index]);
+        Some(motion.velocity[index])
+    };
+    zone.restart(time, parameters.zone_tick, velocity_of);
+    let frame = [time; 2];
+    let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     arrange(&mut timeline, system, time);
     predict_all(&mut timeline, system, time);
     timeline
@@ -66,9 +84,14 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
             Err(_) => Err((arrivals.time_of)(id)),
         }
     };
-    let flights = Flights::new(system, motion, flight_of);
+    let mut flights = Flights::new(system, motion, flight_of);
     let Timeline { parameters, frame, .. } = *before;
-    let mut timeline = Timeline { parameters, flights, frame, ..Timeline::default() };
+    let mut zone = before.zone.clone();
+    zone.follow(&system.spheres.id);
+    for index in zone.indices(&system.spheres.id) {
+        flights.set_stepped(flights.slot_of[index as usize]);
+    }
+    let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     arrange(&mut timeline, system, time);
     if timeline.flights.hold_forces {
         held_forces::renew(&mut timeline, system, [time, arrivals.next.min(before.frame[1])]);
@@ -130,6 +153,7 @@ pub(crate) fn end(
     let (report, work) = (&mut StepReport::default(), &Work::unlimited());
     let context = StepContext::new(system, timeline.parameters, span, work, report);
     piece_end::write_motion(timeline, &context, motion, span.end);
+    stepped::write_velocities(timeline, &system.spheres.id, motion, span.end);
     Ok(())
 }
 
@@ -142,7 +166,13 @@ pub(crate) fn persistent_contacts(
     let (report, work) = (&mut StepReport::default(), &Work::unlimited());
     let now = Span { start: time, length: 0.0, end: time };
     let context = StepContext::new(system, timeline.parameters, now, work, report);
-    persistent::list(timeline, &context, time)
+    let mut contacts = persistent::list(timeline, &context, time);
+    let stepped = timeline.zone.persistent_contacts(system);
+    if !stepped.is_empty() {
+        contacts.extend(stepped);
+        contacts.sort_by_key(|contact| contact.between);
+    }
+    contacts
 }
 
 /// Puts the spheres in the order of their places, and finds their neighbours as of `time` \[s\]. What
@@ -168,6 +198,7 @@ fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
     }
     (timeline.events, timeline.cell_crossings) = (0, 0);
     timeline.work.begin(&flights.bodies);
+    stepped::find_near(timeline);
 }
 
 fn contents<'a>(flights: &'a Flights, system: &System<'a>, time: f64) -> Contents<'a> {

@@ -14,6 +14,7 @@
 //! What was predicted stays good from frame to frame. `docs/physics/exact.md` has the stages under the
 //! same names.
 
+mod budget;
 mod clearance;
 mod contact_scale;
 mod contacts;
@@ -30,12 +31,15 @@ mod persistent;
 mod predict;
 mod prefetch;
 mod span;
+mod stepped;
 mod timeline;
+mod zone;
 
 pub(crate) use frame::{Arrivals, adopt, begin, end, persistent_contacts, start};
 pub(crate) use neighbours::MAX_SPHERES;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
+pub(crate) use zone::Zone;
 
 use std::mem::take;
 
@@ -88,45 +92,62 @@ pub(crate) fn advance(
     let mut context = StepContext::new(system, timeline.parameters, span, work, report);
     let before = WorkSoFar::of(timeline, work);
     let mut end = span.end;
-    while let Some((slot, next)) = timeline.next(end) {
-        prefetch::upcoming_events(timeline, system);
-        if !work.spend(UNITS_PER_FLIGHT) {
-            return Err(Unfinished::Stopped);
-        }
-        let event = match next {
-            UpcomingEvent::Event(event) => event,
-            UpcomingEvent::CellCrossing(time) => {
-                predict::cross_cell(timeline, &mut context, slot, time);
-                continue;
-            }
+    loop {
+        let tick = timeline.zone.next_tick();
+        let now = match timeline.next(end.min(tick)) {
+            Some((slot, next)) => happen(timeline, &mut context, slot, next)?,
+            None if tick <= end => stepped::tick(timeline, &mut context),
+            None => break,
         };
-        match event.target.unpacked() {
-            EventTarget::Restart => predict::restart(timeline, &mut context, slot, event.time),
-            EventTarget::Sphere(_) if timeline.is_void(&event) => {
-                predict::fall_back(timeline, &mut context, slot, event.time);
-            }
-            EventTarget::Sphere(other) => {
-                impact::of_spheres(timeline, &mut context, [slot, other], event.time);
-            }
-            EventTarget::Surface(surface) => {
-                impact::of_sphere(timeline, &mut context, slot, Some(surface), event.time);
-            }
-            EventTarget::Cluster => {
-                impact::of_sphere(timeline, &mut context, slot, None, event.time);
-            }
-        }
         if work.is_stopped() {
             return Err(Unfinished::Stopped);
         }
-        check_work(timeline, &context, slot, event.time)?;
         if until == Until::NextImpact && !context.report.impacts.is_empty() {
-            end = event.time.min(end);
+            end = now.min(end);
         }
     }
     let counts = before.counts_since(timeline, &context);
     context.report.work += take(&mut timeline.work.unreported);
     context.report.work += counts;
+    context.report.zone_account.spheres = timeline.zone.len() as u32;
     Ok(end)
+}
+
+/// Has happen what is next to the sphere at `slot`. Gives the time \[s\].
+fn happen(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    next: UpcomingEvent,
+) -> Result<f64, Unfinished> {
+    prefetch::upcoming_events(timeline, context.system);
+    if !context.work.spend(UNITS_PER_FLIGHT) {
+        return Err(Unfinished::Stopped);
+    }
+    let event = match next {
+        UpcomingEvent::Event(event) => event,
+        UpcomingEvent::CellCrossing(time) => {
+            predict::cross_cell(timeline, context, slot, time);
+            return Ok(time);
+        }
+    };
+    match event.target.unpacked() {
+        EventTarget::Restart => predict::restart(timeline, context, slot, event.time),
+        EventTarget::Sphere(_) if timeline.is_void(&event) => {
+            predict::fall_back(timeline, context, slot, event.time);
+        }
+        EventTarget::Sphere(other) => {
+            impact::of_spheres(timeline, context, [slot, other], event.time);
+        }
+        EventTarget::Surface(surface) => {
+            impact::of_sphere(timeline, context, slot, Some(surface), event.time);
+        }
+        EventTarget::Cluster => {
+            impact::of_sphere(timeline, context, slot, None, event.time);
+        }
+    }
+    check_work(timeline, context, slot, event.time)?;
+    Ok(event.time)
 }
 
 /// Work before a part of a frame.
@@ -157,15 +178,19 @@ impl WorkSoFar {
     }
 }
 
-/// Refuses more work of a sphere in a frame than the parameters allow.
+/// Has a sphere that takes more work in a frame than the parameters allow be stepped, or refuses it.
 fn check_work(
-    timeline: &Timeline,
-    context: &StepContext,
+    timeline: &mut Timeline,
+    context: &mut StepContext,
     slot: u32,
     time: f64,
 ) -> Result<(), Unfinished> {
     let limit = context.parameters.max_impacts;
-    if timeline.work_in_frame(slot) <= u64::from(limit) {
+    if timeline.work_in_frame(slot) <= u64::from(limit) || timeline.flights.is_stepped(slot) {
+        return Ok(());
+    }
+    if context.has_zones() {
+        stepped::make_zone_about(timeline, context, slot, time);
         return Ok(());
     }
     let sphere = context.id_of(timeline, slot);

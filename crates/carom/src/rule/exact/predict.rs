@@ -71,7 +71,8 @@ fn prediction_after(
     let species = &timeline.flights.species[body.species as usize];
     let (neighbours, horizon) = (&timeline.neighbours, timeline.flight_end(species));
     let stays = horizon < f64::INFINITY && neighbours.stays(slot, body, species, horizon);
-    if !(system.surfaces.is_empty() || (stays && timeline.is_clear_of_surfaces(slot))) {
+    let meets_none = system.surfaces.is_empty() || species.is_stepped;
+    if !(meets_none || (stays && timeline.is_clear_of_surfaces(slot))) {
         meet_surfaces(timeline, system, slot, body, species, &mut events);
     }
     if let Some(cluster) = species.cluster {
@@ -142,11 +143,26 @@ pub(super) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slo
     timeline.cross_cell(slot, state.into(), &mut search.near);
     let mut events = timeline.schedule.next_events(slot);
     search.search_found(timeline, slot, now);
+    note_zone(timeline, slot, search);
     let found = search.first_meetings(timeline, slot);
     events.add(found.first);
     events.add(found.second);
     let prediction = prediction_after(timeline, context.system, slot, events, now);
     timeline.enter(slot, prediction);
+}
+
+/// Notes that a sphere has come near one in a zone, or others near it, which is in one.
+fn note_zone(timeline: &mut Timeline, slot: u32, search: &PairSearch) {
+    let Timeline { flights, zone, .. } = timeline;
+    if zone.is_empty() {
+        return;
+    }
+    let mut others = search.near.others(slot).map(|near| near.slot());
+    if flights.is_stepped(slot) {
+        zone.near.extend(others.filter(|&other| !flights.is_stepped(other)));
+    } else if others.any(|other| flights.is_stepped(other)) {
+        zone.near.push(slot);
+    }
 }
 
 /// Adds the surfaces near it that a sphere meets to its next events.

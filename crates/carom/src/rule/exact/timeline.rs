@@ -2,11 +2,13 @@
 
 use glam::DVec3;
 
+use super::budget::Budget;
 use super::clearance::{Clearance, Obstacle};
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
 use super::flights::{Flights, Species};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
+use super::zone::Zone;
 use crate::settings::Exact;
 use crate::system::System;
 
@@ -28,6 +30,10 @@ pub(crate) struct Timeline {
     /// By slot, where flights begin anew in each frame, near surfaces none of which moves; else empty.
     pub(super) clearances: Vec<Clearance>,
     pub(super) work: FrameWork,
+    /// What groups spent in a tick.
+    pub(super) budget: Budget,
+    /// The spheres that are stepped.
+    pub(super) zone: Zone,
     /// When surfaces are where the system says, and until when that tells how they turn, on the
     /// world's clock \[s\]: the frame.
     pub(super) frame: [f64; 2],
@@ -37,9 +43,15 @@ pub(crate) struct Timeline {
 }
 
 impl Timeline {
-    /// Whether all flights begin anew at the start of each frame, for forces that are held over it.
+    /// Whether all flights begin anew at the start of each frame, for forces that are held over it, and
+    /// none of them is in a zone.
     pub fn is_renewed_each_frame(&self) -> bool {
-        self.flights.hold_forces
+        self.flights.hold_forces && self.zone.is_empty()
+    }
+
+    /// What is stepped, to go on with where the flights are dropped.
+    pub fn into_zone(self) -> Zone {
+        self.zone
     }
 
     /// Whether there are more spheres than the fast caches hold.
@@ -55,9 +67,13 @@ impl Timeline {
     }
 
     /// Until when a sphere of this species stays on its flight at most, on the world's clock \[s\]:
-    /// until the forces of its persistent contacts are found anew, or all flights begin anew.
+    /// until the forces of its persistent contacts are found anew, the zone that it is in is stepped, or
+    /// all flights begin anew.
     #[inline]
     pub(super) fn flight_end(&self, species: &Species) -> f64 {
+        if species.is_stepped {
+            return self.zone.next_tick().min(self.horizon());
+        }
         let renewal = species.cluster.map(|number| self.flights.clusters.get(number).renewal);
         renewal.map_or(self.horizon(), |renewal| renewal.min(self.horizon()))
     }

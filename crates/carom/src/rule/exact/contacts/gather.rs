@@ -152,6 +152,10 @@ impl<'a> Gathering<'a> {
         timeline.neighbours.find(slot, species.level, &mut around);
         for neighbour in around.others(slot) {
             let (near, shift) = (neighbour.slot(), timeline.neighbours.shift_of(slot, neighbour));
+            if timeline.flights.is_stepped(near) {
+                // What meets it joins its zone.
+                continue;
+            }
             let (near_place, near_velocity) = timeline.flights.state_of(near, self.time);
             let radius_sum = species.radius + timeline.flights.species_of(near).radius;
             let gap = (near_place + shift - place).norm() - radius_sum;

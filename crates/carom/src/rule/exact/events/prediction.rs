@@ -36,6 +36,9 @@ pub(crate) struct NextEvents {
 }
 
 impl NextEvents {
+    /// None.
+    pub const NEVER: Self = Self { first: Event::NEVER, second: Event::NEVER };
+
     /// One event, where it is not known what comes if it does not.
     pub fn only(first: Event) -> Self {
         Self { first, second: Event::UNKNOWN }

@@ -28,8 +28,10 @@ pub(crate) struct Species {
     pub level: u32,
     /// The cluster whose persistent contacts act on the sphere. Such a sphere is a species of its own.
     pub cluster: Option<u32>,
-    /// The number of this species, or of what the sphere is without contact forces.
+    /// The number of this species, or of what the sphere is without contact forces and out of a zone.
     pub free: u32,
+    /// Whether these spheres are in a stepped zone.
+    pub is_stepped: bool,
 }
 
 impl Species {
@@ -39,14 +41,15 @@ impl Species {
         self.acceleration == DVec3::ZERO && self.drag_rate == 0.0
     }
 
-    /// Whether the relative motion of two spheres is straight and uniform, and no persistent contact
-    /// holds both of them.
+    /// Whether the relative motion of two spheres is straight and uniform for as long as they fly, and no
+    /// persistent contact holds both of them.
     #[inline(always)]
     pub fn flies_like(&self, other: &Self) -> bool {
         self.acceleration == other.acceleration
             && self.drag_rate == 0.0
             && other.drag_rate == 0.0
             && (self.cluster.is_none() || other.cluster.is_none())
+            && !(self.is_stepped || other.is_stepped)
     }
 }
 
@@ -90,6 +93,7 @@ impl SpeciesOfSpheres {
                     level,
                     cluster: None,
                     free: number,
+                    is_stepped: false,
                 });
             }
             number_of.push(number);

@@ -1,5 +1,7 @@
 //! The flights of all spheres: the state that the rule keeps between frames.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use super::body::Body;
@@ -17,6 +19,8 @@ pub(crate) struct Flights {
     pub species: Vec<Species>,
     /// Numbers of species without spheres.
     spare_species: Vec<u32>,
+    /// The species of spheres in a zone, by what they are out of it.
+    stepped_species: BTreeMap<u32, u32>,
     /// Place of each slot in the arrays of the world, and back.
     pub index_of: Vec<u32>,
     pub slot_of: Vec<u32>,
@@ -46,6 +50,7 @@ impl Flights {
             bodies: (0..count).map(body).collect(),
             species,
             spare_species: Vec::new(),
+            stepped_species: BTreeMap::new(),
             slot_of: index_of.clone(),
             index_of,
             clusters: Clusters::default(),
@@ -124,6 +129,46 @@ impl Flights {
         self.spare_species.push(self.bodies[slot as usize].species);
         self.bodies[slot as usize].species = species.free;
         true
+    }
+
+    /// Has a sphere fly straight in a zone from this place \[m\] on with a velocity \[m/s\], free of contact
+    /// forces, since a time \[s\].
+    pub fn enter_zone(&mut self, slot: u32, [position, velocity]: [DVec3; 2], time: f64) {
+        self.set_free(slot);
+        self.set_stepped(slot);
+        self.bodies[slot as usize].begin_flight(position, velocity, time);
+    }
+
+    /// Has a sphere whose flight is known be in a zone.
+    pub fn set_stepped(&mut self, slot: u32) {
+        let free = self.bodies[slot as usize].species;
+        let next = self.species.len() as u32;
+        let number = *self.stepped_species.entry(free).or_insert(next);
+        if number == next {
+            let species = self.species[free as usize];
+            self.species.push(Species {
+                acceleration: DVec3::ZERO,
+                drag_rate: 0.0,
+                is_stepped: true,
+                ..species
+            });
+        }
+        self.bodies[slot as usize].species = number;
+    }
+
+    /// Has a sphere that was in a zone fly freely from this place \[m\] on with a velocity \[m/s\], since a
+    /// time \[s\].
+    pub fn leave_zone(&mut self, slot: u32, [position, velocity]: [DVec3; 2], time: f64) {
+        let free = self.species_of(slot).free;
+        let body = &mut self.bodies[slot as usize];
+        body.species = free;
+        body.begin_flight(position, velocity, time);
+    }
+
+    /// Whether a sphere is in a zone.
+    #[inline]
+    pub fn is_stepped(&self, slot: u32) -> bool {
+        self.species_of(slot).is_stepped
     }
 
     /// Makes spheres that are free a cluster.

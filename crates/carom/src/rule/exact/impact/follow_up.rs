@@ -61,7 +61,9 @@ impl Search<'_> {
         let index = timeline.flights.index_of[member.slot as usize];
         let mut near = NeighbourBuffer::default();
         timeline.neighbours.find(member.slot, member.species.level, &mut near);
-        for neighbour in near.others(member.slot) {
+        let flights = &timeline.flights;
+        let free = near.others(member.slot).filter(|it| !flights.is_stepped(it.slot()));
+        for neighbour in free {
             let other_index = timeline.flights.index_of[neighbour.slot() as usize];
             let bodies = Bodies::pair([index, other_index]);
             let other = self.state_of(neighbour.slot(), other_index);

@@ -17,6 +17,7 @@ use crate::rule::exact::frame_work::UNITS_PER_FLIGHT;
 use crate::rule::exact::periodic;
 use crate::rule::exact::persistent::{piece_end, solve};
 use crate::rule::exact::predict::{self, Unresolved};
+use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
 
 /// Answers what happens at `time` \[s\] among the spheres at `seeds`, the surface they met, if any,
@@ -29,14 +30,15 @@ pub(super) fn answer(
     time: f64,
 ) {
     let work_before = context.work.done();
-    context.work.allow(UNITS_PER_FLIGHT * (u64::from(context.parameters.max_impacts) + 1));
+    let recorded = [context.report.impacts.len(), context.report.groups.len()];
+    let mut allowance = None;
     let mut merged = Vec::new();
     let (mut group, answer) = loop {
-        let mut group = contacts::gather(timeline, context, seeds, surface, &merged, time);
-        piece_end::settle(timeline, context, &mut group);
+        let mut group = gather(timeline, context, seeds, surface, &merged, time);
+        let allowed = *allowance.get_or_insert_with(|| allow_work(timeline, context, &group));
         let answer = respond_to_impacts(timeline, context, &mut group, &merged);
         let found = follow_up::follow_ups(timeline, context, &group, &answer.struck(&group));
-        if found.is_empty() || !context.work.spend(group.members.len() as u64) {
+        if found.is_empty() || allowed == 0 || !context.work.spend(group.members.len() as u64) {
             break (group, answer);
         }
         merged.extend(found);
@@ -45,20 +47,62 @@ pub(super) fn answer(
     record(context, &group, &answer);
     let struck = answer.struck(&group);
     let supports = solve::find(context, &mut group);
+    let spent = context.work.done() - work_before;
+    context.work.allow(u64::MAX);
+    if context.has_zones() && allowance.is_some_and(|allowed| spent >= allowed) {
+        context.report.impacts.truncate(recorded[0]);
+        context.report.groups.truncate(recorded[1]);
+        let group = gather(timeline, context, seeds, surface, &merged, time);
+        return stepped::make_zone(timeline, context, &group);
+    }
+    let indices: Vec<u32> = indices_of(timeline, &group).collect();
+    timeline.budget.charge(indices.into_iter(), spent);
     let held: Vec<Bodies> =
         supports.iter().flat_map(|support| &support.contacts).copied().collect();
     begin_flights(timeline, &group, &struck, supports);
     for member in &group.members {
         predict::predict(timeline, context, member.slot, group.time);
     }
-    let work = (context.work.done() - work_before) / UNITS_PER_FLIGHT;
-    timeline.work.charge(group.members.iter().map(|member| member.slot), work);
-    context.work.allow(u64::MAX);
+    let slots = group.members.iter().map(|member| member.slot);
+    timeline.work.charge(slots, spent / UNITS_PER_FLIGHT);
     // Bodies that touch and part, or still close by rounding, may be predicted to meet at once.
     let unresolved = unresolved(timeline, context, &group, &held, met(timeline, seeds, surface));
     for member in &group.members {
         predict::pass_over(timeline, member.slot, &unresolved);
     }
+}
+
+/// What touches at `time` \[s\], as it comes to that.
+fn gather(
+    timeline: &Timeline,
+    context: &StepContext,
+    seeds: &[u32],
+    surface: Option<u32>,
+    merged: &[Bodies],
+    time: f64,
+) -> Group {
+    let mut group = contacts::gather(timeline, context, seeds, surface, merged, time);
+    piece_end::settle(timeline, context, &mut group);
+    group
+}
+
+/// Lets solvers do no more work than a group may take; tells how much.
+fn allow_work(timeline: &mut Timeline, context: &StepContext, group: &Group) -> u64 {
+    let in_frame = UNITS_PER_FLIGHT * (u64::from(context.parameters.max_impacts) + 1);
+    let allowed = if context.has_zones() {
+        let indices: Vec<u32> = indices_of(timeline, group).collect();
+        let budget = &mut timeline.budget;
+        budget.allowance(context.parameters, indices.into_iter(), group.time).min(in_frame)
+    } else {
+        in_frame
+    };
+    context.work.allow(allowed);
+    allowed
+}
+
+/// The spheres of a group, by index.
+fn indices_of<'a>(timeline: &'a Timeline, group: &'a Group) -> impl Iterator<Item = u32> + use<'a> {
+    group.members.iter().map(|member| timeline.flights.index_of[member.slot as usize])
 }
 
 /// The bodies that touch and are not `held` in persistent contact, and those whose meeting was

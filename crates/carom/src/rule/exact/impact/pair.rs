@@ -14,6 +14,7 @@ use crate::rule::exact::flights::Body;
 use crate::rule::exact::pair_times::NearTest;
 use crate::rule::exact::periodic;
 use crate::rule::exact::predict;
+use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
 
 /// Whatever is nearer to a sphere than this part of the distance of centres may take part in the
@@ -34,6 +35,9 @@ pub(crate) fn of_spheres(
     let slots = select_unpredictable(is_ordered, [one, other], [other, one]);
     let are_free = timeline.flights.only_species().is_some() || {
         let species = slots.map(|slot| timeline.flights.species_of(slot));
+        if species.iter().any(|species| species.is_stepped) {
+            return stepped::meet(timeline, context, slots, time);
+        }
         species[0].flies_like(species[1]) && species.iter().all(|species| species.cluster.is_none())
     };
     if !are_free {

@@ -167,7 +167,8 @@ fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 
     let bodies = slots.map(|slot| &flights.bodies[slot as usize]);
     let species = slots.map(|slot| flights.species_of(slot));
     let indices @ [index, other_index] = slots.map(|slot| flights.index_of[slot as usize]);
-    if flights.are_held_together(Bodies::pair(indices)) {
+    let are_stepped = species.map(|species| species.is_stepped);
+    if are_stepped == [true; 2] || flights.are_held_together(Bodies::pair(indices)) {
         // No impact ends their flights.
         return f64::INFINITY;
     }
@@ -183,12 +184,14 @@ fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 
             return f64::INFINITY;
         }
     }
-    if index < other_index {
+    let time = if index < other_index {
         time_of_contact(bodies, species, shift)
     } else {
         // In the order of ids: the other way round the same time might round differently.
         time_of_contact([bodies[1], bodies[0]], [species[1], species[0]], -shift)
-    }
+    };
+    let is_too_late = are_stepped != [false; 2] && time > end;
+    if is_too_late { f64::INFINITY } else { time }
 }
 
 /// When two spheres meet that fly differently, on the world's clock \[s\]; infinite if never. The search

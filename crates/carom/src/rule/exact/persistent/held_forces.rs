@@ -15,6 +15,9 @@ use crate::system::System;
 /// everywhere; others are found anew.
 pub(crate) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64; 2]) {
     for slot in 0..timeline.flights.bodies.len() as u32 {
+        if timeline.flights.is_stepped(slot) {
+            continue;
+        }
         let species = *timeline.flights.free_species_of(slot);
         let index = timeline.flights.index_of[slot as usize] as usize;
         let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);

@@ -1,0 +1,44 @@
+//! Which spheres are near others: a rule that lets single spheres fly takes those that are not.
+
+use super::dormant::Partner;
+use super::solver::Solver;
+use crate::id::SphereId;
+
+/// A sphere is near another one whose gap is below this part of the sum of radii.
+const NEAR: f64 = 0.05;
+/// Or one that it meets within so many sub-steps.
+const SUB_STEPS: f64 = 16.0;
+
+/// Whether each sphere is near another one, in order of ids.
+pub(crate) fn near_others(solver: &Solver) -> Vec<(SphereId, bool)> {
+    let Solver { slots, slabs, dormant, h, .. } = solver;
+    let mut is_near = vec![false; slots.len()];
+    for slab in slabs.iter() {
+        for (number, lane, _) in slab.batches.contacts() {
+            let both = slab.slots_of(number, lane);
+            let [from, to] = both.map(|slot| slots.position[slot]);
+            let offset = to.vector() - from.vector();
+            let [before, after] = both.map(|slot| slots.velocity[slot].vector());
+            let radius_sum = from.number() + to.number();
+            let (distance, velocity) = (offset.length(), after - before);
+            let closing = -velocity.dot(offset) / distance;
+            let gap = distance - radius_sum;
+            if gap < NEAR * radius_sum || gap < SUB_STEPS * h * closing {
+                both.into_iter().for_each(|slot| is_near[slot] = true);
+            }
+        }
+    }
+    for contact in dormant {
+        match contact.partner {
+            Partner::Sphere(other) | Partner::Awake(other) => {
+                for slot in [contact.sphere, other] {
+                    is_near.get_mut(slot as usize).into_iter().for_each(|it| *it = true);
+                }
+            }
+            Partner::Surface(_) => {}
+        }
+    }
+    let mut all: Vec<_> = slots.id.iter().copied().zip(is_near).collect();
+    all.sort_unstable_by_key(|sphere| sphere.0);
+    all
+}

@@ -1,0 +1,51 @@
+//! The budget of groups: how much work impacts may take in a tick, before their spheres are stepped.
+
+use std::collections::BTreeMap;
+
+use crate::settings::Exact;
+
+/// Each time that all groups together have spent the budget of one, the budget of each is halved, so that
+/// many cost hardly more than a few; so often at most.
+const MOST_HALVINGS: u64 = 16;
+
+/// What the groups of a tick have spent, in units of work.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Budget {
+    /// The number of the tick.
+    tick: f64,
+    /// By index of the sphere.
+    of_spheres: BTreeMap<u32, u64>,
+    of_all: u64,
+}
+
+impl Budget {
+    /// How much a group of these spheres, by index, may spend at `time` \[s\].
+    pub fn allowance(
+        &mut self,
+        parameters: Exact,
+        spheres: impl Iterator<Item = u32>,
+        time: f64,
+    ) -> u64 {
+        self.follow(time / parameters.zone_tick);
+        let of_each = u64::from(parameters.zone_budget);
+        let halvings = (self.of_all / of_each).min(MOST_HALVINGS);
+        let spent = spheres.filter_map(|index| self.of_spheres.get(&index)).max();
+        (of_each >> halvings).saturating_sub(spent.copied().unwrap_or(0))
+    }
+
+    /// Counts what a group of these spheres has spent.
+    pub fn charge(&mut self, spheres: impl Iterator<Item = u32>, spent: u64) {
+        self.of_all += spent;
+        spheres.for_each(|index| *self.of_spheres.entry(index).or_default() += spent);
+    }
+
+    /// Begins anew if a time, in ticks, is in another tick.
+    fn follow(&mut self, ticks: f64) {
+        let tick = ticks.floor();
+        if tick != self.tick {
+            self.tick = tick;
+            self.of_all = 0;
+            self.of_spheres.clear();
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! How spheres come into a zone.
+
+use glam::DVec3;
+
+use crate::rule::exact::contacts::{self, Group};
+use crate::rule::exact::context::StepContext;
+use crate::rule::exact::predict;
+use crate::rule::exact::timeline::Timeline;
+
+/// Makes a zone of a group, as its spheres came to it.
+///
+/// Until the next tick they wait, or go on together with their mean velocity where no surface is in the
+/// way; then their own velocities count.
+pub(crate) fn make_zone(timeline: &mut Timeline, context: &mut StepContext, group: &Group) {
+    let touches_surface = group.touches.iter().any(|touch| touch.first.is_none());
+    let mass: f64 = group.members.iter().map(|member| member.species.mass).sum();
+    let momenta = group.members.iter().map(|member| member.species.mass * member.velocity);
+    let common = if touches_surface { DVec3::ZERO } else { momenta.sum::<DVec3>() / mass };
+    for member in &group.members {
+        let state = [member.position, member.velocity];
+        join(timeline, context, member.slot, state, common, group.time);
+    }
+    let slots = group.members.iter().map(|member| member.slot);
+    look_around(timeline, context, slots, group.time);
+}
+
+/// Makes a zone of a sphere at `time` \[s\], and of what touches it.
+pub(crate) fn make_zone_about(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    time: f64,
+) {
+    let group = contacts::gather(timeline, context, &[slot], None, &[], time);
+    make_zone(timeline, context, &group);
+}
+
+/// Answers the meeting of a sphere in a zone with one that is in none, at `time` \[s\]: that one joins the
+/// zone, with all that is in persistent contact with it, and goes along with the other until the next tick.
+pub(crate) fn meet(timeline: &mut Timeline, context: &mut StepContext, slots: [u32; 2], time: f64) {
+    let [comes, stepped] =
+        if timeline.flights.is_stepped(slots[0]) { [slots[1], slots[0]] } else { slots };
+    let common = timeline.flights.bodies[stepped as usize].velocity;
+    let cluster = timeline.flights.species_of(comes).cluster;
+    let coming = match cluster {
+        Some(number) => timeline.flights.clusters.get(number).members.clone(),
+        None => vec![comes],
+    };
+    let states: Vec<_> = coming.iter().map(|&slot| timeline.flights.state_of(slot, time)).collect();
+    for (&slot, state) in coming.iter().zip(states) {
+        join(timeline, context, slot, state.into(), common, time);
+    }
+    look_around(timeline, context, coming.into_iter(), time);
+}
+
+/// Has a sphere join a zone with this centre \[m\] and velocity \[m/s\]; until the next tick it moves with
+/// the `common` velocity \[m/s\].
+fn join(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    [position, velocity]: [DVec3; 2],
+    common: DVec3,
+    time: f64,
+) {
+    timeline.set_free(slot);
+    timeline.flights.enter_zone(slot, [position, common], time);
+    let sphere = context.id_of(timeline, slot);
+    timeline.zone.join(sphere, velocity, time, context.parameters.zone_tick);
+    context.report.zone_account.joined += 1;
+}
+
+/// Predicts what spheres in a zone meet next, and notes the others near them.
+fn look_around(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slots: impl Iterator<Item = u32>,
+    time: f64,
+) {
+    for slot in slots {
+        predict::predict(timeline, context, slot, time);
+        let Timeline { flights, zone, .. } = timeline;
+        let others = context.searches[0].near.others(slot).map(|near| near.slot());
+        zone.near.extend(others.filter(|&other| !flights.is_stepped(other)));
+    }
+}

@@ -1,0 +1,152 @@
+//! What happens at a tick: spheres leave the zone that are near no other one, those that have joined are
+//! taken in, and all are stepped to the next tick.
+
+use glam::DVec3;
+
+use crate::bodies::Motion;
+use crate::detect::sphere_surface;
+use crate::rule::exact::context::StepContext;
+use crate::rule::exact::events::{NextEvents, Prediction};
+use crate::rule::exact::neighbours::NeighbourBuffer;
+use crate::rule::exact::predict;
+use crate::rule::exact::timeline::Timeline;
+use crate::rule::exact::zone::Stepped;
+
+/// Steps the zones from the tick that is now to the next one. Gives the time \[s\].
+pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
+    let (now, tick) = (timeline.zone.next_tick(), context.parameters.zone_tick);
+    if timeline.zone.is_idle() {
+        let resting = timeline.zone.rest();
+        fly(timeline, context, &resting, now);
+        look_around(timeline, context, now);
+        return now;
+    }
+    if timeline.zone.is_due_to_leave(tick) {
+        for (index, state) in timeline.zone.take_out_lone() {
+            leave(timeline, context, index, state, now);
+        }
+    }
+    let Timeline { zone, flights, .. } = timeline;
+    zone.admit(context.system, |index| flights.state_of(flights.slot_of[index as usize], now).0);
+    let first = context.report.impacts.len();
+    let stepped = zone.step(context.system, now - context.start, tick, context.report);
+    // Of a zone it is known in which sub-step an impact was.
+    let time = context.since_start(now);
+    context.report.impacts[first..].iter_mut().for_each(|impact| impact.time = time);
+    fly(timeline, context, &stepped, now);
+    look_around(timeline, context, now);
+    let account = &mut context.report.zone_account;
+    account.ticks += 1;
+    account.sphere_seconds += stepped.len() as f64 * (timeline.zone.next_tick() - now);
+    context.work.spend(stepped.len() as u64);
+    now
+}
+
+/// Begins the straight flights of spheres in a zone from a tick at `now` \[s\] to the next one.
+fn fly(timeline: &mut Timeline, context: &mut StepContext, stepped: &[Stepped], now: f64) {
+    let next = timeline.zone.next_tick();
+    let mut found = NeighbourBuffer::default();
+    for &Stepped { index, positions: [from, to] } in stepped {
+        let slot = timeline.flights.slot_of[index as usize];
+        let velocity = if from == to { DVec3::ZERO } else { (to - from) / (next - now) };
+        let body = &mut timeline.flights.bodies[slot as usize];
+        if velocity == DVec3::ZERO && body.velocity == DVec3::ZERO && body.position == from {
+            continue;
+        }
+        body.begin_flight(from, velocity, now);
+        let cell_crossing = stay_in_region(timeline, slot, [now, next], &mut found);
+        // Those near it look for it.
+        let events = NextEvents::NEVER;
+        timeline.enter(slot, Prediction { events, cell_crossing });
+        let Timeline { flights, zone, .. } = timeline;
+        let others = found.others(slot).map(|near| near.slot());
+        zone.near.extend(others.filter(|&other| !flights.is_stepped(other)));
+        found.clear();
+    }
+    context.counts.predictions += stepped.len() as u64;
+}
+
+/// Gives a sphere that leaves its neighbour region between two times \[s\] another one, with those that it
+/// finds there. Gives when it leaves that \[s\]; infinite if it stays.
+fn stay_in_region(
+    timeline: &mut Timeline,
+    slot: u32,
+    [now, next]: [f64; 2],
+    found: &mut NeighbourBuffer,
+) -> f64 {
+    let stays = |timeline: &Timeline| {
+        let body = &timeline.flights.bodies[slot as usize];
+        timeline.neighbours.stays(slot, body, timeline.flights.species_of(slot), next)
+    };
+    if stays(timeline) {
+        return f64::INFINITY;
+    }
+    let state = timeline.flights.state_of(slot, now);
+    timeline.cross_cell(slot, state.into(), found);
+    if stays(timeline) {
+        return f64::INFINITY;
+    }
+    let body = &timeline.flights.bodies[slot as usize];
+    timeline.neighbours.crossing_time(slot, body, timeline.flights.species_of(slot), now)
+}
+
+/// Predicts anew what spheres meet next that are in no zone, and have neighbours in one.
+fn look_around(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
+    let mut near = std::mem::take(&mut timeline.zone.near);
+    near.sort_unstable();
+    near.dedup();
+    near.retain(|&slot| {
+        if timeline.flights.is_stepped(slot) {
+            return false;
+        }
+        predict::predict(timeline, context, slot, now);
+        let mut others = context.searches[0].near.others(slot);
+        others.any(|other| timeline.flights.is_stepped(other.slot()))
+    });
+    timeline.zone.near = near;
+}
+
+/// Has the sphere at an index of the world's arrays leave a zone at `now` \[s\], with this centre \[m\] and
+/// velocity \[m/s\]. It is lifted out of surfaces that it overlaps.
+fn leave(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    index: u32,
+    [mut position, velocity]: [DVec3; 2],
+    now: f64,
+) {
+    let slot = timeline.flights.slot_of[index as usize];
+    let species = *timeline.flights.free_species_of(slot);
+    for (surface, shift) in timeline.surfaces_near(slot) {
+        let (form, _) = context.surface_at(surface, now);
+        let separation = sphere_surface(&form, position - shift, species.radius);
+        if let Some(overlap) = separation.filter(|it| it.distance < 0.0) {
+            let lift = -overlap.distance * overlap.normal;
+            position += lift;
+            let work = -species.mass * species.acceleration.dot(lift);
+            context.report.contact_account.correction_work += work;
+        }
+    }
+    timeline.flights.leave_zone(slot, [position, velocity], now);
+    predict::predict(timeline, context, slot, now);
+    timeline.zone.near.push(slot);
+    context.report.zone_account.left += 1;
+}
+
+/// Writes the velocities of spheres in a zone at `time` \[s\]: between ticks they change steadily.
+pub(crate) fn write_velocities(
+    timeline: &Timeline,
+    ids: &[crate::SphereId],
+    motion: &mut Motion,
+    time: f64,
+) {
+    let zone = &timeline.zone;
+    for (index, velocity) in zone.velocities(time) {
+        motion.velocity[index as usize] = velocity;
+    }
+    for &(sphere, velocity) in zone.waiting() {
+        if let Ok(index) = ids.binary_search(&sphere) {
+            motion.velocity[index] = velocity;
+        }
+    }
+}

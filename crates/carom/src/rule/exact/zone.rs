@@ -1,0 +1,258 @@
+//! Stepped zones: spheres that are moved by the sub-steps of the rule `contact`, from tick to tick of the
+//! world's clock.
+
+use glam::DVec3;
+
+use crate::bodies::{Motion, Properties};
+use crate::friction::Friction;
+use crate::id::SphereId;
+use crate::interval::Interval;
+use crate::persistent_contact::PersistentContact;
+use crate::report::StepReport;
+use crate::rule::contact::{self, Scratch, Solver};
+use crate::settings::Contact;
+use crate::surface::Surface;
+use crate::system::System;
+
+/// Neighbours of spheres in a zone are to last some of the frames that so many ticks make.
+const TICKS_PER_FRAME: u32 = 8;
+
+/// The spheres that are stepped, all zones of a world together. Between ticks they fly straight.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Zone {
+    /// Their places in the arrays of the world, ascending.
+    pub index: Vec<u32>,
+    properties: Properties,
+    /// How they move at the next tick.
+    motion: Motion,
+    /// Their velocities at the last tick \[m/s\].
+    velocity_before: Vec<DVec3>,
+    /// Spheres that joined since the last tick, with the velocity that they have then \[m/s\].
+    waiting: Vec<(SphereId, DVec3)>,
+    solver: Solver,
+    scratch: Scratch,
+    surfaces: Vec<Surface>,
+    /// The last tick, and the next one, on the world's clock \[s\]; the next one is infinite while all
+    /// sleep.
+    ticks: [f64; 2],
+    /// Slots of spheres that are in no zone and have one that is among their neighbours; more than once,
+    /// perhaps, and some for which it is so no more.
+    pub near: Vec<u32>,
+}
+
+/// How a sphere in a zone moves.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stepped {
+    pub index: u32,
+    /// Centre at the last tick and at the next one \[m\].
+    pub positions: [DVec3; 2],
+}
+
+impl Zone {
+    /// How many spheres there are.
+    pub fn len(&self) -> usize {
+        self.index.len() + self.waiting.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Until when its spheres fly as they do now, on the world's clock \[s\]: until the next tick.
+    pub fn next_tick(&self) -> f64 {
+        if self.is_empty() { f64::INFINITY } else { self.ticks[1] }
+    }
+
+    /// Takes in a sphere, which joins at a time \[s\] with a velocity \[m/s\]. Ticks are `tick` \[s\] apart.
+    pub fn join(&mut self, sphere: SphereId, velocity: DVec3, time: f64, tick: f64) {
+        if self.is_empty() || self.ticks[1] == f64::INFINITY {
+            self.ticks = [time, first_tick_after(time, tick)];
+        }
+        self.waiting.push((sphere, velocity));
+    }
+
+    /// Has all spheres wait for the first tick after a time \[s\], with velocities \[m/s\] by their ids;
+    /// those without one are gone.
+    pub fn restart(
+        &mut self,
+        time: f64,
+        tick: f64,
+        mut velocity: impl FnMut(SphereId) -> Option<DVec3>,
+    ) {
+        let members = self.properties.id.iter().copied();
+        let all: Vec<SphereId> = members.chain(self.waiting.iter().map(|it| it.0)).collect();
+        self.waiting.clear();
+        self.index.clear();
+        self.properties = Properties::default();
+        (self.motion, self.velocity_before) = Default::default();
+        self.near.clear();
+        self.solver.set_changed();
+        for sphere in all {
+            if let Some(velocity) = velocity(sphere) {
+                self.join(sphere, velocity, time, tick);
+            }
+        }
+    }
+
+    /// Follows spheres to other places in the arrays of the world, which hold these ids; forgets those that
+    /// are gone.
+    pub fn follow(&mut self, ids: &[SphereId]) {
+        let is_there = |id: &SphereId| ids.binary_search(id).is_ok();
+        self.waiting.retain(|(id, _)| is_there(id));
+        let stays: Vec<bool> = self.properties.id.iter().map(is_there).collect();
+        self.keep(&stays);
+        self.index = self
+            .properties
+            .id
+            .iter()
+            .flat_map(|id| ids.binary_search(id))
+            .map(|it| it as u32)
+            .collect();
+    }
+
+    /// Keeps those of its spheres that stay.
+    fn keep(&mut self, stays: &[bool]) {
+        if stays.iter().all(|&stays| stays) {
+            return;
+        }
+        let kept: Vec<u32> = (0..stays.len() as u32).filter(|&it| stays[it as usize]).collect();
+        let all = |items: &[DVec3]| kept.iter().map(|&place| items[place as usize]).collect();
+        self.index = kept.iter().filter_map(|&it| self.index.get(it as usize).copied()).collect();
+        self.properties = self.properties.of_some(&kept);
+        self.motion.position = all(&self.motion.position);
+        self.motion.velocity = all(&self.motion.velocity);
+        self.velocity_before = all(&self.velocity_before);
+    }
+
+    /// Takes out the spheres that are near no other one, at a tick, before those that wait are taken in.
+    /// Gives their indices, and centres \[m\] and velocities \[m/s\].
+    pub fn take_out_lone(&mut self) -> Vec<(u32, [DVec3; 2])> {
+        let known = contact::near_others(&self.solver);
+        let is_near = |id: &SphereId| {
+            let found = known.binary_search_by_key(id, |sphere| sphere.0);
+            found.map_or(true, |place| known[place].1)
+        };
+        let is_near: Vec<bool> = self.properties.id.iter().map(is_near).collect();
+        let state = |place: usize| [self.motion.position[place], self.motion.velocity[place]];
+        let lone = (0..is_near.len()).filter(|&place| !is_near[place]);
+        let out = lone.map(|place| (self.index[place], state(place))).collect();
+        self.keep(&is_near);
+        out
+    }
+
+    /// Whether nothing happens at the next tick: all sleep.
+    pub fn is_idle(&self) -> bool {
+        self.waiting.is_empty() && self.solver.is_idle()
+    }
+
+    /// Has no tick come, while all sleep. Gives where they are.
+    pub fn rest(&mut self) -> Vec<Stepped> {
+        self.ticks = [self.ticks[1], f64::INFINITY];
+        self.velocity_before.clone_from(&self.motion.velocity);
+        let places = self.index.iter().zip(&self.motion.position);
+        places.map(|(&index, &place)| Stepped { index, positions: [place; 2] }).collect()
+    }
+
+    /// Velocities of all spheres at a time between two ticks \[s\], by index and by id.
+    pub fn velocities(&self, time: f64) -> impl Iterator<Item = (u32, DVec3)> {
+        let [last, next] = self.ticks;
+        let part = ((time - last) / (next - last)).clamp(0.0, 1.0);
+        let both = self.velocity_before.iter().zip(&self.motion.velocity);
+        self.index
+            .iter()
+            .zip(both)
+            .map(move |(&index, (&before, &after))| (index, before + part * (after - before)))
+    }
+
+    /// The places of all spheres, those that joined since the last tick among them, in arrays of the world
+    /// that hold these ids.
+    pub fn indices(&self, ids: &[SphereId]) -> Vec<u32> {
+        let waiting = self.waiting.iter().flat_map(|(id, _)| ids.binary_search(id));
+        waiting.map(|index| index as u32).chain(self.index.iter().copied()).collect()
+    }
+
+    /// The spheres that joined since the last tick, with their velocities \[m/s\].
+    pub fn waiting(&self) -> &[(SphereId, DVec3)] {
+        &self.waiting
+    }
+
+    /// The contacts that bore something in the last sub-step.
+    pub fn persistent_contacts(&self, system: &System) -> Vec<PersistentContact> {
+        let system = System { spheres: &self.properties, ..*system };
+        contact::persistent_contacts(&self.solver, &system)
+    }
+
+    /// Whether a tick is one of those at which spheres may leave.
+    pub fn is_due_to_leave(&self, tick: f64) -> bool {
+        ((self.ticks[1] / tick).round() as u64).is_multiple_of(u64::from(TICKS_PER_FRAME))
+    }
+
+    /// Takes those that wait into its arrays: `place` tells where spheres are, by their indices \[m\].
+    pub fn admit(&mut self, system: &System, place: impl Fn(u32) -> DVec3) {
+        if self.waiting.is_empty() {
+            return;
+        }
+        let ids = &system.spheres.id;
+        let index_of = |id: SphereId| ids.binary_search(&id).map(|index| index as u32).ok();
+        let come =
+            self.waiting.drain(..).filter_map(|(id, velocity)| Some((index_of(id)?, velocity)));
+        let mut all: Vec<(u32, [DVec3; 2])> =
+            come.map(|(index, velocity)| (index, [place(index), velocity])).collect();
+        let here = self.motion.position.iter().zip(&self.motion.velocity);
+        all.extend(self.index.iter().zip(here).map(|(&index, (x, v))| (index, [*x, *v])));
+        all.sort_unstable_by_key(|sphere| sphere.0);
+        self.index = all.iter().map(|sphere| sphere.0).collect();
+        self.motion.position = all.iter().map(|sphere| sphere.1[0]).collect();
+        self.motion.velocity = all.iter().map(|sphere| sphere.1[1]).collect();
+        self.properties = system.spheres.of_some(&self.index);
+        self.properties.friction.clear();
+    }
+
+    /// Steps all spheres from this tick to the next one. `offset` \[s\] is the time of this tick from when
+    /// surfaces are where the system says. Gives where they were and are to be.
+    pub fn step(
+        &mut self,
+        system: &System,
+        offset: f64,
+        tick: f64,
+        report: &mut StepReport,
+    ) -> Vec<Stepped> {
+        let now = self.ticks[1];
+        let next = first_tick_after(now, tick);
+        if !system.spheres.applied_force.is_empty() {
+            self.properties.applied_force = system.spheres.of_some(&self.index).applied_force;
+        }
+        let before = self.motion.position.clone();
+        self.velocity_before.clone_from(&self.motion.velocity);
+        self.place_surfaces(system, offset);
+        let system = System { spheres: &self.properties, surfaces: &self.surfaces, ..*system };
+        let frames = f64::from(TICKS_PER_FRAME);
+        let frame = Interval { time: now, h: frames * (next - now) };
+        let parameters = Contact::default().with_sub_steps(TICKS_PER_FRAME);
+        let memory = (&mut self.solver, &mut self.scratch);
+        contact::tick(&system, parameters, &mut self.motion, frame, memory, report);
+        self.ticks = [now, next];
+        let places = before.into_iter().zip(&self.motion.position);
+        let stepped = |(&index, (before, &after)): (&u32, (DVec3, &DVec3))| Stepped {
+            index,
+            positions: [before, after],
+        };
+        self.index.iter().zip(places).map(stepped).collect()
+    }
+
+    /// Has surfaces where they are at a time since they are where the system says \[s\].
+    fn place_surfaces(&mut self, system: &System, offset: f64) {
+        self.surfaces.clear();
+        self.surfaces.extend(system.surfaces.iter().map(|surface| {
+            let (form, motion) = surface.after(offset);
+            Surface { form, motion, friction: Friction::default(), ..*surface }
+        }));
+    }
+}
+
+/// The first tick after a time, both on the world's clock \[s\].
+fn first_tick_after(time: f64, tick: f64) -> f64 {
+    let number = (time / tick).floor() + 1.0;
+    let first = number * tick;
+    if first > time { first } else { ((number + 1.0) * tick).max(time.next_up()) }
+}
