@@ -61,7 +61,8 @@ pub struct StepReport {
 pub struct ZoneAccount {
     /// Spheres in a zone at the end of the step.
     pub spheres: u32,
-    /// Time that spheres spent in a zone, of all of them together \[s\].
+    /// Time that these spheres have spent in it by that, of all together \[s\]: one that is in a zone at
+    /// the end of a step counts as in it for the whole of it.
     pub sphere_seconds: f64,
     /// Ticks at which a zone was stepped.
     pub ticks: u32,

@@ -20,6 +20,8 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
         place_spheres(attempt, &timeline, end)?;
         attempt.state.spheres.motion.spin.advance(attempt.length);
         attempt.state.timeline = Some(timeline);
+        let account = &mut attempt.report.zone_account;
+        account.sphere_seconds = f64::from(account.spheres) * attempt.length;
         Ok(())
     })?;
     attempt.report_triggers();

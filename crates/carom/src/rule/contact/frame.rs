@@ -5,6 +5,7 @@ use super::dormant;
 use super::found::Found;
 use super::kept::Kept;
 use super::materials::Materials;
+use super::row::Row;
 use super::slab::Slabs;
 use super::sleep;
 use super::solver::Solver;
@@ -58,6 +59,21 @@ pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
     // The bounds of moving surfaces are those of now.
     solver.is_stale |= solver.has_moving_surfaces;
     surfaces::places_after(system.surfaces, 0.0, &mut solver.places);
+}
+
+/// Takes over from the world what the solver does not know from the frame before, which gave it to the
+/// world.
+pub(super) fn go_on(system: &System, motion: &mut Motion, solver: &mut Solver) {
+    let is_known = !(solver.is_stale
+        || solver.is_changed
+        || solver.has_moving_surfaces
+        || solver.has_other_forces
+        || !system.spheres.applied_force.is_empty());
+    if is_known && solver.slots.are_of(&system.spheres.id) {
+        solver.slots.turn.fill(Row::default());
+    } else {
+        begin(system, motion, solver);
+    }
 }
 
 /// What occurs in the contacts of this world.

@@ -81,7 +81,7 @@ pub(crate) fn step(
 }
 
 /// Advances all spheres by one sub-step, the first one of a frame: for a rule that looks at them after
-/// each.
+/// each, and changes nothing but which spheres there are.
 pub(crate) fn tick(
     system: &System,
     parameters: Contact,
@@ -90,7 +90,7 @@ pub(crate) fn tick(
     (solver, scratch): (&mut Solver, &mut Scratch),
     report: &mut StepReport,
 ) {
-    frame::begin(system, motion, solver);
+    frame::go_on(system, motion, solver);
     sub_step(system, parameters, (frame, 0), (solver, scratch), report);
     frame::end(system, motion, solver.h, solver, report);
 }

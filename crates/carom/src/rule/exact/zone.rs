@@ -7,6 +7,7 @@ use crate::bodies::{Motion, Properties};
 use crate::friction::Friction;
 use crate::id::SphereId;
 use crate::interval::Interval;
+use crate::parallel;
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
 use crate::rule::contact::{self, Scratch, Solver};
@@ -229,8 +230,10 @@ impl Zone {
         let frames = f64::from(TICKS_PER_FRAME);
         let frame = Interval { time: now, h: frames * (next - now) };
         let parameters = Contact::default().with_sub_steps(TICKS_PER_FRAME);
-        let memory = (&mut self.solver, &mut self.scratch);
-        contact::tick(&system, parameters, &mut self.motion, frame, memory, report);
+        let (motion, memory) = (&mut self.motion, (&mut self.solver, &mut self.scratch));
+        parallel::among_threads(self.index.len(), || {
+            contact::tick(&system, parameters, motion, frame, memory, report);
+        });
         self.ticks = [now, next];
         let places = before.into_iter().zip(&self.motion.position);
         let stepped = |(&index, (before, &after)): (&u32, (DVec3, &DVec3))| Stepped {
