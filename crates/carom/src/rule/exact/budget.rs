@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::settings::Exact;
 
+/// All groups together may spend the budget of one in so many ticks, for as long as it may be.
+const TICKS_OF_A_BUDGET: f64 = 4.0;
 /// Each time that all groups together have spent the budget of one, the budget of each is halved, so that
 /// many cost hardly more than a few; so often at most.
 const MOST_HALVINGS: u64 = 16;
@@ -26,8 +28,8 @@ impl Budget {
         spheres: impl Iterator<Item = u32>,
         time: f64,
     ) -> u64 {
-        self.follow(time / parameters.zone_tick);
         let of_each = u64::from(parameters.zone_budget);
+        self.follow(time / parameters.zone_tick, of_each);
         let halvings = (self.of_all / of_each).min(MOST_HALVINGS);
         let spent = spheres.filter_map(|index| self.of_spheres.get(&index)).max();
         (of_each >> halvings).saturating_sub(spent.copied().unwrap_or(0))
@@ -39,12 +41,13 @@ impl Budget {
         spheres.for_each(|index| *self.of_spheres.entry(index).or_default() += spent);
     }
 
-    /// Begins anew if a time, in ticks, is in another tick.
-    fn follow(&mut self, ticks: f64) {
+    /// Goes on to a time, in ticks.
+    fn follow(&mut self, ticks: f64, of_each: u64) {
         let tick = ticks.floor();
         if tick != self.tick {
+            let regained = (tick - self.tick) * (of_each as f64 / TICKS_OF_A_BUDGET);
+            self.of_all = self.of_all.saturating_sub(regained as u64);
             self.tick = tick;
-            self.of_all = 0;
             self.of_spheres.clear();
         }
     }

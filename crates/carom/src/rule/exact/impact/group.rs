@@ -20,6 +20,9 @@ use crate::rule::exact::predict::{self, Unresolved};
 use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
 
+/// Units of work that it takes to find what touches a sphere, and to predict what it meets next.
+const UNITS_PER_MEMBER: u64 = 500;
+
 /// Answers what happens at `time` \[s\] among the spheres at `seeds`, the surface they met, if any,
 /// and all that touch them.
 pub(super) fn answer(
@@ -56,7 +59,8 @@ pub(super) fn answer(
         return stepped::make_zone(timeline, context, &group);
     }
     let indices: Vec<u32> = indices_of(timeline, &group).collect();
-    timeline.budget.charge(indices.into_iter(), spent);
+    let spent_around = UNITS_PER_MEMBER * group.members.len() as u64;
+    timeline.budget.charge(indices.into_iter(), spent + spent_around);
     let held: Vec<Bodies> =
         supports.iter().flat_map(|support| &support.contacts).copied().collect();
     begin_flights(timeline, &group, &struck, supports);

@@ -124,6 +124,28 @@ impl PairSearch {
         events
     }
 
+    /// Adds to its next events the meetings of a sphere that is in no zone with neighbours that are in one.
+    /// Tells whether there are such neighbours.
+    pub fn add_meetings_with_zone(
+        &mut self,
+        timeline: &Timeline,
+        slot: u32,
+        events: &mut NextEvents,
+    ) -> bool {
+        let level = timeline.flights.species_of(slot).level;
+        timeline.neighbours.find(slot, level, &mut self.near);
+        let mut are_any = false;
+        for near in self.near.others(slot).filter(|it| timeline.flights.is_stepped(it.slot())) {
+            are_any = true;
+            self.tests += 1;
+            let time = time_of_meeting(timeline, slot, near);
+            if time < f64::INFINITY {
+                events.add(timeline.meeting(time, near.slot()));
+            }
+        }
+        are_any
+    }
+
     #[inline(never)]
     fn add_meetings_with_others(&self, timeline: &Timeline, slot: u32, events: &mut NextEvents) {
         let species = timeline.flights.species_of(slot);

@@ -18,7 +18,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     if timeline.zone.is_idle() {
         let resting = timeline.zone.rest();
         fly(timeline, context, &resting, now);
-        look_around(timeline, context, now);
+        look_around(timeline, context);
         return now;
     }
     if timeline.zone.is_due_to_leave(tick) {
@@ -34,7 +34,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     let time = context.since_start(now);
     context.report.impacts[first..].iter_mut().for_each(|impact| impact.time = time);
     fly(timeline, context, &stepped, now);
-    look_around(timeline, context, now);
+    look_around(timeline, context);
     context.report.zone_account.ticks += 1;
     context.work.spend(stepped.len() as u64);
     now
@@ -61,7 +61,6 @@ fn fly(timeline: &mut Timeline, context: &mut StepContext, stepped: &[Stepped], 
         zone.near.extend(others.filter(|&other| !flights.is_stepped(other)));
         found.clear();
     }
-    context.counts.predictions += stepped.len() as u64;
 }
 
 /// Gives a sphere that leaves its neighbour region between two times \[s\] another one, with those that it
@@ -88,8 +87,8 @@ fn stay_in_region(
     timeline.neighbours.crossing_time(slot, body, timeline.flights.species_of(slot), now)
 }
 
-/// Predicts anew what spheres meet next that are in no zone, and have neighbours in one.
-fn look_around(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
+/// Predicts which spheres in a zone those meet that are in none, and have neighbours in one.
+fn look_around(timeline: &mut Timeline, context: &mut StepContext) {
     let mut near = std::mem::take(&mut timeline.zone.near);
     near.sort_unstable();
     near.dedup();
@@ -97,9 +96,13 @@ fn look_around(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
         if timeline.flights.is_stepped(slot) {
             return false;
         }
-        predict::predict(timeline, context, slot, now);
-        let mut others = context.searches[0].near.others(slot);
-        others.any(|other| timeline.flights.is_stepped(other.slot()))
+        let known = timeline.schedule.next_events(slot);
+        let mut events = known;
+        let are_any = context.searches[0].add_meetings_with_zone(timeline, slot, &mut events);
+        if events != known {
+            timeline.reschedule(slot, events);
+        }
+        are_any
     });
     timeline.zone.near = near;
 }
