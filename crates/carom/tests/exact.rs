@@ -6,7 +6,7 @@ mod common;
 
 use carom::{
     BodyPair, Boundary, Collider, DQuat, DVec3, Emitter, Error, Exact, Force, Gravity, Pose, Rule,
-    Settings, Shape, Sphere, SphereState, ViscousDrag, World,
+    Settings, Shape, Sphere, SphereState, ViscousDrag, World, Zones,
 };
 use common::{G, Numbers, assert_close, assert_close_vec, discrete, vec, world};
 
@@ -455,7 +455,7 @@ fn emitters_emit_within_a_frame_at_their_own_time() {
 
 #[test]
 fn more_impacts_than_allowed_are_an_error_that_changes_nothing() {
-    let rule = Rule::Exact(Exact::default().with_max_impacts(50));
+    let rule = Rule::Exact(Exact::default().with_max_impacts(50).with_zones(Zones::Never));
     let mut world = world(rule);
     half_space(&mut world, DVec3::ZERO, DVec3::X, 1.0);
     half_space(&mut world, vec(1.0, 0.0, 0.0), DVec3::NEG_X, 1.0);

@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use carom::{Collider, DVec3, Error, Exact, Gravity, Pose, Rule, Settings, Shape, Sphere, World};
-use carom::{DQuat, StopRequest};
+use carom::{DQuat, StopRequest, Zones};
 use common::{G, Numbers, vec};
 
 const RADIUS: f64 = 0.5;
@@ -164,10 +164,10 @@ fn frames_do_not_matter_to_balls_in_a_box() {
     assert_eq!(coarse, fine);
 }
 
-/// Balls that fall on each other in a box, all at once; a bound that no frame reaches.
-fn pile(count: u32, max_impacts: u32) -> World {
+/// Balls that fall on each other in a box, all at once.
+fn pile(count: u32, exact: Exact) -> World {
     let mut world = patient_world(vec(0.0, -G, 0.0));
-    let rule = Rule::Exact(Exact::default().with_max_impacts(max_impacts));
+    let rule = Rule::Exact(exact);
     world.set_settings(Settings::default().with_rule(rule)).unwrap();
     add_box(&mut world, 8.0, 0.5);
     for n in 0..count {
@@ -183,7 +183,7 @@ fn pile(count: u32, max_impacts: u32) -> World {
 #[test]
 fn a_stop_request_ends_a_long_frame_soon_and_leaves_the_world_as_it_was() {
     let is_stopping = Arc::new(AtomicBool::new(false));
-    let mut world = pile(196, u32::MAX);
+    let mut world = pile(196, Exact::default().with_max_impacts(u32::MAX).with_zones(Zones::Never));
     world.set_stop_request(Some(StopRequest::from(is_stopping.clone())));
     let before = world.state_hash();
     let stopper = std::thread::spawn(move || {
@@ -204,7 +204,7 @@ fn a_stop_request_ends_a_long_frame_soon_and_leaves_the_world_as_it_was() {
 
 #[test]
 fn work_beyond_the_bound_is_an_error_that_names_the_sphere_the_time_and_the_remedies() {
-    let mut world = pile(196, 2_000);
+    let mut world = pile(196, Exact::default().with_max_impacts(2_000).with_zones(Zones::Never));
     let before = world.state_hash();
     let error = world.step(60.0).unwrap_err();
     let Error::TooManyImpacts { limit: 2_000, at, time: 0.0, .. } = error else {

@@ -9,6 +9,12 @@ const NEAR: f64 = 0.05;
 /// Or one that it meets within so many sub-steps.
 const SUB_STEPS: f64 = 16.0;
 
+/// By index, whether something but forces and lone bounces changed the velocity of each sphere in the last
+/// sub-step.
+pub(crate) fn bearing(solver: &Solver) -> impl Iterator<Item = (u32, bool)> {
+    solver.slots.index.iter().copied().zip(solver.slots.bears.iter().copied())
+}
+
 /// Whether each sphere is near another one, in order of ids.
 pub(crate) fn near_others(solver: &Solver) -> Vec<(SphereId, bool)> {
     let Solver { slots, slabs, dormant, h, .. } = solver;

@@ -71,6 +71,9 @@ pub(crate) enum Unfinished {
     Stopped,
 }
 
+/// What a sphere may do in a frame it may do again in each part of a longer one that has so many ticks.
+const TICKS_OF_A_FRAME: f64 = 8.0;
+
 /// How far spheres are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Until {
@@ -186,11 +189,16 @@ fn check_work(
     time: f64,
 ) -> Result<(), Unfinished> {
     let limit = context.parameters.max_impacts;
-    if timeline.work_in_frame(slot) <= u64::from(limit) || timeline.flights.is_stepped(slot) {
+    let work = timeline.work_in_frame(slot);
+    if work <= u64::from(limit) || timeline.flights.is_stepped(slot) {
         return Ok(());
     }
     if context.has_zones() {
-        stepped::make_zone_about(timeline, context, slot, time);
+        // A long frame may have as many in each of its parts.
+        let parts = (time - context.start) / (TICKS_OF_A_FRAME * context.parameters.zone_tick);
+        if work as f64 > f64::from(limit) * parts.ceil().max(1.0) {
+            stepped::make_zone_about(timeline, context, slot, time);
+        }
         return Ok(());
     }
     let sphere = context.id_of(timeline, slot);

@@ -18,6 +18,9 @@ use crate::system::System;
 /// Neighbours of spheres in a zone are to last some of the frames that so many ticks make.
 const TICKS_PER_FRAME: u32 = 8;
 
+/// A sphere that has borne nothing and was not borne for so many ticks leaves its zone, whatever is near.
+const FREE_TICKS: u32 = 4 * TICKS_PER_FRAME;
+
 /// The spheres that are stepped, all zones of a world together. Between ticks they fly straight.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Zone {
@@ -28,6 +31,8 @@ pub(crate) struct Zone {
     motion: Motion,
     /// Their velocities at the last tick \[m/s\].
     velocity_before: Vec<DVec3>,
+    /// Ticks since each bore something or was borne.
+    free_ticks: Vec<u32>,
     /// Spheres that joined since the last tick, with the velocity that they have then \[m/s\].
     waiting: Vec<(SphereId, DVec3)>,
     solver: Solver,
@@ -85,7 +90,7 @@ impl Zone {
         self.waiting.clear();
         self.index.clear();
         self.properties = Properties::default();
-        (self.motion, self.velocity_before) = Default::default();
+        (self.motion, self.velocity_before, self.free_ticks) = Default::default();
         self.near.clear();
         self.solver.set_changed();
         for sphere in all {
@@ -123,21 +128,24 @@ impl Zone {
         self.motion.position = all(&self.motion.position);
         self.motion.velocity = all(&self.motion.velocity);
         self.velocity_before = all(&self.velocity_before);
+        self.free_ticks = kept.iter().map(|&place| self.free_ticks[place as usize]).collect();
     }
 
-    /// Takes out the spheres that are near no other one, at a tick, before those that wait are taken in.
-    /// Gives their indices, and centres \[m\] and velocities \[m/s\].
-    pub fn take_out_lone(&mut self) -> Vec<(u32, [DVec3; 2])> {
+    /// Takes out the spheres that are near no other one, or fly freely since some time, at a tick, before
+    /// those that wait are taken in. Gives their indices, and centres \[m\] and velocities \[m/s\].
+    pub fn take_out_free(&mut self) -> Vec<(u32, [DVec3; 2])> {
         let known = contact::near_others(&self.solver);
         let is_near = |id: &SphereId| {
             let found = known.binary_search_by_key(id, |sphere| sphere.0);
             found.map_or(true, |place| known[place].1)
         };
-        let is_near: Vec<bool> = self.properties.id.iter().map(is_near).collect();
+        let spheres = self.properties.id.iter().zip(&self.free_ticks);
+        let stays: Vec<bool> =
+            spheres.map(|(id, &ticks)| ticks < FREE_TICKS && is_near(id)).collect();
         let state = |place: usize| [self.motion.position[place], self.motion.velocity[place]];
-        let lone = (0..is_near.len()).filter(|&place| !is_near[place]);
-        let out = lone.map(|place| (self.index[place], state(place))).collect();
-        self.keep(&is_near);
+        let free = (0..stays.len()).filter(|&place| !stays[place]);
+        let out = free.map(|place| (self.index[place], state(place))).collect();
+        self.keep(&stays);
         out
     }
 
@@ -197,14 +205,17 @@ impl Zone {
         let index_of = |id: SphereId| ids.binary_search(&id).map(|index| index as u32).ok();
         let come =
             self.waiting.drain(..).filter_map(|(id, velocity)| Some((index_of(id)?, velocity)));
-        let mut all: Vec<(u32, [DVec3; 2])> =
-            come.map(|(index, velocity)| (index, [place(index), velocity])).collect();
-        let here = self.motion.position.iter().zip(&self.motion.velocity);
-        all.extend(self.index.iter().zip(here).map(|(&index, (x, v))| (index, [*x, *v])));
+        let mut all: Vec<(u32, [DVec3; 2], u32)> =
+            come.map(|(index, velocity)| (index, [place(index), velocity], 0)).collect();
+        all.extend((0..self.index.len()).map(|place| {
+            let state = [self.motion.position[place], self.motion.velocity[place]];
+            (self.index[place], state, self.free_ticks[place])
+        }));
         all.sort_unstable_by_key(|sphere| sphere.0);
         self.index = all.iter().map(|sphere| sphere.0).collect();
         self.motion.position = all.iter().map(|sphere| sphere.1[0]).collect();
         self.motion.velocity = all.iter().map(|sphere| sphere.1[1]).collect();
+        self.free_ticks = all.iter().map(|sphere| sphere.2).collect();
         self.properties = system.spheres.of_some(&self.index);
         self.properties.friction.clear();
     }
@@ -235,6 +246,10 @@ impl Zone {
             contact::tick(&system, parameters, motion, frame, memory, report);
         });
         self.ticks = [now, next];
+        for (place, bears) in contact::bearing(&self.solver) {
+            let ticks = &mut self.free_ticks[place as usize];
+            *ticks = if bears { 0 } else { *ticks + 1 };
+        }
         let places = before.into_iter().zip(&self.motion.position);
         let stepped = |(&index, (before, &after)): (&u32, (DVec3, &DVec3))| Stepped {
             index,

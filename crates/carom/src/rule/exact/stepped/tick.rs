@@ -1,4 +1,4 @@
-//! What happens at a tick: spheres leave the zone that are near no other one, those that have joined are
+//! What happens at a tick: spheres leave the zone that are near no other one or fly freely, those that have joined are
 //! taken in, and all are stepped to the next tick.
 
 use glam::DVec3;
@@ -22,7 +22,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
         return now;
     }
     if timeline.zone.is_due_to_leave(tick) {
-        for (index, state) in timeline.zone.take_out_lone() {
+        for (index, state) in timeline.zone.take_out_free() {
             leave(timeline, context, index, state, now);
         }
     }

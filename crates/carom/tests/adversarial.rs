@@ -1,0 +1,167 @@
+//! Random scenes of a few spheres that make it hard for the rule `exact`: radii and masses of very different
+//! sizes, spheres that touch from the start, edges and corners, surfaces that move and turn. Every frame
+//! ends soon, nothing leaves a closed box, energy is not gained, nothing overlaps.
+
+// The physics knows no clock; a test that must not hang does.
+#![allow(clippy::disallowed_methods)]
+
+mod common;
+
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+use carom::{
+    Collider, DQuat, DVec3, Gravity, Pose, Settings, Shape, Sides, Sphere, StopRequest, World,
+};
+use common::{Numbers, vec};
+
+/// Half the width of the box \[m\].
+const HALF: f64 = 2.0;
+const SECONDS: f64 = 5.0;
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// What a scene has.
+struct Scene {
+    world: World,
+    is_closed: bool,
+    /// Whether surfaces do work.
+    is_driven: bool,
+}
+
+/// Ten to a power between two.
+fn scale(numbers: &mut Numbers, low: f64, high: f64) -> f64 {
+    10f64.powf(numbers.between(low, high))
+}
+
+fn scene(seed: u64) -> Scene {
+    let mut numbers = Numbers(seed.wrapping_mul(7919) + 13);
+    let mut world = World::new(Settings::default()).unwrap();
+    let began = Instant::now();
+    world.set_stop_request(Some(StopRequest::new(move || began.elapsed() > PATIENCE)));
+    if numbers.next() < 0.7 {
+        world.add_force(Gravity::new(10.0 * numbers.vector())).unwrap();
+    }
+    let restitution = [0.0, 0.3, 0.7, 0.95, 1.0][(5.0 * numbers.next()) as usize];
+    let is_closed = numbers.next() < 0.7;
+    let pose = Pose { position: DVec3::ZERO, rotation: rotation(&mut numbers) };
+    let pose = if numbers.next() < 0.5 { pose } else { Pose::at(DVec3::ZERO) };
+    if is_closed {
+        let shape = Shape::Container { size: DVec3::splat(2.0 * HALF), open: Sides::default() };
+        world.add_collider(Collider::new(shape, pose).with_restitution(restitution)).unwrap();
+    }
+    let is_driven = numbers.next() < 0.4;
+    for _ in 0..(3.0 * numbers.next()) as usize {
+        let (size, radius) = (vec(0.8, 0.5, 0.3), 0.4);
+        let shape =
+            if numbers.next() < 0.5 { Shape::Box { size } } else { Shape::Sphere { radius } };
+        let place = Pose { position: 0.5 * numbers.vector(), rotation: rotation(&mut numbers) };
+        let mut obstacle = Collider::new(shape, place).with_restitution(restitution);
+        if is_driven {
+            obstacle = obstacle.moving(0.02 * numbers.vector(), numbers.vector());
+        }
+        world.add_collider(obstacle).unwrap();
+    }
+    add_spheres(&mut world, &mut numbers, restitution, pose);
+    Scene { world, is_closed, is_driven }
+}
+
+fn rotation(numbers: &mut Numbers) -> DQuat {
+    DQuat::from_axis_angle(numbers.unit_vector(), numbers.between(0.0, 6.0))
+}
+
+/// Two to twelve spheres that overlap nothing; some touch the one before.
+fn add_spheres(world: &mut World, numbers: &mut Numbers, restitution: f64, pose: Pose) {
+    let count = 2 + (11.0 * numbers.next()) as usize;
+    let mut tries = 0;
+    let mut last: Option<Sphere> = None;
+    while world.spheres().len() < count && tries < 2000 {
+        tries += 1;
+        let radius = 0.6 * scale(numbers, -3.0, 0.0).max(6e-4);
+        let inside = HALF - radius;
+        let place = match last {
+            Some(last) if numbers.next() < 0.4 => {
+                last.position + (last.radius + radius) * numbers.unit_vector()
+            }
+            _ => pose.rotation * (inside * numbers.vector()),
+        };
+        let local = pose.rotation.inverse() * place;
+        if local.abs().max_element() > inside {
+            continue;
+        }
+        let sphere = Sphere::new(place, radius)
+            .with_mass(scale(numbers, -4.5, 4.5))
+            .with_restitution(restitution)
+            .with_velocity(5.0 * numbers.vector());
+        let id = world.add_sphere(sphere).unwrap();
+        // Touching counts, overlapping by more than rounding does not.
+        let overlaps = world.overlaps(0.0).iter().any(|overlap| overlap.depth > 1e-13);
+        if overlaps {
+            world.remove_sphere(id).unwrap();
+        } else {
+            last = Some(sphere);
+        }
+    }
+}
+
+fn check(seeds: Range<u64>) {
+    let mut stepped = 0;
+    for seed in seeds {
+        let Scene { mut world, is_closed, is_driven } = scene(seed);
+        let (began, start) = (Instant::now(), world.total_energy());
+        let kinetic = world.kinetic_energy();
+        let (mut scale, mut energy, mut in_zone) = (start.abs().max(kinetic), start, false);
+        while world.time() < SECONDS {
+            let report = world.step(1.0 / 60.0).unwrap_or_else(|error| panic!("{seed}: {error}"));
+            let (account, corrected) =
+                (report.zone_account, report.contact_account.correction_work);
+            in_zone |= account.joined > 0;
+            let now = world.total_energy();
+            scale = scale.max(world.kinetic_energy());
+            if !is_driven && !in_zone {
+                let gained = now - energy - corrected;
+                assert!(
+                    gained < 1e-7 * scale,
+                    "{seed}: gains {:e} at {}",
+                    gained / scale,
+                    world.time()
+                );
+            }
+            energy = now;
+            for overlap in world.overlaps(0.0) {
+                if !in_zone {
+                    let smallest =
+                        world.spheres().radii().iter().copied().fold(f64::INFINITY, f64::min);
+                    assert!(
+                        overlap.depth < 1e-5 * smallest,
+                        "{seed}: {overlap:?} at {}",
+                        world.time()
+                    );
+                }
+            }
+        }
+        assert!(!in_zone || is_driven || world.total_energy() < start + 1e-3 * scale, "{seed}");
+        if is_closed {
+            for place in world.spheres().positions() {
+                // The corner of the box is the farthest place in it.
+                assert!(place.length() < HALF * 3f64.sqrt(), "{seed}: {place}");
+            }
+        }
+        stepped += u32::from(in_zone);
+        assert!(began.elapsed() < Duration::from_secs(20), "{seed}: {:?}", began.elapsed());
+        if began.elapsed() > Duration::from_secs(1) {
+            println!("{seed}: {:?} zone {in_zone}", began.elapsed());
+        }
+    }
+    println!("{stepped} with zones");
+}
+
+#[test]
+fn sixty_scenes_go_on() {
+    check(0..60);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn a_thousand_scenes_go_on() {
+    check(0..1000);
+}
