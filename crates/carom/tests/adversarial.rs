@@ -103,56 +103,50 @@ fn add_spheres(world: &mut World, numbers: &mut Numbers, restitution: f64, pose:
     }
 }
 
-fn check(seeds: Range<u64>) {
-    let mut stepped = 0;
-    for seed in seeds {
-        let Scene { mut world, is_closed, is_driven } = scene(seed);
-        let (began, start) = (Instant::now(), world.total_energy());
-        let kinetic = world.kinetic_energy();
-        let (mut scale, mut energy, mut in_zone) = (start.abs().max(kinetic), start, false);
-        while world.time() < SECONDS {
-            let report = world.step(1.0 / 60.0).unwrap_or_else(|error| panic!("{seed}: {error}"));
-            let (account, corrected) =
-                (report.zone_account, report.contact_account.correction_work);
-            in_zone |= account.joined > 0;
-            let now = world.total_energy();
-            scale = scale.max(world.kinetic_energy());
-            if !is_driven && !in_zone {
-                let gained = now - energy - corrected;
-                assert!(
-                    gained < 1e-7 * scale,
-                    "{seed}: gains {:e} at {}",
-                    gained / scale,
-                    world.time()
-                );
-            }
-            energy = now;
-            for overlap in world.overlaps(0.0) {
-                if !in_zone {
-                    let smallest =
-                        world.spheres().radii().iter().copied().fold(f64::INFINITY, f64::min);
-                    assert!(
-                        overlap.depth < 1e-5 * smallest,
-                        "{seed}: {overlap:?} at {}",
-                        world.time()
-                    );
-                }
-            }
+/// Runs a scene; says what is wrong with it.
+fn fault(seed: u64) -> Option<String> {
+    let Scene { mut world, is_closed, is_driven } = scene(seed);
+    let (began, start) = (Instant::now(), world.total_energy());
+    let (mut scale, mut energy) = (start.abs().max(world.kinetic_energy()), start);
+    let mut in_zone = false;
+    let smallest = world.spheres().radii().iter().copied().fold(f64::INFINITY, f64::min);
+    while world.time() < SECONDS {
+        let report = match world.step(1.0 / 60.0) {
+            Ok(report) => report,
+            Err(error) => return Some(error.to_string()),
+        };
+        in_zone |= report.zone_account.joined > 0;
+        let place = format!("at {:.2} s, zone {in_zone}, driven {is_driven}", world.time());
+        let now = world.total_energy();
+        scale = scale.max(world.kinetic_energy());
+        let gained = (now - energy) / scale;
+        // Kept to this by the pieces of path along curves.
+        if !is_driven && !in_zone && gained > 1e-7 {
+            return Some(format!("gains {gained:e} of its energy {place}"));
         }
-        assert!(!in_zone || is_driven || world.total_energy() < start + 1e-3 * scale, "{seed}");
-        if is_closed {
-            for place in world.spheres().positions() {
-                // The corner of the box is the farthest place in it.
-                assert!(place.length() < HALF * 3f64.sqrt(), "{seed}: {place}");
-            }
+        if !is_driven && now - start > 1e-3 * scale {
+            return Some(format!("has gained {:e} of its energy {place}", (now - start) / scale));
         }
-        stepped += u32::from(in_zone);
-        assert!(began.elapsed() < Duration::from_secs(20), "{seed}: {:?}", began.elapsed());
-        if began.elapsed() > Duration::from_secs(1) {
-            println!("{seed}: {:?} zone {in_zone}", began.elapsed());
+        energy = now;
+        let depths = world.overlaps(0.0).into_iter().map(|overlap| overlap.depth / smallest);
+        let overlap = depths.fold(0.0, f64::max);
+        if !in_zone && overlap > 1e-6 {
+            return Some(format!("overlaps by {overlap:e} {place}"));
+        }
+        // The corner of the box is the farthest place in it.
+        let is_out = |center: &DVec3| center.length() > HALF * 3f64.sqrt();
+        if is_closed && world.spheres().positions().iter().any(is_out) {
+            return Some(format!("one has escaped {place}"));
         }
     }
-    println!("{stepped} with zones");
+    let took = began.elapsed();
+    (took > Duration::from_secs(5)).then(|| format!("took {took:?}, zone {in_zone}"))
+}
+
+fn check(seeds: Range<u64>) {
+    let faults = seeds.filter_map(|seed| Some(format!("{seed}: {}", fault(seed)?)));
+    let faults: Vec<String> = faults.collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 #[test]
@@ -164,4 +158,70 @@ fn sixty_scenes_go_on() {
 #[ignore = "takes minutes"]
 fn a_thousand_scenes_go_on() {
     check(0..1000);
+}
+#[test]
+#[ignore = "probe"]
+fn probe() {
+    let seed: u64 = std::env::var("SEED").unwrap().parse().unwrap();
+    let Scene { mut world, .. } = scene(seed);
+    println!(
+        "e {:?} radii {:?} masses {:?}",
+        world.spheres().restitutions()[0],
+        world.spheres().radii(),
+        world.spheres().masses()
+    );
+    println!("colliders {:?}", world.colliders().map(|c| c).collect::<Vec<_>>());
+    let mut last = 0.0;
+    while world.time() < SECONDS {
+        let r = world.step(1.0 / 60.0).unwrap();
+        let n = r.impacts.len();
+        let o = world.overlaps(0.0);
+        let d = o.iter().map(|o| o.depth).fold(0.0, f64::max);
+        if d > 1e-9 && d > 1.5 * last {
+            println!("t {:.3} impacts {n} {:?} contacts {:?}", world.time(), o, world.contacts());
+            last = d;
+            for i in 0..world.spheres().len() {
+                println!(
+                    "   {i} x {} v {} ",
+                    world.spheres().positions()[i],
+                    world.spheres().velocities()[i]
+                );
+            }
+        }
+    }
+}
+#[test]
+#[ignore = "probe"]
+fn probe2() {
+    let Scene { mut world, .. } = scene(303);
+    while world.time() < 0.96 {
+        let t = world.time();
+        let r = world.step(if t > 0.92 { 2e-4 } else { 1.0 / 60.0 }).unwrap().clone();
+        let s = world.spheres();
+        let i =
+            |n: u64| s.ids().iter().position(|id| id.to_string().contains(&n.to_string())).unwrap();
+        let (a, b) = (5, 8);
+        let gap = (s.positions()[a] - s.positions()[b]).length() - s.radii()[a] - s.radii()[b];
+        let _ = i;
+        for im in &r.impacts {
+            if format!("{:?}", im.between).contains("SphereId(5)")
+                || format!("{:?}", im.between).contains("SphereId(8)")
+            {
+                println!(
+                    "  impact {:.17} {:?} u {:e} n {:?}",
+                    t + im.time,
+                    im.between,
+                    im.approach_speed,
+                    im.normal
+                );
+            }
+        }
+        println!(
+            "{:.6} gap {gap:e} v5 {} v8 {} groups {}",
+            world.time(),
+            s.velocities()[a],
+            s.velocities()[b],
+            r.work.groups
+        );
+    }
 }

@@ -55,16 +55,17 @@ pub(super) fn prediction_from_found(
     now: f64,
 ) -> Prediction {
     let events = search.first_meetings(timeline, slot);
-    prediction_after(timeline, system, slot, events, now)
+    prediction_after(timeline, system, slot, events, &[], now)
 }
 
-/// What a sphere meets next whose meetings with other spheres are known.
+/// What a sphere meets next whose meetings with other spheres are known; some bodies it passes.
 #[inline(always)]
 fn prediction_after(
     timeline: &Timeline,
     system: &System,
     slot: u32,
     mut events: NextEvents,
+    passed: &[Bodies],
     now: f64,
 ) -> Prediction {
     let body = &timeline.flights.bodies[slot as usize];
@@ -73,7 +74,7 @@ fn prediction_after(
     let stays = horizon < f64::INFINITY && neighbours.stays(slot, body, species, horizon);
     let meets_none = system.surfaces.is_empty() || species.is_stepped;
     if !(meets_none || (stays && timeline.is_clear_of_surfaces(slot))) {
-        meet_surfaces(timeline, system, slot, body, species, &mut events);
+        meet_surfaces(timeline, system, slot, (body, species), passed, &mut events);
     }
     if let Some(cluster) = species.cluster {
         let time = timeline.flights.clusters.renewal_by(cluster, slot);
@@ -99,18 +100,18 @@ pub(super) struct Unresolved {
     pub until: f64,
 }
 
-/// Lets a sphere pass over meetings that have nothing to answer, to begin another flight after them.
-/// What else it meets before comes as predicted.
-pub(super) fn pass_over(timeline: &mut Timeline, slot: u32, meetings: &[Unresolved]) {
+/// Lets a sphere pass over meetings that have nothing to answer `now` \[s\], to begin another flight after
+/// them. What else it meets before comes as predicted.
+pub(super) fn pass_over(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    meetings: &[Unresolved],
+    now: f64,
+) {
     let sphere = timeline.flights.index_of[slot as usize];
     let unresolved_until = |event: &Event| {
-        let bodies = match event.target.unpacked() {
-            EventTarget::Sphere(other) => {
-                Bodies::pair([sphere, timeline.flights.index_of[other as usize]])
-            }
-            EventTarget::Surface(surface) => Bodies::Surface { sphere, surface },
-            EventTarget::Cluster | EventTarget::Restart => return None,
-        };
+        let bodies = bodies_of(timeline, sphere, event)?;
         let meeting = meetings.iter().find(|meeting| meeting.bodies == bodies)?;
         (event.time < meeting.until).then_some(meeting.until)
     };
@@ -121,10 +122,48 @@ pub(super) fn pass_over(timeline: &mut Timeline, slot: u32, meetings: &[Unresolv
         restart.time = restart.time.min(until);
         events = events.and_then(NextEvents::without_first);
     }
-    if events != Some(predicted) {
-        let next = events.map(|events| events.first).filter(|next| next.time < restart.time);
-        timeline.reschedule(slot, NextEvents::only(next.unwrap_or(restart)));
+    if events == Some(predicted) {
+        return;
     }
+    // Of meetings only the first two are known.
+    let is_far = restart.time - now > 2.0 * context.parameters.contact_duration;
+    let next = match events {
+        None if is_far => first_but(timeline, context, slot, meetings, now),
+        _ => events.map(|events| events.first),
+    };
+    let next = next.filter(|next| next.time < restart.time);
+    timeline.reschedule(slot, NextEvents::only(next.unwrap_or(restart)));
+}
+
+/// The bodies that a sphere, by its index, meets in an event; `None` if it meets none.
+fn bodies_of(timeline: &Timeline, sphere: u32, event: &Event) -> Option<Bodies> {
+    match event.target.unpacked() {
+        EventTarget::Sphere(other) => {
+            Some(Bodies::pair([sphere, timeline.flights.index_of[other as usize]]))
+        }
+        EventTarget::Surface(surface) => Some(Bodies::Surface { sphere, surface }),
+        EventTarget::Cluster | EventTarget::Restart => None,
+    }
+}
+
+/// What a sphere meets first, as of `now` \[s\], but for these meetings.
+fn first_but(
+    timeline: &Timeline,
+    context: &mut StepContext,
+    slot: u32,
+    meetings: &[Unresolved],
+    now: f64,
+) -> Option<Event> {
+    let sphere = timeline.flights.index_of[slot as usize];
+    let passed: Vec<Bodies> = meetings.iter().map(|meeting| meeting.bodies).collect();
+    let search = &mut context.searches[0];
+    search.search_among(timeline, slot, now, |other| {
+        let other = timeline.flights.index_of[other as usize];
+        other == sphere || !passed.contains(&Bodies::pair([sphere, other]))
+    });
+    let events = search.first_meetings(timeline, slot);
+    let prediction = prediction_after(timeline, context.system, slot, events, &passed, now);
+    Some(prediction.events.first)
 }
 
 /// Begins another flight of a sphere from where it is at `now` \[s\].
@@ -147,7 +186,7 @@ pub(super) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slo
     let found = search.first_meetings(timeline, slot);
     events.add(found.first);
     events.add(found.second);
-    let prediction = prediction_after(timeline, context.system, slot, events, now);
+    let prediction = prediction_after(timeline, context.system, slot, events, &[], now);
     timeline.enter(slot, prediction);
 }
 
@@ -170,10 +209,11 @@ fn meet_surfaces(
     timeline: &Timeline,
     system: &System,
     slot: u32,
-    body: &Body,
-    species: &Species,
+    (body, species): (&Body, &Species),
+    passed: &[Bodies],
     events: &mut NextEvents,
 ) {
+    let sphere = timeline.flights.index_of[slot as usize];
     let (horizon, flight_end) = (timeline.horizon(), timeline.flight_end(species));
     let reach = (flight_end < f64::INFINITY)
         .then(|| Reach::of(body.flight(species), species.radius, flight_end - body.time));
@@ -184,7 +224,8 @@ fn meet_surfaces(
         if is_at_rest && reach.is_some_and(is_missed) {
             continue;
         }
-        if timeline.flights.is_held_by(slot, number) {
+        let is_passed = passed.contains(&Bodies::Surface { sphere, surface: number });
+        if is_passed || timeline.flights.is_held_by(slot, number) {
             continue;
         }
         // A surface that moves is given as it is at the start of the frame.

@@ -72,7 +72,7 @@ pub(super) fn answer(
     // Bodies that touch and part, or still close by rounding, may be predicted to meet at once.
     let unresolved = unresolved(timeline, context, &group, &held, met(timeline, seeds, surface));
     for member in &group.members {
-        predict::pass_over(timeline, member.slot, &unresolved);
+        predict::pass_over(timeline, context, member.slot, &unresolved, group.time);
     }
 }
 

@@ -69,7 +69,7 @@ pub(crate) fn of_sphere(
         .map(|surface| Bodies::Surface { sphere, surface })
         .map(|bodies| Unresolved { bodies, until: time + contact_duration })
         .collect();
-    predict::pass_over(timeline, slot, &unresolved);
+    predict::pass_over(timeline, context, slot, &unresolved, time);
 }
 
 /// Gives a sphere the impulses of the surfaces that it closes on, by Newton's law, which is what all

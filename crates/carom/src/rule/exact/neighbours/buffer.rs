@@ -56,6 +56,19 @@ impl NeighbourBuffer {
         self.found().iter().copied().filter(move |other| other.slot() != slot)
     }
 
+    /// Keeps some of the neighbours.
+    pub fn retain(&mut self, keeps: impl Fn(Neighbour) -> bool) {
+        let mut kept = 0;
+        for place in 0..self.len {
+            let neighbour = self.buffer[place];
+            if keeps(neighbour) {
+                self.buffer[kept] = neighbour;
+                kept += 1;
+            }
+        }
+        self.len = kept;
+    }
+
     /// The neighbours, in fours; behind them, in the last four, others stand.
     #[inline(always)]
     pub fn in_fours(&mut self) -> &[[Neighbour; LANES]] {

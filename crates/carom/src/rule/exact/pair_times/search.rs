@@ -57,6 +57,21 @@ impl PairSearch {
         self.test_found(timeline, slot, now, near_test)
     }
 
+    /// Searches, `now` \[s\], for the first meetings of a sphere with those neighbours that it `meets`, by
+    /// their slots.
+    pub fn search_among(
+        &mut self,
+        timeline: &Timeline,
+        slot: u32,
+        now: f64,
+        meets: impl Fn(u32) -> bool,
+    ) {
+        let level = timeline.flights.species_of(slot).level;
+        timeline.neighbours.find(slot, level, &mut self.near);
+        self.near.retain(|neighbour| meets(neighbour.slot()));
+        self.search_found(timeline, slot, now);
+    }
+
     /// Searches for the first meetings among the neighbours that were found already.
     pub fn search_found(&mut self, timeline: &Timeline, slot: u32, now: f64) {
         self.tests += self.near.others(slot).count() as u64;
