@@ -14,6 +14,10 @@ use crate::flight::Flight;
 use crate::friction::ContactFriction;
 use crate::surface::{Form, Surface, SurfaceMotion};
 
+/// The centre of a sphere stays so far in front of a surface, as a part of the radius, whatever presses on it:
+/// from behind nothing would bring it back.
+const LEAST_IN_FRONT: f64 = 0.5;
+
 /// Where a surface is, and how it moves.
 pub(super) type Place = (Form, SurfaceMotion);
 
@@ -31,6 +35,8 @@ pub(super) struct SurfaceContact {
     pub surface: u32,
     /// Unit normal out of the surface.
     pub normal: DVec3,
+    /// Where on the surface, at the end of the sub-step \[m\], if the sphere is in front of it.
+    point: Option<DVec3>,
     /// Velocity of the surface where they touch \[m/s\].
     pub velocity: DVec3,
     /// Angular velocity of the surface \[rad/s\].
@@ -56,6 +62,7 @@ impl SurfaceContact {
             slot,
             surface,
             normal: DVec3::Y,
+            point: None,
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
             bias: FREE,
@@ -133,9 +140,11 @@ impl SurfaceContact {
         self.angular_velocity = motion.angular_velocity;
         (self.approach, self.bias) = (0.0, FREE);
         let separation = sphere_surface(form, center, radius);
+        self.point = None;
         if let Some(Separation { distance, normal, point }) = separation {
             self.normal = normal;
             self.velocity = motion.velocity_at(point);
+            self.point = Some(point + sub_step.h * self.velocity);
             self.bias = distance.max(0.0) / sub_step.h;
             self.watch_for_impact(run, distance, sub_step);
         }
@@ -143,6 +152,7 @@ impl SurfaceContact {
         let is_apart = separation.is_none_or(|it| it.distance > 0.0);
         let is_curved = !matches!(form, Form::HalfSpace { .. }) || !motion.is_at_rest();
         if is_apart && is_curved && (way > FAR * radius || self.approach > 0.0) {
+            self.point = None;
             self.aim_at_impact(run, place, sub_step);
         }
         self.start(1.0 / run.velocity[slot].number(), sub_step);
@@ -313,6 +323,7 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Plac
         let slot = contact.slot as usize;
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
         let (form, _) = &places[contact.surface as usize];
+        let center = if run.bears[slot] { contact.kept_in_front(center, radius) } else { center };
         let Some(separation) = sphere_surface(form, center, radius) else { continue };
         let overlap = -separation.distance - SLOP * radius;
         if overlap > 0.0 {
@@ -323,6 +334,16 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Plac
         }
     }
     (work, largest)
+}
+
+impl SurfaceContact {
+    /// Where a sphere about `center` \[m\] is at least that much in front of the surface as what presses on
+    /// it may leave: [`LEAST_IN_FRONT`] of its radius.
+    fn kept_in_front(&self, center: DVec3, radius: f64) -> DVec3 {
+        let in_front = self.point.map_or(f64::INFINITY, |point| (center - point).dot(self.normal));
+        let missing = LEAST_IN_FRONT * radius - in_front;
+        if missing > 0.0 { center + missing * self.normal } else { center }
+    }
 }
 
 /// Slip of a sphere's surface where it touches: what of the velocity is across the normal, with spin.

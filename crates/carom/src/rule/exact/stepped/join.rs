@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::detect::sphere_surface;
+use crate::norm::Norm;
 use crate::rule::exact::contacts::{self, Group};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::predict;
@@ -9,13 +11,15 @@ use crate::rule::exact::timeline::Timeline;
 
 /// Makes a zone of a group, as its spheres came to it.
 ///
-/// Until the next tick they wait, or go on together with their mean velocity where no surface is in the
-/// way; then their own velocities count.
+/// Until the next tick they go on together with their mean velocity, as far as no surface is in the way;
+/// then their own velocities count.
 pub(crate) fn make_zone(timeline: &mut Timeline, context: &mut StepContext, group: &Group) {
-    let touches_surface = group.touches.iter().any(|touch| touch.first.is_none());
     let mass: f64 = group.members.iter().map(|member| member.species.mass).sum();
     let momenta = group.members.iter().map(|member| member.species.mass * member.velocity);
-    let common = if touches_surface { DVec3::ZERO } else { momenta.sum::<DVec3>() / mass };
+    let mut common = momenta.sum::<DVec3>() / mass;
+    for member in &group.members {
+        common = free_way(timeline, context, (member.slot, member.position), common, group.time);
+    }
     for member in &group.members {
         let state = [member.position, member.velocity];
         join(timeline, context, member.slot, state, common, group.time);
@@ -40,7 +44,7 @@ pub(crate) fn make_zone_about(
 pub(crate) fn meet(timeline: &mut Timeline, context: &mut StepContext, slots: [u32; 2], time: f64) {
     let [comes, stepped] =
         if timeline.flights.is_stepped(slots[0]) { [slots[1], slots[0]] } else { slots };
-    let common = timeline.flights.bodies[stepped as usize].velocity;
+    let velocity = timeline.flights.bodies[stepped as usize].velocity;
     let cluster = timeline.flights.species_of(comes).cluster;
     let coming = match cluster {
         Some(number) => timeline.flights.clusters.get(number).members.clone(),
@@ -48,9 +52,32 @@ pub(crate) fn meet(timeline: &mut Timeline, context: &mut StepContext, slots: [u
     };
     let states: Vec<_> = coming.iter().map(|&slot| timeline.flights.state_of(slot, time)).collect();
     for (&slot, state) in coming.iter().zip(states) {
+        let common = free_way(timeline, context, (slot, state.0), velocity, time);
         join(timeline, context, slot, state.into(), common, time);
     }
     look_around(timeline, context, coming.into_iter(), time);
+}
+
+/// A velocity \[m/s\] without what would take a sphere, with its centre \[m\], into surfaces before the next
+/// tick.
+fn free_way(
+    timeline: &Timeline,
+    context: &StepContext,
+    (slot, position): (u32, DVec3),
+    mut velocity: DVec3,
+    time: f64,
+) -> DVec3 {
+    let reach = velocity.norm() * context.parameters.zone_tick;
+    let radius = timeline.flights.species_of(slot).radius;
+    for (surface, shift) in timeline.surfaces_near(slot) {
+        let (form, motion) = context.surface_at(surface, time);
+        let separation = sphere_surface(&form, position - shift, radius);
+        if let Some(near) = separation.filter(|it| it.distance <= reach) {
+            let closing = (motion.velocity_at(near.point) - velocity).dot(near.normal).max(0.0);
+            velocity += closing * near.normal;
+        }
+    }
+    velocity
 }
 
 /// Has a sphere join a zone with this centre \[m\] and velocity \[m/s\]; until the next tick it moves with
