@@ -5,7 +5,7 @@
 ///
 /// /// The spheres that were stepped while a block of balls fell into a box.
 /// fn stepped(zones: Zones) -> Result<u32, Error> {
-///     let exact = Exact::default().with_zones(zones).with_zone_budget(2_000);
+///     let exact = Exact::default().with_zones(zones).with_zone_budget(100);
 ///     let mut world = World::new(Settings::default().with_rule(exact))?;
 ///     world.add_force(Gravity::new(-9.81 * DVec3::Y));
 ///     world.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)))?;

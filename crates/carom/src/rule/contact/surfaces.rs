@@ -35,7 +35,7 @@ pub(super) struct SurfaceContact {
     pub surface: u32,
     /// Unit normal out of the surface.
     pub normal: DVec3,
-    /// Where on the surface, at the end of the sub-step \[m\], if the sphere is in front of it.
+    /// Where on the surface, at the end of the sub-step \[m\], if the sphere is in front of a plane.
     point: Option<DVec3>,
     /// Velocity of the surface where they touch \[m/s\].
     pub velocity: DVec3,
@@ -144,7 +144,12 @@ impl SurfaceContact {
         if let Some(Separation { distance, normal, point }) = separation {
             self.normal = normal;
             self.velocity = motion.velocity_at(point);
-            self.point = Some(point + sub_step.h * self.velocity);
+            let is_flat = match form {
+                Form::HalfSpace { .. } => true,
+                Form::Rectangle(rectangle) => rectangle.normal == normal,
+                Form::Sphere { .. } | Form::Box(_) => false,
+            };
+            self.point = is_flat.then(|| point + sub_step.h * self.velocity);
             self.bias = distance.max(0.0) / sub_step.h;
             self.watch_for_impact(run, distance, sub_step);
         }
@@ -152,7 +157,6 @@ impl SurfaceContact {
         let is_apart = separation.is_none_or(|it| it.distance > 0.0);
         let is_curved = !matches!(form, Form::HalfSpace { .. }) || !motion.is_at_rest();
         if is_apart && is_curved && (way > FAR * radius || self.approach > 0.0) {
-            self.point = None;
             self.aim_at_impact(run, place, sub_step);
         }
         self.start(1.0 / run.velocity[slot].number(), sub_step);
@@ -323,13 +327,14 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Plac
         let slot = contact.slot as usize;
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
         let (form, _) = &places[contact.surface as usize];
-        let center = if run.bears[slot] { contact.kept_in_front(center, radius) } else { center };
-        let Some(separation) = sphere_surface(form, center, radius) else { continue };
-        let overlap = -separation.distance - SLOP * radius;
-        if overlap > 0.0 {
-            let shift = RELAXATION * overlap * separation.normal;
-            run.position[slot] = run.position[slot].with_vector(center + shift);
-            work -= run.acceleration[slot].vector().dot(shift) / run.velocity[slot].number();
+        let start = if run.bears[slot] { contact.kept_in_front(center, radius) } else { center };
+        let separation = sphere_surface(form, start, radius);
+        let overlap = separation.map_or(0.0, |it| -it.distance - SLOP * radius).max(0.0);
+        let out = separation.map_or(DVec3::ZERO, |it| RELAXATION * overlap * it.normal);
+        let end = start + out;
+        if end != center {
+            run.position[slot] = run.position[slot].with_vector(end);
+            work -= run.acceleration[slot].vector().dot(end - center) / run.velocity[slot].number();
             largest = largest.max(overlap / radius);
         }
     }
@@ -340,6 +345,7 @@ impl SurfaceContact {
     /// Where a sphere about `center` \[m\] is at least that much in front of the surface as what presses on
     /// it may leave: [`LEAST_IN_FRONT`] of its radius.
     fn kept_in_front(&self, center: DVec3, radius: f64) -> DVec3 {
+        // On a plane it has one normal, whenever they touch.
         let in_front = self.point.map_or(f64::INFINITY, |point| (center - point).dot(self.normal));
         let missing = LEAST_IN_FRONT * radius - in_front;
         if missing > 0.0 { center + missing * self.normal } else { center }

@@ -1,4 +1,4 @@
-//! The budget of groups: how much work impacts may take in a tick, before their spheres are stepped.
+//! The budget: how much work impacts may take in a tick, before their spheres are stepped.
 
 use std::collections::BTreeMap;
 
@@ -6,6 +6,8 @@ use crate::settings::Exact;
 
 /// All groups together may spend the budget of one in so many ticks, for as long as it may be.
 const TICKS_OF_A_BUDGET: f64 = 4.0;
+/// A sphere may begin a new flight before it has moved as often as its budget holds this.
+const UNITS_OF_A_SHORT_FLIGHT: u64 = 60;
 /// Each time that all groups together have spent the budget of one, the budget of each is halved, so that
 /// many cost hardly more than a few; so often at most.
 const MOST_HALVINGS: u64 = 16;
@@ -17,6 +19,8 @@ pub(crate) struct Budget {
     tick: f64,
     /// By index of the sphere.
     of_spheres: BTreeMap<u32, u64>,
+    /// By index of the sphere, flights after which nothing had moved.
+    short_flights: BTreeMap<u32, u64>,
     of_all: u64,
 }
 
@@ -41,6 +45,15 @@ impl Budget {
         spheres.for_each(|index| *self.of_spheres.entry(index).or_default() += spent);
     }
 
+    /// Counts a flight of a sphere, by index, that ends at `time` \[s\] after too short a way to count. Tells
+    /// whether there have been too many in this tick.
+    pub fn is_spent_by_flight(&mut self, parameters: Exact, sphere: u32, time: f64) -> bool {
+        self.follow(time / parameters.zone_tick, u64::from(parameters.zone_budget));
+        let flights = self.short_flights.entry(sphere).or_default();
+        *flights += 1;
+        *flights > u64::from(parameters.zone_budget) / UNITS_OF_A_SHORT_FLIGHT
+    }
+
     /// Goes on to a time, in ticks.
     fn follow(&mut self, ticks: f64, of_each: u64) {
         let tick = ticks.floor();
@@ -49,6 +62,7 @@ impl Budget {
             self.of_all = self.of_all.saturating_sub(regained as u64);
             self.tick = tick;
             self.of_spheres.clear();
+            self.short_flights.clear();
         }
     }
 }

@@ -134,6 +134,7 @@ fn happen(
             return Ok(time);
         }
     };
+    let is_unresolved = timeline.is_unresolved(slot, event.time);
     match event.target.unpacked() {
         EventTarget::Restart => predict::restart(timeline, context, slot, event.time),
         EventTarget::Sphere(_) if timeline.is_void(&event) => {
@@ -150,6 +151,12 @@ fn happen(
         }
     }
     check_work(timeline, context, slot, event.time)?;
+    if is_unresolved && context.has_zones() {
+        let (index, parameters) = (timeline.flights.index_of[slot as usize], context.parameters);
+        if timeline.budget.is_spent_by_flight(parameters, index, event.time) {
+            stepped::make_zone_about(timeline, context, slot, event.time);
+        }
+    }
     Ok(event.time)
 }
 

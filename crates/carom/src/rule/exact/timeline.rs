@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::budget::Budget;
 use super::clearance::{Clearance, Obstacle};
+use super::contact_scale::RESOLVED_PATH;
 use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, UpcomingEvent};
 use super::flights::{Flights, Species};
 use super::frame_work::FrameWork;
@@ -210,6 +211,16 @@ impl Timeline {
         self.events += 1;
         self.cell_crossings += u64::from(matches!(next.1, UpcomingEvent::CellCrossing(_)));
         Some(next)
+    }
+
+    /// Whether the flight of a sphere that ends at `time` \[s\] is so short that the events at both its ends
+    /// do not count as separate.
+    #[inline]
+    pub(super) fn is_unresolved(&self, slot: u32, time: f64) -> bool {
+        let body = &self.flights.bodies[slot as usize];
+        let way_squared = (time - body.time) * (time - body.time) * body.velocity.length_squared();
+        let resolved = RESOLVED_PATH * self.flights.species_of(slot).radius;
+        way_squared < resolved * resolved
     }
 
     /// How many flights of a sphere began in this frame, and what its groups took besides.

@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use crate::bodies::Motion;
 use crate::detect::sphere_surface;
+use crate::id::SphereId;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::events::{NextEvents, Prediction};
 use crate::rule::exact::neighbours::NeighbourBuffer;
@@ -17,7 +18,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     let (now, tick) = (timeline.zone.next_tick(), context.parameters.zone_tick);
     if timeline.zone.is_idle() {
         let resting = timeline.zone.rest();
-        fly(timeline, context, &resting, now);
+        fly(timeline, &resting, now);
         look_around(timeline, context);
         return now;
     }
@@ -33,7 +34,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     // Of a zone it is known in which sub-step an impact was.
     let time = context.since_start(now);
     context.report.impacts[first..].iter_mut().for_each(|impact| impact.time = time);
-    fly(timeline, context, &stepped, now);
+    fly(timeline, &stepped, now);
     look_around(timeline, context);
     context.report.zone_account.ticks += 1;
     context.work.spend(stepped.len() as u64);
@@ -41,7 +42,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
 }
 
 /// Begins the straight flights of spheres in a zone from a tick at `now` \[s\] to the next one.
-fn fly(timeline: &mut Timeline, context: &mut StepContext, stepped: &[Stepped], now: f64) {
+fn fly(timeline: &mut Timeline, stepped: &[Stepped], now: f64) {
     let next = timeline.zone.next_tick();
     let mut found = NeighbourBuffer::default();
     for &Stepped { index, positions: [from, to] } in stepped {
@@ -137,7 +138,7 @@ fn leave(
 /// Writes the velocities of spheres in a zone at `time` \[s\]: between ticks they change steadily.
 pub(crate) fn write_velocities(
     timeline: &Timeline,
-    ids: &[crate::SphereId],
+    ids: &[SphereId],
     motion: &mut Motion,
     time: f64,
 ) {
