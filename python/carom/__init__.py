@@ -52,6 +52,7 @@ from carom._sweep import Failure, Runs, sweep
 from carom._tables import CONTACT, IMPACT, LEDGER, TRIGGER
 from carom._trajectory import Trajectory
 from carom._world import World
+from carom._zone_account import ZoneAccount
 from carom.errors import (
     CaromError,
     GraphicsError,
@@ -115,6 +116,7 @@ __all__ = [
     "Viewpoint",
     "ViscousDrag",
     "World",
+    "ZoneAccount",
     "load",
     "scene",
     "scenes",

@@ -1,4 +1,4 @@
-"""What became of kinetic energy in a frame under the rule ``contact``."""
+"""What became of kinetic energy in the contacts that were stepped in a frame."""
 
 from __future__ import annotations
 
@@ -6,7 +6,10 @@ from typing import NamedTuple
 
 
 class ContactAccount(NamedTuple):
-    """What contacts did to energy in a frame, and how good the solution is; 0 under other rules."""
+    """What contacts did to energy in a frame, and how good the solution is.
+
+    Under the rule ``contact``, and in the stepped zones of ``exact``; else 0.
+    """
 
     impulse_work: float
     """What impulses did to kinetic energy [J], <= 0 but for rounding: impacts and friction take."""

@@ -411,12 +411,21 @@ class Exact(Part):
         impact_law: How impacts at one instant among spheres that touch are answered.
         contact_duration: How long a contact lasts at least [s], > 0: bodies that would meet sooner
             stay together.
-        max_impacts: Impacts and other work per sphere in a frame, >= 1; more is refused.
+        max_impacts: Impacts and other work per sphere in a frame, >= 1; more makes a stepped zone,
+            or without zones is refused.
+        zones: Whether spheres in contact that take too much work are stepped as by the rule
+            ``contact``, until they have come apart.
+        zone_budget: Work of a group of spheres in a tick, in contacts times iterations, >= 1; more
+            makes a stepped zone.
+        zone_tick: Time between two ticks, at which zones are stepped [s], > 0.
     """
 
     impact_law: ImpactLaw = "reflection"
     contact_duration: float | None = None
     max_impacts: int | None = None
+    zones: Literal["automatic", "never"] = "automatic"
+    zone_budget: int | None = None
+    zone_tick: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,6 +17,7 @@ from carom._contact_account import ContactAccount
 from carom._stage_counts import StageCounts
 from carom._text import read_part, read_parts, toml_of, toml_value
 from carom._trajectory import Trajectory
+from carom._zone_account import ZoneAccount
 
 if TYPE_CHECKING:
     from carom._scene import Scene
@@ -160,8 +161,19 @@ class World(Engine):
 
     @property
     def contact_account(self) -> ContactAccount:
-        """What contacts did to energy in the last frame, under the rule ``contact``."""
+        """What contacts did to energy in the last frame.
+
+        Under the rule ``contact``, and in stepped zones under ``exact``.
+        """
         return ContactAccount(*self._contact_account())
+
+    @property
+    def zone_account(self) -> ZoneAccount:
+        """What was stepped in the last frame under the rule ``exact``.
+
+        `was_stepped` tells whether anything was so far.
+        """
+        return ZoneAccount(*self._zone_account())
 
     # What holds now
 

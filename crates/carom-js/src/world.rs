@@ -178,6 +178,22 @@ impl World {
         ]
     }
 
+    /// What was stepped under the rule `exact`: spheres in zones, the time that they spent there of all
+    /// together \[s\], ticks, spheres that joined and that left.
+    #[wasm_bindgen(getter, js_name = zoneAccount)]
+    pub fn zone_account(&self) -> Vec<f64> {
+        let account = self.world.report().zone_account;
+        let [spheres, ticks] = [account.spheres, account.ticks].map(f64::from);
+        let [joined, left] = [account.joined, account.left].map(f64::from);
+        vec![spheres, account.sphere_seconds, ticks, joined, left]
+    }
+
+    /// Whether spheres were in zones so far.
+    #[wasm_bindgen(getter, js_name = wasStepped)]
+    pub fn was_stepped(&self) -> bool {
+        self.world.was_stepped()
+    }
+
     /// The table of the contacts that persist now, a row for each.
     #[wasm_bindgen(getter)]
     pub fn contacts(&self) -> Vec<f64> {

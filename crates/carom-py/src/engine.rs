@@ -5,7 +5,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use carom::{ContactAccount, DQuat, DVec3, Sphere, SphereId, World};
+use carom::{ContactAccount, DQuat, DVec3, Sphere, SphereId, World, ZoneAccount};
 use carom_scene::{Palette, Scene};
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
@@ -431,6 +431,21 @@ impl Engine {
             largest_overlap,
             asleep,
         ))
+    }
+
+    /// What was stepped under the rule `exact`: spheres in zones, the time that they spent there of all
+    /// together [s], ticks, spheres that joined and that left.
+    #[pyo3(name = "_zone_account")]
+    fn zone_account(&self, py: Python<'_>) -> PyResult<(u32, f64, u32, u32, u32)> {
+        let ZoneAccount { spheres, sphere_seconds, ticks, joined, left, .. } =
+            self.lock(py)?.world.report().zone_account;
+        Ok((spheres, sphere_seconds, ticks, joined, left))
+    }
+
+    /// Whether spheres were in zones so far.
+    #[getter]
+    fn was_stepped(&self, py: Python<'_>) -> PyResult<bool> {
+        Ok(self.lock(py)?.world.was_stepped())
     }
 
     /// Ids of the spheres that emitters put into the world in the last frame, ascending.

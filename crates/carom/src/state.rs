@@ -36,6 +36,8 @@ pub(crate) struct State {
     pub timeline: Option<Timeline>,
     /// Under the rule `exact`, what was stepped before the flights were dropped.
     pub zone: Zone,
+    /// Whether spheres were in zones so far.
+    pub was_stepped: bool,
     /// Under the rule `contact`, neighbours and the impulses of contacts.
     pub solver: Solver,
 }

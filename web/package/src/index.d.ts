@@ -235,11 +235,16 @@ export interface Simulation {
   /** A box about the origin that repeats itself [m], `Infinity` along an open axis; by `exact`. */
   boundary: "open" | { periodic: { size: [number, number, number] } };
   /** Parameters of `exact`: how impacts at one instant among spheres that touch are answered; how
-   *  long a contact lasts [s]; impacts per sphere and frame at most. */
+   *  long a contact lasts [s]; impacts per sphere and frame at most; whether spheres in contact that
+   *  take too much work are stepped ("automatic" unless given), from which work of a group in a tick
+   *  on, in contacts times iterations, and how long a tick is [s]. */
   exact: {
     impactLaw: "reflection" | "simultaneous" | "sequential";
     contactDuration: number;
     maxImpacts: number;
+    zones?: "automatic" | "never";
+    zoneBudget?: number;
+    zoneTick?: number;
   };
   /** Parameters of `bisect`. */
   bisect: {
@@ -352,8 +357,8 @@ export interface StageCounts {
   contacts: number;
 }
 
-/** What contacts did to energy in a frame, and how good the solution is; 0 by other rules than
- *  `contact`. */
+/** What contacts did to energy in a frame, and how good the solution is: by `contact`, and in the
+ *  stepped zones of `exact`; else 0. */
 export interface ContactAccount {
   /** What impulses did to kinetic energy [J], <= 0 but for rounding: impacts and friction take. */
   impulseWork: number;
@@ -369,6 +374,21 @@ export interface ContactAccount {
   largestOverlap: number;
   /** Spheres that sleep at the end of the frame: at rest, until something comes near or changes. */
   asleep: number;
+}
+
+/** Spheres that were not moved from impact to impact by `exact`, but stepped: their contacts took too
+ *  much work. How good their motion is, `ContactAccount` tells. */
+export interface ZoneAccount {
+  /** Spheres in a zone at the end of the frame. */
+  spheres: number;
+  /** Time that they spent in it in this frame, of all together [s]. */
+  sphereSeconds: number;
+  /** Ticks at which a zone was stepped. */
+  ticks: number;
+  /** Spheres that came into a zone. */
+  joined: number;
+  /** Spheres that left one. */
+  left: number;
 }
 
 /** Where what stands in a row of `World.impactTable`; vectors take three places. */
@@ -510,8 +530,12 @@ export class World {
   readonly triggers: { collider: number; sphere: number }[];
   /** The work of the last frame. */
   readonly work: StageCounts;
-  /** What contacts did to energy in the last frame, by `contact`. */
+  /** What contacts did to energy in the last frame, by `contact` and in stepped zones. */
   readonly contactAccount: ContactAccount;
+  /** What was stepped in the last frame by `exact`. */
+  readonly zoneAccount: ZoneAccount;
+  /** Whether spheres were in zones so far. */
+  readonly wasStepped: boolean;
 
   /** The contacts that persist, in the order of ids, pairs of spheres first: what a ball that lies on
    *  the floor is in. Known by `exact` and `contact` after a step; none where something was changed

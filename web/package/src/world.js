@@ -210,6 +210,15 @@ export class World {
     return { ...works, limitedSubSteps, residual, largestOverlap, asleep };
   }
 
+  get zoneAccount() {
+    const [spheres, sphereSeconds, ticks, joined, left] = this.#world.zoneAccount;
+    return { spheres, sphereSeconds, ticks, joined, left };
+  }
+
+  get wasStepped() {
+    return this.#world.wasStepped;
+  }
+
   // What holds now.
 
   get contacts() {

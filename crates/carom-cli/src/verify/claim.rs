@@ -89,12 +89,14 @@ pub struct Measured {
     pub value: f64,
     /// Of the worlds at their ends.
     pub state: StateHash,
+    /// Whether spheres were stepped in zones, which is not exact.
+    pub was_stepped: bool,
 }
 
 impl Measured {
     /// A value measured in one world.
     pub fn in_world(world: &World, value: f64) -> Self {
-        Self { value, state: world.state_hash() }
+        Self { value, state: world.state_hash(), was_stepped: world.was_stepped() }
     }
 
     /// The largest of several values.
@@ -108,7 +110,7 @@ impl Measured {
     }
 
     fn folded(measured: impl IntoIterator<Item = Self>, fold: impl Fn(f64, f64) -> f64) -> Self {
-        let none = Self { value: 0.0, state: StateHash(0) };
+        let none = Self { value: 0.0, state: StateHash(0), was_stepped: false };
         measured.into_iter().fold(none, |all, one| Self {
             // What is no number shall not get lost in a maximum.
             value: if (all.value + one.value).is_nan() {
@@ -117,6 +119,7 @@ impl Measured {
                 fold(all.value, one.value)
             },
             state: StateHash(all.state.0.rotate_left(1) ^ one.state.0),
+            was_stepped: all.was_stepped || one.was_stepped,
         })
     }
 }

@@ -1,6 +1,6 @@
 //! The built-in scenes.
 
-use carom::{DQuat, DVec3, Discrete, Rule, SphereId, StateHash, World};
+use carom::{DQuat, DVec3, Discrete, Rule, SphereId, World};
 use carom_scene::{BUILT_IN_FILES, Library, Override, Scene};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
@@ -68,9 +68,9 @@ fn frame_length(name: &str, rule: Rule) -> Outcome {
             worst = worst.max(largest_distance(&worlds[0], world));
         }
     }
-    let states = worlds.iter().map(|world| Measured { value: 0.0, state: world.state_hash() });
-    let StateHash(state) = Measured::largest(states).state;
-    Ok(Measured { value: worst, state: StateHash(state) })
+    let states = worlds.iter().map(|world| Measured::in_world(world, 0.0));
+    let all = Measured::largest(states);
+    Ok(Measured { value: worst, ..all })
 }
 
 /// Between the places of one sphere in two worlds; infinite if a sphere is in only one of them.

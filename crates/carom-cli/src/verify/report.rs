@@ -43,7 +43,8 @@ impl Finding {
         let (expected, tolerance) = (claim.expected, claim.tolerance);
         let measured = outcome.as_ref().ok().map(|it| it.value).filter(|value| value.is_finite());
         let error = measured.map(|value| tolerance.error(value, expected.value));
-        let holds = error.is_some_and(|error| error <= tolerance.bound);
+        let is_exact = outcome.as_ref().is_ok_and(|it| !it.was_stepped);
+        let holds = is_exact && error.is_some_and(|error| error <= tolerance.bound);
         let state_hash = outcome.as_ref().ok().map(|measured| measured.state.to_string());
         Self {
             claim: claim.name.clone(),
@@ -58,6 +59,7 @@ impl Finding {
             fault: match (outcome, measured) {
                 (Err(fault), _) => Some(fault.to_string()),
                 (Ok(_), None) => Some("the measured value is not finite".to_owned()),
+                (Ok(_), _) if !is_exact => Some("spheres were stepped: not exact".to_owned()),
                 _ => None,
             },
             state_hash,

@@ -21,6 +21,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
         attempt.state.spheres.motion.spin.advance(attempt.length);
         attempt.state.timeline = Some(timeline);
         let account = &mut attempt.report.zone_account;
+        attempt.state.was_stepped |= account.joined > 0;
         account.sphere_seconds = f64::from(account.spheres) * attempt.length;
         Ok(())
     })?;

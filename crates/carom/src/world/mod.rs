@@ -138,6 +138,12 @@ impl World {
         &self.report
     }
 
+    /// Whether spheres were in stepped zones under the rule `exact` so far: if not, every impact was answered
+    /// at its own time. [`StepReport::zone_account`] tells which step had how many.
+    pub fn was_stepped(&self) -> bool {
+        self.state.was_stepped
+    }
+
     /// Time since the beginning \[s\]: the sum of all steps.
     pub fn time(&self) -> f64 {
         self.state.clock.seconds()

@@ -59,8 +59,9 @@ pub(super) fn answer(
         return stepped::make_zone(timeline, context, &group);
     }
     let indices: Vec<u32> = indices_of(timeline, &group).collect();
-    let spent_around = UNITS_PER_MEMBER * group.members.len() as u64;
-    timeline.budget.charge(indices.into_iter(), spent + spent_around);
+    // Impacts by which nothing stays in contact may be many: their number is that of flights.
+    let lasting = if supports.is_empty() { 0 } else { group.members.len() as u64 };
+    timeline.budget.charge(indices.into_iter(), spent + UNITS_PER_MEMBER * lasting);
     let held: Vec<Bodies> =
         supports.iter().flat_map(|support| &support.contacts).copied().collect();
     begin_flights(timeline, &group, &struck, supports);
