@@ -4,6 +4,7 @@ The engine's own tests check the forces and times; these prove that they arrive 
 """
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -107,3 +108,38 @@ def test_the_work_of_a_frame_follows_from_the_world_alone() -> None:
     assert world.work.predictions > 0
     assert world.work.solver_iterations > 0
     assert world.work._asdict()["cell_crossings"] <= world.work.events
+
+
+def heap(**exact: Any) -> carom.World:
+    """A block of balls that falls into a narrow box, under the rule ``exact``."""
+    world = carom.World()
+    world.simulation = carom.Simulation(exact=carom.Exact(**exact))
+    world.add_force(carom.Gravity())
+    box = carom.Container(size=(3.2, 8.0, 3.2), open=("top",))
+    world.add_collider(carom.Collider(box, position=(0, 4, 0), restitution=0.3))
+    for number in range(45):
+        layer, place = divmod(number, 9)
+        x, z = divmod(place, 3)
+        position = (1.04 * (x - 1), 0.7 + 1.05 * layer, 1.04 * (z - 1))
+        world.add_sphere(carom.Sphere(position=position, radius=0.5, restitution=0.3))
+    return world
+
+
+def test_a_heap_is_stepped_and_says_so() -> None:
+    world = heap(zone_budget=2_000)
+    most = 0
+    for _ in range(60):
+        world.step()
+        most = max(most, world.zone_account.spheres)
+    assert most > 20
+    assert world.was_stepped
+    assert world.zone_account.joined >= 0
+    assert world.contact_account.largest_overlap < 0.1
+    assert len(world.contacts) > 0
+
+
+def test_without_zones_nothing_is_stepped() -> None:
+    world = heap(zone_budget=2_000, zones="never")
+    world.step(frames=10)
+    assert not world.was_stepped
+    assert world.zone_account == carom.ZoneAccount(0, 0.0, 0, 0, 0)

@@ -24,6 +24,8 @@ pub struct Reading {
     pub impacts: u64,
     /// Impacts per second, over the last [`RATE_WINDOW`] or since the last reading before it.
     pub impact_rate: f64,
+    /// Spheres that were stepped in a zone by the rule `exact`.
+    pub stepped: u32,
     /// Work of the frame that led here, by stage.
     pub work: StageCounts,
 }
@@ -57,8 +59,9 @@ pub(crate) struct Readings {
     last_impacts: LastImpacts,
     /// Since the beginning.
     pub impacts: u64,
-    /// Work of the frame that led to the present.
+    /// Work of the frame that led to the present, and the spheres that were stepped in it.
     work: StageCounts,
+    stepped: u32,
 }
 
 impl Readings {
@@ -66,7 +69,7 @@ impl Readings {
     pub fn note(&mut self, frame: u64, start: f64, world: &World) {
         let report = world.report();
         self.impacts += report.impacts.len() as u64;
-        self.work = report.work;
+        (self.work, self.stepped) = (report.work, report.zone_account.spheres);
         self.last_impacts.note(report, frame, start, world);
         self.measure(frame, world);
     }
@@ -91,6 +94,7 @@ impl Readings {
             momentum: world.momentum(),
             impacts,
             impact_rate: self.rate(frame, time),
+            stepped: self.stepped,
             work: self.work,
         }
     }
@@ -129,7 +133,8 @@ impl Readings {
         self.impacts = impacts;
         // A world that was put back has no report: what was measured then counts.
         let measured = self.all.until(frame).last();
-        self.work = measured.map(|(_, reading)| reading.work).unwrap_or_default();
+        let last = measured.map(|(_, reading)| *reading).unwrap_or_default();
+        (self.work, self.stepped) = (last.work, last.stepped);
         self.picked_series.cut(frame);
         self.last_impacts.cut(frame);
     }

@@ -64,3 +64,33 @@ test("the work of a frame follows from the world alone", () => {
   assert.ok(world.work.predictions >= 2 && world.work.events >= 1);
   assert.equal(world.work.pairTests, 0);
 });
+
+test("a heap that takes too much work is stepped, and says so", () => {
+  const heap = (exact) => {
+    const world = new World({ exact });
+    world.addForce({ gravity: { acceleration: [0, -9.81, 0] } });
+    world.addCollider({ shape: { container: { size: [3.2, 8, 3.2], open: ["top"] } }, position: [0, 4, 0] });
+    for (let number = 0; number < 45; number += 1) {
+      const [layer, x, z] = [Math.floor(number / 9), number % 3, Math.floor(number / 3) % 3];
+      const position = [1.04 * (x - 1), 0.7 + 1.05 * layer, 1.04 * (z - 1)];
+      world.addSphere({ position, radius: 0.5, restitution: 0.3 });
+    }
+    let most = 0;
+    for (let frame = 0; frame < 60; frame += 1) {
+      world.step(1 / 60);
+      most = Math.max(most, world.zoneAccount.spheres);
+    }
+    return { world, most };
+  };
+  const { world, most } = heap({ zoneBudget: 2000 });
+  assert.ok(most > 20 && world.wasStepped);
+  assert.ok(world.contactAccount.largestOverlap < 0.1);
+  assert.deepEqual(Object.keys(world.zoneAccount), [
+    "spheres",
+    "sphereSeconds",
+    "ticks",
+    "joined",
+    "left",
+  ]);
+  assert.equal(heap({ zones: "never" }).most, 0);
+});

@@ -38,6 +38,11 @@ fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut Ui))
 fn state(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     ui.label(format!("{} balls, {} impacts", view.spheres.ids.len(), view.now.impacts));
     ui.label(format!("energy {:.9e} J", view.now.total_energy()));
+    if view.now.stepped > 0 {
+        ui.label(format!("{} balls are stepped, not exact", view.now.stepped)).on_hover_text(
+            "Their contacts would take too long one by one. Simulation, stepped zones: never.",
+        );
+    }
     let mut shown = view.playback.state_hash.is_some();
     if ui.checkbox(&mut shown, "Show the state hash").changed() {
         commands.push(Command::ShowStateHash(shown));

@@ -1,6 +1,6 @@
 //! How a scene is stepped.
 
-use carom_scene::scene::{CombineRule, ImpactLaw, Integrator, Rule, Simulation};
+use carom_scene::scene::{CombineRule, ImpactLaw, Integrator, Rule, Simulation, Zones};
 use carom_session::{Command, Edit, View};
 use egui::{ComboBox, Ui};
 
@@ -25,6 +25,7 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         (ImpactLaw::Simultaneous, "simultaneous"),
         (ImpactLaw::Sequential, "sequential"),
     ];
+    const ZONES: [(Zones, &str); 2] = [(Zones::Automatic, "automatic"), (Zones::Never, "never")];
     const COMBINE_RULES: [(CombineRule, &str); 5] = [
         (CombineRule::Product, "product"),
         (CombineRule::Minimum, "minimum"),
@@ -36,7 +37,10 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         choice(ui, "rule", &RULES, &mut simulation.rule);
     }
     match simulation.rule {
-        Rule::Exact => choice(ui, "impact law", &LAWS, &mut simulation.exact.impact_law),
+        Rule::Exact => {
+            choice(ui, "impact law", &LAWS, &mut simulation.exact.impact_law);
+            choice(ui, "stepped zones", &ZONES, &mut simulation.exact.zones);
+        }
         Rule::Bisect => {
             choice(ui, "integrator", &INTEGRATORS, &mut simulation.bisect.integrator);
         }
