@@ -407,7 +407,7 @@ name = "pile"
 [simulation]
 frame_time = 60.0
 duration = 600.0
-exact = { max_impacts = 4_000_000_000 }
+exact = { max_impacts = 4_000_000_000, zones = "never" }
 [[forces]]
 gravity = { acceleration = [0.0, -9.81, 0.0] }
 [[colliders]]

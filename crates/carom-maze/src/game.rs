@@ -2,7 +2,7 @@
 
 use carom::{
     BodyPair, Collider, ColliderId, DQuat, DVec3, Discrete, Error, Exact, Pose, Rule, Settings,
-    Snapshot, SphereId, World,
+    Snapshot, SphereId, World, Zones,
 };
 use carom_scene::scene::Scene;
 
@@ -386,7 +386,7 @@ impl Game {
 }
 
 fn exact() -> Exact {
-    Exact::default().with_max_impacts(MOST_IMPACTS)
+    Exact::default().with_max_impacts(MOST_IMPACTS).with_zones(Zones::Never)
 }
 
 fn settings(rule: Rule, world: &World) -> Settings {

@@ -1,6 +1,6 @@
 //! What all episodes in a maze share: the world to roll in, and what is known of it.
 
-use carom::{ColliderId, DVec3, Rule, World};
+use carom::{ColliderId, DVec3, Rule, World, Zones};
 use carom_scene::scene::Force;
 
 use super::ground::Ground;
@@ -145,7 +145,8 @@ fn is_drag(force: &Force) -> bool {
 fn limited(rule: Rule) -> Rule {
     match rule {
         Rule::Exact(exact) => {
-            Rule::Exact(exact.with_max_impacts(exact.max_impacts.min(MOST_IMPACTS)))
+            let limited = exact.with_max_impacts(exact.max_impacts.min(MOST_IMPACTS));
+            Rule::Exact(limited.with_zones(Zones::Never))
         }
         other => other,
     }

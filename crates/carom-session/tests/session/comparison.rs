@@ -1,7 +1,7 @@
 //! Two rules side by side.
 
 use carom::{DVec3, Sphere};
-use carom_scene::scene::{Force, Rule};
+use carom_scene::scene::{Force, Rule, Zones};
 use carom_session::{Comparison, Edit, Session, SessionError, View};
 
 use crate::busy_scene;
@@ -94,6 +94,7 @@ fn an_edit_is_made_to_both_or_to_none() {
 fn if_one_cannot_go_on_neither_does() {
     let mut scene = busy_scene();
     scene.simulation.exact.max_impacts = 2;
+    scene.simulation.exact.zones = Zones::Never;
     let mut both = Comparison::new(&scene, [Rule::Discrete, Rule::Exact]).unwrap();
     let error = loop {
         if let Err(error) = both.step() {

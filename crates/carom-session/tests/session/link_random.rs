@@ -1,7 +1,7 @@
 //! Links of random sessions: whatever is done is repeated to the bit.
 
 use carom::{ColliderId, DVec3, ForceId, Friction, Sphere, SphereId};
-use carom_scene::scene::{Force, Rule};
+use carom_scene::scene::{Force, Rule, Zones};
 use carom_session::{Edit, Session, SphereChange};
 use proptest::prelude::*;
 
@@ -51,6 +51,7 @@ fn edit() -> impl Strategy<Value = Edit> {
             simulation.rule = rules[rule];
             // So few that steps fail now and then.
             simulation.exact.max_impacts = max_impacts;
+            simulation.exact.zones = Zones::Never;
             Edit::Simulation(Box::new(simulation))
         }),
     ]

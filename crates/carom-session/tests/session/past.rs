@@ -1,7 +1,7 @@
 //! The past, bit for bit.
 
 use carom::{DVec3, SphereId};
-use carom_scene::scene::Rule;
+use carom_scene::scene::{Rule, Zones};
 use carom_session::{Edit, Session, SessionError, SphereChange};
 
 use crate::{built_in, busy, busy_scene, hashes};
@@ -156,6 +156,7 @@ fn a_refused_edit_changes_nothing_and_cuts_off_nothing() {
 fn a_step_that_failed_leaves_the_past_as_it_was_and_is_part_of_it() {
     let mut scene = busy_scene();
     scene.simulation.exact.max_impacts = 2;
+    scene.simulation.exact.zones = Zones::Never;
     let mut session = Session::new(scene).unwrap();
     let mut there = vec![session.state_hash()];
     let error = loop {
