@@ -2,6 +2,7 @@
 
 use super::dormant::Partner;
 use super::solver::Solver;
+use super::sub_step::SLOP;
 use crate::id::SphereId;
 
 /// A sphere is near another one whose gap is below this part of the sum of radii.
@@ -15,10 +16,26 @@ pub(crate) fn bearing(solver: &Solver) -> impl Iterator<Item = (u32, bool)> {
     solver.slots.index.iter().copied().zip(solver.slots.bears.iter().copied())
 }
 
-/// Whether each sphere is near another one, in order of ids.
-pub(crate) fn near_others(solver: &Solver) -> Vec<(SphereId, bool)> {
+/// How near a sphere is to the nearest other one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Nearness {
+    /// It meets none soon.
+    Apart,
+    /// It touches one, or may soon.
+    Near,
+    /// It overlaps one by more than what is left as it is.
+    Overlaps,
+}
+
+/// How near each sphere is to others, in order of ids.
+pub(crate) fn nearness(solver: &Solver) -> Vec<(SphereId, Nearness)> {
     let Solver { slots, slabs, dormant, h, .. } = solver;
-    let mut is_near = vec![false; slots.len()];
+    let mut nearness = vec![Nearness::Apart; slots.len()];
+    let mut note = |slot: usize, found: Nearness| {
+        if let Some(known) = nearness.get_mut(slot) {
+            *known = found.max(*known);
+        }
+    };
     for slab in slabs.iter() {
         for (number, lane, _) in slab.batches.contacts() {
             let both = slab.slots_of(number, lane);
@@ -29,22 +46,22 @@ pub(crate) fn near_others(solver: &Solver) -> Vec<(SphereId, bool)> {
             let (distance, velocity) = (offset.length(), after - before);
             let closing = -velocity.dot(offset) / distance;
             let gap = distance - radius_sum;
-            if gap < NEAR * radius_sum || gap < SUB_STEPS * h * closing {
-                both.into_iter().for_each(|slot| is_near[slot] = true);
+            if gap < -2.0 * SLOP * radius_sum {
+                both.into_iter().for_each(|slot| note(slot, Nearness::Overlaps));
+            } else if gap < NEAR * radius_sum || gap < SUB_STEPS * h * closing {
+                both.into_iter().for_each(|slot| note(slot, Nearness::Near));
             }
         }
     }
     for contact in dormant {
         match contact.partner {
             Partner::Sphere(other) | Partner::Awake(other) => {
-                for slot in [contact.sphere, other] {
-                    is_near.get_mut(slot as usize).into_iter().for_each(|it| *it = true);
-                }
+                [contact.sphere, other].map(|slot| note(slot as usize, Nearness::Near));
             }
             Partner::Surface(_) => {}
         }
     }
-    let mut all: Vec<_> = slots.id.iter().copied().zip(is_near).collect();
+    let mut all: Vec<_> = slots.id.iter().copied().zip(nearness).collect();
     all.sort_unstable_by_key(|sphere| sphere.0);
     all
 }

@@ -44,7 +44,7 @@ mod surfaces;
 mod swept;
 mod wake;
 
-pub(crate) use apart::{bearing, near_others};
+pub(crate) use apart::{Nearness, bearing, nearness};
 pub(crate) use listing::persistent_contacts;
 pub(crate) use solver::{Scratch, Solver};
 

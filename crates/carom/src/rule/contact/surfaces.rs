@@ -37,6 +37,8 @@ pub(super) struct SurfaceContact {
     pub normal: DVec3,
     /// Where on the surface, at the end of the sub-step \[m\], if the sphere is in front of a plane.
     point: Option<DVec3>,
+    /// Whether the sphere flies too little in the sub-step to come past an edge of it.
+    is_slow: bool,
     /// Velocity of the surface where they touch \[m/s\].
     pub velocity: DVec3,
     /// Angular velocity of the surface \[rad/s\].
@@ -63,6 +65,7 @@ impl SurfaceContact {
             surface,
             normal: DVec3::Y,
             point: None,
+            is_slow: false,
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
             bias: FREE,
@@ -154,9 +157,10 @@ impl SurfaceContact {
             self.watch_for_impact(run, distance, sub_step);
         }
         let way = sub_step.h * (before - motion.velocity_at(center)).length();
+        self.is_slow = way <= FAR * radius;
         let is_apart = separation.is_none_or(|it| it.distance > 0.0);
         let is_curved = !matches!(form, Form::HalfSpace { .. }) || !motion.is_at_rest();
-        if is_apart && is_curved && (way > FAR * radius || self.approach > 0.0) {
+        if is_apart && is_curved && (!self.is_slow || self.approach > 0.0) {
             self.aim_at_impact(run, place, sub_step);
         }
         self.start(1.0 / run.velocity[slot].number(), sub_step);
@@ -327,7 +331,8 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Plac
         let slot = contact.slot as usize;
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
         let (form, _) = &places[contact.surface as usize];
-        let start = if run.bears[slot] { contact.kept_in_front(center, radius) } else { center };
+        let is_held = contact.is_slow || run.bears[slot];
+        let start = if is_held { contact.kept_in_front(center, radius) } else { center };
         let separation = sphere_surface(form, start, radius);
         let overlap = separation.map_or(0.0, |it| -it.distance - SLOP * radius).max(0.0);
         let out = separation.map_or(DVec3::ZERO, |it| RELAXATION * overlap * it.normal);

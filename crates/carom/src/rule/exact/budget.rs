@@ -8,6 +8,8 @@ use crate::settings::Exact;
 const TICKS_OF_A_BUDGET: f64 = 4.0;
 /// A sphere may begin a new flight before it has moved as often as its budget holds this.
 const UNITS_OF_A_SHORT_FLIGHT: u64 = 60;
+/// And they may be so many budgets ahead of that.
+const AHEAD: u64 = 8;
 /// Each time that all groups together have spent the budget of one, the budget of each is halved, so that
 /// many cost hardly more than a few; so often at most.
 const MOST_HALVINGS: u64 = 16;
@@ -34,14 +36,14 @@ impl Budget {
     ) -> u64 {
         let of_each = u64::from(parameters.zone_budget);
         self.follow(time / parameters.zone_tick, of_each);
-        let halvings = (self.of_all / of_each).min(MOST_HALVINGS);
+        let halvings = (self.of_all / of_each).saturating_sub(AHEAD).min(MOST_HALVINGS);
         let spent = spheres.filter_map(|index| self.of_spheres.get(&index)).max();
         (of_each >> halvings).saturating_sub(spent.copied().unwrap_or(0))
     }
 
-    /// Counts what a group of these spheres has spent.
-    pub fn charge(&mut self, spheres: impl Iterator<Item = u32>, spent: u64) {
-        self.of_all += spent;
+    /// Counts what the answer of a group of these spheres has spent, and what it took `besides`.
+    pub fn charge(&mut self, spheres: impl Iterator<Item = u32>, spent: u64, besides: u64) {
+        self.of_all += spent + besides;
         spheres.for_each(|index| *self.of_spheres.entry(index).or_default() += spent);
     }
 

@@ -55,12 +55,11 @@ pub(crate) fn start(
     if parameters.zones == Zones::Never {
         zone = Zone::default();
     }
-    let velocity_of = |id| {
-        let index = system.spheres.id.binary_search(&id).ok()?;
+    let velocity_of = |index: usize| {
         flights.set_stepped(flights.slot_of[index]);
-        Some(motion.velocity[index])
+        motion.velocity[index]
     };
-    zone.restart(time, parameters.zone_tick, velocity_of);
+    zone.restart(system, time, parameters.zone_tick, velocity_of);
     let frame = [time; 2];
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     arrange(&mut timeline, system, time);

@@ -4,13 +4,15 @@
 use glam::DVec3;
 
 use crate::bodies::{Motion, Properties};
+use crate::forces;
 use crate::friction::Friction;
 use crate::id::SphereId;
 use crate::interval::Interval;
+use crate::norm::Norm;
 use crate::parallel;
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
-use crate::rule::contact::{self, Scratch, Solver};
+use crate::rule::contact::{self, Nearness, Scratch, Solver};
 use crate::settings::Contact;
 use crate::surface::Surface;
 use crate::system::System;
@@ -20,6 +22,12 @@ const TICKS_PER_FRAME: u32 = 8;
 
 /// A sphere that has borne nothing and was not borne for so many ticks leaves its zone, whatever is near.
 const FREE_TICKS: u32 = 4 * TICKS_PER_FRAME;
+
+/// Ticks are to be at most this part of `sqrt(r / a)`, the time in which a sphere with the radius r falls
+/// through half of it.
+const SHORT: f64 = 0.03;
+/// They are halved so often at most.
+const MOST_TICK_HALVINGS: u32 = 6;
 
 /// The spheres that are stepped, all zones of a world together. Between ticks they fly straight.
 #[derive(Debug, Clone, Default)]
@@ -41,6 +49,8 @@ pub(crate) struct Zone {
     /// The last tick, and the next one, on the world's clock \[s\]; the next one is infinite while all
     /// sleep.
     ticks: [f64; 2],
+    /// How often a tick is halved, for small spheres to be stepped well.
+    halvings: u32,
     /// Slots of spheres that are in no zone and have one that is among their neighbours; more than once,
     /// perhaps, and some for which it is so no more.
     pub near: Vec<u32>,
@@ -69,34 +79,43 @@ impl Zone {
         if self.is_empty() { f64::INFINITY } else { self.ticks[1] }
     }
 
-    /// Takes in a sphere, which joins at a time \[s\] with a velocity \[m/s\]. Ticks are `tick` \[s\] apart.
-    pub fn join(&mut self, sphere: SphereId, velocity: DVec3, time: f64, tick: f64) {
-        if self.is_empty() || self.ticks[1] == f64::INFINITY {
-            self.ticks = [time, first_tick_after(time, tick)];
+    /// Takes in the sphere at an index of the world's arrays, which joins at a time \[s\] with a velocity
+    /// \[m/s\]. Ticks are `tick` \[s\] apart, or parts of that where spheres are small.
+    pub fn join(&mut self, system: &System, index: u32, velocity: DVec3, time: f64, tick: f64) {
+        let index = index as usize;
+        if self.is_empty() {
+            self.halvings = 0;
         }
-        self.waiting.push((sphere, velocity));
+        self.halvings = self.halvings.max(halvings_for(system, index, tick));
+        if self.is_empty() || self.ticks[1] == f64::INFINITY {
+            self.ticks = [time, first_tick_after(time, self.part_of(tick))];
+        }
+        self.waiting.push((system.spheres.id[index], velocity));
     }
 
-    /// Has all spheres wait for the first tick after a time \[s\], with velocities \[m/s\] by their ids;
-    /// those without one are gone.
+    /// The time between its ticks \[s\].
+    fn part_of(&self, tick: f64) -> f64 {
+        tick / f64::from(1u32 << self.halvings)
+    }
+
+    /// Has all spheres that are still there wait for the first tick after a time \[s\]; `velocity` gives
+    /// theirs, by index \[m/s\].
     pub fn restart(
         &mut self,
+        system: &System,
         time: f64,
         tick: f64,
-        mut velocity: impl FnMut(SphereId) -> Option<DVec3>,
+        mut velocity: impl FnMut(usize) -> DVec3,
     ) {
-        let members = self.properties.id.iter().copied();
-        let all: Vec<SphereId> = members.chain(self.waiting.iter().map(|it| it.0)).collect();
+        let all = self.indices(&system.spheres.id);
         self.waiting.clear();
         self.index.clear();
         self.properties = Properties::default();
         (self.motion, self.velocity_before, self.free_ticks) = Default::default();
         self.near.clear();
         self.solver.set_changed();
-        for sphere in all {
-            if let Some(velocity) = velocity(sphere) {
-                self.join(sphere, velocity, time, tick);
-            }
+        for index in all {
+            self.join(system, index, velocity(index as usize), time, tick);
         }
     }
 
@@ -134,14 +153,19 @@ impl Zone {
     /// Takes out the spheres that are near no other one, or fly freely since some time, at a tick, before
     /// those that wait are taken in. Gives their indices, and centres \[m\] and velocities \[m/s\].
     pub fn take_out_free(&mut self) -> Vec<(u32, [DVec3; 2])> {
-        let known = contact::near_others(&self.solver);
-        let is_near = |id: &SphereId| {
+        let known = contact::nearness(&self.solver);
+        let nearness = |id: &SphereId| {
             let found = known.binary_search_by_key(id, |sphere| sphere.0);
-            found.map_or(true, |place| known[place].1)
+            found.map_or(Nearness::Near, |place| known[place].1)
         };
         let spheres = self.properties.id.iter().zip(&self.free_ticks);
-        let stays: Vec<bool> =
-            spheres.map(|(id, &ticks)| ticks < FREE_TICKS && is_near(id)).collect();
+        let stays: Vec<bool> = spheres
+            .map(|(id, &ticks)| match nearness(id) {
+                Nearness::Apart => false,
+                Nearness::Near => ticks < FREE_TICKS,
+                Nearness::Overlaps => true,
+            })
+            .collect();
         let state = |place: usize| [self.motion.position[place], self.motion.velocity[place]];
         let free = (0..stays.len()).filter(|&place| !stays[place]);
         let out = free.map(|place| (self.index[place], state(place))).collect();
@@ -176,8 +200,9 @@ impl Zone {
     /// The places of all spheres, those that joined since the last tick among them, in arrays of the world
     /// that hold these ids.
     pub fn indices(&self, ids: &[SphereId]) -> Vec<u32> {
-        let waiting = self.waiting.iter().flat_map(|(id, _)| ids.binary_search(id));
-        waiting.map(|index| index as u32).chain(self.index.iter().copied()).collect()
+        let waiting = self.waiting.iter().map(|(id, _)| id);
+        let all = self.properties.id.iter().chain(waiting);
+        all.flat_map(|id| ids.binary_search(id)).map(|index| index as u32).collect()
     }
 
     /// The spheres that joined since the last tick, with their velocities \[m/s\].
@@ -191,9 +216,11 @@ impl Zone {
         contact::persistent_contacts(&self.solver, &system)
     }
 
-    /// Whether a tick is one of those at which spheres may leave.
+    /// Whether spheres may leave at the next tick: once in so many that are `tick` \[s\] apart.
     pub fn is_due_to_leave(&self, tick: f64) -> bool {
-        ((self.ticks[1] / tick).round() as u64).is_multiple_of(u64::from(TICKS_PER_FRAME))
+        // A multiple may round to less.
+        let number = |time: f64| ((time / tick + 0.25) as u64) / u64::from(TICKS_PER_FRAME);
+        number(self.ticks[1]) != number(self.ticks[0])
     }
 
     /// Takes those that wait into its arrays: `place` tells where spheres are, by their indices \[m\].
@@ -230,7 +257,7 @@ impl Zone {
         report: &mut StepReport,
     ) -> Vec<Stepped> {
         let now = self.ticks[1];
-        let next = first_tick_after(now, tick);
+        let next = first_tick_after(now, self.part_of(tick));
         if !system.spheres.applied_force.is_empty() {
             self.properties.applied_force = system.spheres.of_some(&self.index).applied_force;
         }
@@ -266,6 +293,18 @@ impl Zone {
             Surface { form, motion, friction: Friction::default(), ..*surface }
         }));
     }
+}
+
+/// How often a tick \[s\] is to be halved for a sphere: until it is short in relation to the time in which
+/// the sphere falls through its own size.
+fn halvings_for(system: &System, index: usize, tick: f64) -> u32 {
+    let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
+    let (linear, _) = forces::total_linear(system.forces, radius, mass);
+    let own = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
+    let wanted = SHORT * (radius / (linear.acceleration + own).norm()).sqrt();
+    (0..MOST_TICK_HALVINGS)
+        .find(|&times| tick <= wanted * f64::from(1u32 << times))
+        .unwrap_or(MOST_TICK_HALVINGS)
 }
 
 /// The first tick after a time, both on the world's clock \[s\].

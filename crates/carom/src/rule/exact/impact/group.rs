@@ -61,7 +61,7 @@ pub(super) fn answer(
     let indices: Vec<u32> = indices_of(timeline, &group).collect();
     // Impacts by which nothing stays in contact may be many: their number is that of flights.
     let lasting = if supports.is_empty() { 0 } else { group.members.len() as u64 };
-    timeline.budget.charge(indices.into_iter(), spent + UNITS_PER_MEMBER * lasting);
+    timeline.budget.charge(indices.into_iter(), spent, UNITS_PER_MEMBER * lasting);
     let held: Vec<Bodies> =
         supports.iter().flat_map(|support| &support.contacts).copied().collect();
     begin_flights(timeline, &group, &struck, supports);

@@ -92,8 +92,8 @@ fn join(
 ) {
     timeline.set_free(slot);
     timeline.flights.enter_zone(slot, [position, common], time);
-    let sphere = context.id_of(timeline, slot);
-    timeline.zone.join(sphere, velocity, time, context.parameters.zone_tick);
+    let index = timeline.flights.index_of[slot as usize];
+    timeline.zone.join(context.system, index, velocity, time, context.parameters.zone_tick);
     context.report.zone_account.joined += 1;
 }
 
