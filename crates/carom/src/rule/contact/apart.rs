@@ -56,7 +56,9 @@ pub(crate) fn nearness(solver: &Solver) -> Vec<(SphereId, Nearness)> {
     for contact in dormant {
         match contact.partner {
             Partner::Sphere(other) | Partner::Awake(other) => {
-                [contact.sphere, other].map(|slot| note(slot as usize, Nearness::Near));
+                for slot in [contact.sphere, other] {
+                    note(slot as usize, Nearness::Near);
+                }
             }
             Partner::Surface(_) => {}
         }
