@@ -36,7 +36,8 @@ def main() -> None:
     options = parser.parse_args()
     command = [options.carom, "bench", "--set", "heaps", "--json", "--runs", options.runs]
     bench = subprocess.run(command, check=True, capture_output=True)
-    heaps = [heap for heap in json.loads(bench.stdout)["heaps"] if heap["kind"] == "pile"]
+    heaps = json.loads(bench.stdout)["heaps"]
+    heaps = [heap for heap in heaps if (heap["rule"], heap["kind"]) == ("contact", "pile")]
     threads = heaps[0]["threads"]
     print(f"milliseconds for a frame, {threads} threads; overlap as a part of the radius and rms speed at the end")
     print(COLUMNS.format("balls", "friction", "carom", "rapier", "ratio", "overlap", "rms speed [m/s]"))

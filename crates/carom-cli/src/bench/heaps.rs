@@ -1,10 +1,11 @@
-//! Heaps under the rule `contact`: how long a frame takes, how deep balls overlap, and whether they come to
-//! rest.
+//! Heaps under the rule `contact`, and in stepped zones of `exact`: how long a frame takes, how deep balls
+//! overlap, and whether they come to rest.
 
 use std::time::Instant;
 
 use carom::{
-    Collider, Contact, DQuat, DVec3, Error, Gravity, Pose, Settings, Shape, Sphere, World,
+    Collider, Contact, DQuat, DVec3, Error, Exact, Gravity, Pose, Rule, Settings, Shape, Sphere,
+    World,
 };
 use serde::Serialize;
 
@@ -32,6 +33,7 @@ pub const NOTE: &str = "pile: balls of radius 0.5 m on a lattice fall into a box
 /// What is measured.
 #[derive(Debug, Clone, Copy)]
 struct Heap {
+    rule: RuleName,
     kind: Kind,
     count: usize,
     friction: f64,
@@ -47,9 +49,18 @@ enum Kind {
     Rain,
 }
 
+/// Under which rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum RuleName {
+    Contact,
+    Exact,
+}
+
 /// What came out of a heap.
 #[derive(Debug, Clone, Serialize)]
 pub struct HeapRow {
+    rule: RuleName,
     kind: Kind,
     balls: usize,
     friction: f64,
@@ -63,6 +74,8 @@ pub struct HeapRow {
     threads_frame_milliseconds: f64,
     /// Milliseconds for a frame among the last hundred.
     last_milliseconds: f64,
+    /// Milliseconds for the frame that took longest \[ms\].
+    longest_milliseconds: f64,
     /// Largest overlap at the end, as a part of the radius.
     overlap: f64,
     /// Largest overlap in any sub-step, as a part of the radius.
@@ -76,12 +89,15 @@ pub struct HeapRow {
 
 /// Measures the heaps of the set, each on one thread and on all; the largest only where `full`.
 pub fn measure_set(runs: u32, full: bool) -> Result<Vec<HeapRow>, Failure> {
-    let pile = |count, friction| Heap { kind: Kind::Pile, count, friction };
+    let pile =
+        |count, friction| Heap { rule: RuleName::Contact, kind: Kind::Pile, count, friction };
     let smooth = [2_000, 10_000].map(|count| pile(count, 0.0));
     let rough = [2_000, 10_000].map(|count| pile(count, 0.4));
-    let rain = Heap { kind: Kind::Rain, count: 10_000, friction: 0.0 };
+    let rain = Heap { kind: Kind::Rain, ..pile(10_000, 0.0) };
     let large = full.then_some(pile(100_000, 0.0));
-    let all = smooth.into_iter().chain(rough).chain([rain]).chain(large);
+    let exact = |heap| Heap { rule: RuleName::Exact, ..heap };
+    let under_contact = smooth.into_iter().chain(rough).chain([rain]).chain(large);
+    let all = under_contact.chain(smooth.into_iter().chain([rain]).map(exact));
     all.map(|heap| Ok(measure(heap, runs)?)).collect()
 }
 
@@ -121,6 +137,7 @@ fn run(heap: Heap) -> Result<HeapRow, Error> {
     let mean = |times: &[f64]| times.iter().sum::<f64>() / times.len() as f64;
     let depths = world.overlaps(0.0).into_iter().map(|overlap| overlap.depth);
     Ok(HeapRow {
+        rule: heap.rule,
         kind: heap.kind,
         balls: heap.count,
         friction: heap.friction,
@@ -129,6 +146,7 @@ fn run(heap: Heap) -> Result<HeapRow, Error> {
         threads: 1,
         threads_frame_milliseconds: mean(&times),
         last_milliseconds: mean(&times[times.len() - 100..]),
+        longest_milliseconds: times.iter().copied().fold(0.0, f64::max),
         overlap: depths.fold(0.0, f64::max) / heap.radius(),
         worst_overlap: worst,
         rms_speed: (squares / heap.count as f64).sqrt(),
@@ -147,7 +165,11 @@ impl Heap {
     }
 
     fn world(self) -> Result<World, Error> {
-        let mut world = World::new(Settings::default().with_rule(Contact::default()))?;
+        let rule: Rule = match self.rule {
+            RuleName::Contact => Contact::default().into(),
+            RuleName::Exact => Exact::default().into(),
+        };
+        let mut world = World::new(Settings::default().with_rule(rule))?;
         world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
         match self.kind {
             Kind::Pile => self.add_pile(&mut world)?,
@@ -214,11 +236,13 @@ pub fn table(rows: &[HeapRow]) -> Table {
     let side_by_side = format!("{threads} threads");
     let columns = [
         "",
+        "",
         "balls",
         "friction",
         "ms/frame",
         &side_by_side,
         "last 100",
+        "longest",
         "overlap",
         "worst",
         "rms [m/s]",
@@ -231,13 +255,19 @@ pub fn table(rows: &[HeapRow]) -> Table {
             Kind::Pile => "pile",
             Kind::Rain => "rain",
         };
+        let rule = match row.rule {
+            RuleName::Contact => "contact",
+            RuleName::Exact => "exact",
+        };
         table.push(vec![
+            rule.to_string(),
             kind.to_string(),
             row.balls.to_string(),
             row.friction.to_string(),
             format!("{:.3}", row.frame_milliseconds),
             format!("{:.3}", row.threads_frame_milliseconds),
             format!("{:.3}", row.last_milliseconds),
+            format!("{:.1}", row.longest_milliseconds),
             format!("{:.4}", row.overlap),
             format!("{:.4}", row.worst_overlap),
             format!("{:.1e}", row.rms_speed),

@@ -98,7 +98,7 @@ pub(super) fn end(
 ) {
     wake::loaded(system, solver);
     sleep::fall_asleep(solver, h);
-    report.contact_account.asleep = solver.slots.asleep() as u32;
+    report.contact_account.asleep = solver.asleep();
     solver.slots.write(motion);
     if solver.slots.turn.is_empty() {
         motion.spin.advance(h);

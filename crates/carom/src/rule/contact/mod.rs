@@ -58,7 +58,7 @@ use crate::system::System;
 
 /// A frame of `h` \[s\] in which all spheres sleep; one that spins where it lies goes on with that.
 pub(crate) fn rest(solver: &Solver, motion: &mut Motion, h: f64, report: &mut StepReport) {
-    report.contact_account.asleep = solver.slots.len() as u32;
+    report.contact_account.asleep = solver.asleep();
     if motion.spin.angular_velocity.iter().any(|&it| it != DVec3::ZERO) {
         motion.spin.advance(h);
     }

@@ -76,6 +76,11 @@ impl Solver {
         self.is_changed = true;
     }
 
+    /// How many spheres sleep.
+    pub fn asleep(&self) -> u32 {
+        self.slots.asleep() as u32
+    }
+
     /// Whether nothing happens in a frame without emissions and changes from outside: all spheres sleep.
     pub fn is_idle(&self) -> bool {
         let sleeps = &self.slots.sleeps;

@@ -113,6 +113,7 @@ pub(crate) fn advance(
     context.report.work += take(&mut timeline.work.unreported);
     context.report.work += counts;
     context.report.zone_account.spheres = timeline.zone.len() as u32;
+    context.report.contact_account.asleep = timeline.zone.asleep();
     Ok(end)
 }
 

@@ -74,6 +74,11 @@ impl Zone {
         self.len() == 0
     }
 
+    /// How many of them sleep.
+    pub fn asleep(&self) -> u32 {
+        if self.is_empty() { 0 } else { self.solver.asleep() }
+    }
+
     /// Until when its spheres fly as they do now, on the world's clock \[s\]: until the next tick.
     pub fn next_tick(&self) -> f64 {
         if self.is_empty() { f64::INFINITY } else { self.ticks[1] }
