@@ -87,7 +87,10 @@ impl<'a> Work<'a> {
 
     /// Lets at most so many units be done from here on.
     pub fn allow(&self, units: u64) {
-        self.limit.set(self.done.get().saturating_add(units));
+        let limit = self.done.get().saturating_add(units);
+        self.limit.set(limit);
+        // Not later: where the work ends may decide what becomes of it.
+        self.next_look.set(self.next_look.get().min(limit));
     }
 
     /// Counts units of work. Tells whether to go on; if not, what is at work ends as soon as it can,

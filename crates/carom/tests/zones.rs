@@ -92,8 +92,8 @@ fn the_length_of_frames_does_not_matter_to_a_heap() {
     assert!(worlds[0].report().zone_account.spheres > 0);
     let [coarse, others @ ..] = worlds.each_mut();
     for other in others {
-        assert_eq!(coarse.spheres().positions(), other.spheres().positions());
-        assert_eq!(coarse.spheres().velocities(), other.spheres().velocities());
+        assert!(coarse.spheres().positions() == other.spheres().positions());
+        assert!(coarse.spheres().velocities() == other.spheres().velocities());
     }
 }
 
@@ -117,7 +117,7 @@ fn what_flies_beside_a_heap_flies_as_without_it() {
     alone.add_force(Gravity::new(-G * DVec3::Y)).unwrap();
     alone.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))).unwrap();
     let lone = alone.add_sphere(bouncing).unwrap();
-    let exact = Exact::default().with_zone_budget(20_000);
+    let exact = Exact::default().with_zone_budget(300);
     let mut beside = World::new(Settings::default().with_rule(exact)).unwrap();
     beside.add_force(Gravity::new(-G * DVec3::Y)).unwrap();
     beside.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))).unwrap();
@@ -210,8 +210,7 @@ fn spheres_are_added_and_taken_out_of_a_zone_and_emitters_fill_it() {
 #[test]
 fn a_moving_floor_lifts_a_heap_in_a_zone() {
     let mut world =
-        World::new(Settings::default().with_rule(Exact::default().with_zone_budget(5_000)))
-            .unwrap();
+        World::new(Settings::default().with_rule(Exact::default().with_zone_budget(200))).unwrap();
     world.add_force(Gravity::new(-G * DVec3::Y)).unwrap();
     let lift =
         Collider::new(Shape::Box { size: vec(20.0, 1.0, 20.0) }, Pose::at(vec(0.0, -0.5, 0.0)));

@@ -126,6 +126,10 @@ pub(crate) fn begin(
     }
     if is_due || hold_forces || !timeline.moving_surfaces.is_empty() {
         predict_all(timeline, system, frame[0]);
+        let (report, work) = (&mut StepReport::default(), &Work::unlimited());
+        let span = Span { start: frame[0], length: frame[1] - frame[0], end: frame[1] };
+        let mut context = StepContext::new(system, timeline.parameters, span, work, report);
+        predict::pass_over_again(timeline, &mut context, frame[0]);
     } else {
         timeline.schedule.tidy();
     }

@@ -26,6 +26,7 @@ mod frame_work;
 mod impact;
 mod neighbours;
 mod pair_times;
+mod passage;
 mod periodic;
 mod persistent;
 mod predict;
@@ -135,12 +136,14 @@ fn happen(
             return Ok(time);
         }
     };
-    let is_unresolved = timeline.is_unresolved(slot, event.time);
+    if timeline.is_void(&event) {
+        predict::fall_back(timeline, context, slot, event.time);
+        return Ok(event.time);
+    }
+    let is_short = |slot: &u32| timeline.is_unresolved(*slot, event.time);
+    let short_flights = [Some(slot), event.target.slot()].map(|it| it.filter(is_short));
     match event.target.unpacked() {
         EventTarget::Restart => predict::restart(timeline, context, slot, event.time),
-        EventTarget::Sphere(_) if timeline.is_void(&event) => {
-            predict::fall_back(timeline, context, slot, event.time);
-        }
         EventTarget::Sphere(other) => {
             impact::of_spheres(timeline, context, [slot, other], event.time);
         }
@@ -152,13 +155,21 @@ fn happen(
         }
     }
     check_work(timeline, context, slot, event.time)?;
-    if is_unresolved && context.has_zones() {
-        let (index, parameters) = (timeline.flights.index_of[slot as usize], context.parameters);
-        if timeline.budget.is_spent_by_flight(parameters, index, event.time) {
-            stepped::make_zone_about(timeline, context, slot, event.time);
+    if context.has_zones() {
+        for slot in short_flights.into_iter().flatten() {
+            count_short_flight(timeline, context, slot, event.time);
         }
     }
     Ok(event.time)
+}
+
+/// Counts a flight that ended before the sphere had moved; with too many of them it is stepped.
+fn count_short_flight(timeline: &mut Timeline, context: &mut StepContext, slot: u32, time: f64) {
+    let index = timeline.flights.index_of[slot as usize];
+    let is_spent = timeline.budget.is_spent_by_flight(context.parameters, index, time);
+    if is_spent && !timeline.flights.is_stepped(slot) {
+        stepped::make_zone_about(timeline, context, slot, time);
+    }
 }
 
 /// Work before a part of a frame.

@@ -6,6 +6,7 @@ use super::context::StepContext;
 use super::events::{Event, EventTarget, NextEvents, PackedTarget, Prediction};
 use super::flights::{Body, Species};
 use super::pair_times::{NearTest, PairSearch};
+use super::passage::{Passage, Unresolved};
 use super::timeline::Timeline;
 use crate::contact_time::{self, Reach};
 use crate::detect::contact::Bodies;
@@ -89,17 +90,6 @@ fn prediction_after(
     Prediction { events, cell_crossing }
 }
 
-/// Two bodies that touch, and for how long a meeting of them has nothing to answer.
-///
-/// Two bodies that hardly touch may meet, by the rounding of one formula, and have nothing to
-/// answer, by that of another.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Unresolved {
-    pub bodies: Bodies,
-    /// On the world's clock \[s\].
-    pub until: f64,
-}
-
 /// Lets a sphere pass over meetings that have nothing to answer `now` \[s\], to begin another flight after
 /// them. What else it meets before comes as predicted.
 pub(super) fn pass_over(
@@ -125,6 +115,7 @@ pub(super) fn pass_over(
     if events == Some(predicted) {
         return;
     }
+    timeline.note_passage(slot, meetings, restart.time, now);
     // Of meetings only the first two are known.
     let is_far = restart.time - now > 2.0 * context.parameters.contact_duration;
     let next = match events {
@@ -133,6 +124,18 @@ pub(super) fn pass_over(
     };
     let next = next.filter(|next| next.time < restart.time);
     timeline.reschedule(slot, NextEvents::only(next.unwrap_or(restart)));
+}
+
+/// Lets spheres pass over what they were to pass over, `now` \[s\] that all is predicted anew.
+pub(super) fn pass_over_again(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
+    for Passage { sphere, meetings, restart, .. } in timeline.take_passages(now) {
+        let slot = timeline.flights.slot_of[sphere as usize];
+        let restart = Event::at(restart, PackedTarget::RESTART);
+        let next = first_but(timeline, context, slot, &meetings, now);
+        let next = next.filter(|next| next.time < restart.time);
+        timeline.note_passage(slot, &meetings, restart.time, now);
+        timeline.reschedule(slot, NextEvents::only(next.unwrap_or(restart)));
+    }
 }
 
 /// The bodies that a sphere, by its index, meets in an event; `None` if it meets none.

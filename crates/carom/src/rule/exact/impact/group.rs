@@ -14,9 +14,10 @@ use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Support;
 use crate::rule::exact::frame_work::UNITS_PER_FLIGHT;
+use crate::rule::exact::passage::Unresolved;
 use crate::rule::exact::periodic;
 use crate::rule::exact::persistent::{piece_end, solve};
-use crate::rule::exact::predict::{self, Unresolved};
+use crate::rule::exact::predict;
 use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
 
