@@ -140,8 +140,10 @@ fn happen(
         predict::fall_back(timeline, context, slot, event.time);
         return Ok(event.time);
     }
-    let is_short = |slot: &u32| timeline.is_unresolved(*slot, event.time);
-    let short_flights = [Some(slot), event.target.slot()].map(|it| it.filter(is_short));
+    // Between impacts with a light one a heavy sphere hardly moves.
+    let involved = [Some(slot), event.target.slot()];
+    let have_moved =
+        involved.iter().flatten().any(|&slot| !timeline.is_unresolved(slot, event.time));
     match event.target.unpacked() {
         EventTarget::Restart => predict::restart(timeline, context, slot, event.time),
         EventTarget::Sphere(other) => {
@@ -155,8 +157,8 @@ fn happen(
         }
     }
     check_work(timeline, context, slot, event.time)?;
-    if context.has_zones() {
-        for slot in short_flights.into_iter().flatten() {
+    if context.has_zones() && !have_moved {
+        for slot in involved.into_iter().flatten() {
             count_short_flight(timeline, context, slot, event.time);
         }
     }
