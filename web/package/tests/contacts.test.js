@@ -69,7 +69,10 @@ test("a heap that takes too much work is stepped, and says so", () => {
   const heap = (exact) => {
     const world = new World({ exact });
     world.addForce({ gravity: { acceleration: [0, -9.81, 0] } });
-    world.addCollider({ shape: { container: { size: [3.2, 8, 3.2], open: ["top"] } }, position: [0, 4, 0] });
+    world.addCollider({
+      shape: { container: { size: [3.2, 8, 3.2], open: ["top"] } },
+      position: [0, 4, 0],
+    });
     for (let number = 0; number < 45; number += 1) {
       const [layer, x, z] = [Math.floor(number / 9), number % 3, Math.floor(number / 3) % 3];
       const position = [1.04 * (x - 1), 0.7 + 1.05 * layer, 1.04 * (z - 1)];
