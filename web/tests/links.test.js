@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
 import { carom, stateHash } from "./native.js";
-import { Desk } from "./viewer.js";
+import { Desk, PATIENCE } from "./viewer.js";
 
 /** @type {Desk} */
 let desk;
@@ -21,8 +21,10 @@ after(() => desk?.clear());
  * @param {import("./viewer.js").Viewer} viewer
  */
 async function shownHash(viewer) {
+  // On one thread ten seconds of a heap take a minute.
   const { watching } = await viewer.until(
     ({ watching }) => watching && !watching.seeking && watching.stateHash !== null,
+    4 * PATIENCE,
   );
   return watching.stateHash;
 }

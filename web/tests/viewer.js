@@ -10,7 +10,7 @@ import { complaints, keepPicture, launch } from "./browser.js";
 const DIST = process.env.CAROM_DIST ?? fileURLToPath(new URL("../dist/", import.meta.url));
 
 /** How long the slowest machine may take for an action [ms]: it draws in software. */
-const PATIENCE = 60_000;
+export const PATIENCE = 60_000;
 
 /**
  * @typedef {object} Widget in CSS pixels
@@ -117,10 +117,11 @@ export class Viewer {
    * Waits until the interface shows something.
    *
    * @param {(status: any) => unknown} isShown
+   * @param {number} patience how long at most [ms]
    * @returns {Promise<any>} the status
    */
-  async until(isShown) {
-    const end = performance.now() + PATIENCE;
+  async until(isShown, patience = PATIENCE) {
+    const end = performance.now() + patience;
     for (;;) {
       const status = await this.status();
       if (isShown(status)) {
