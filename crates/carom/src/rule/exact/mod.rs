@@ -142,8 +142,8 @@ fn happen(
     }
     // Between impacts with a light one a heavy sphere hardly moves.
     let involved = [Some(slot), event.target.slot()];
-    let have_moved =
-        involved.iter().flatten().any(|&slot| !timeline.is_unresolved(slot, event.time));
+    let has_moved = |slot: &u32| !timeline.is_unresolved(*slot, event.time);
+    let is_counted = context.has_zones() && !involved.iter().flatten().any(has_moved);
     match event.target.unpacked() {
         EventTarget::Restart => predict::restart(timeline, context, slot, event.time),
         EventTarget::Sphere(other) => {
@@ -157,7 +157,7 @@ fn happen(
         }
     }
     check_work(timeline, context, slot, event.time)?;
-    if context.has_zones() && !have_moved {
+    if is_counted {
         for slot in involved.into_iter().flatten() {
             count_short_flight(timeline, context, slot, event.time);
         }
