@@ -4,9 +4,9 @@
 use std::time::Instant;
 
 use carom::{
-    Collider, Contact, DQuat, DVec3, Error, Exact, Gravity, Pose, Rule, Settings, Shape, Sphere,
-    World,
+    Collider, Contact, DQuat, DVec3, Error, Gravity, Pose, Settings, Shape, Sphere, World,
 };
+use carom_scene::scene::Rule;
 use serde::Serialize;
 
 use super::median::median;
@@ -33,7 +33,7 @@ pub const NOTE: &str = "pile: balls of radius 0.5 m on a lattice fall into a box
 /// What is measured.
 #[derive(Debug, Clone, Copy)]
 struct Heap {
-    rule: RuleName,
+    rule: Rule,
     kind: Kind,
     count: usize,
     friction: f64,
@@ -49,18 +49,10 @@ enum Kind {
     Rain,
 }
 
-/// Under which rule.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-enum RuleName {
-    Contact,
-    Exact,
-}
-
 /// What came out of a heap.
 #[derive(Debug, Clone, Serialize)]
 pub struct HeapRow {
-    rule: RuleName,
+    rule: Rule,
     kind: Kind,
     balls: usize,
     friction: f64,
@@ -89,13 +81,12 @@ pub struct HeapRow {
 
 /// Measures the heaps of the set, each on one thread and on all; the largest only where `full`.
 pub fn measure_set(runs: u32, full: bool) -> Result<Vec<HeapRow>, Failure> {
-    let pile =
-        |count, friction| Heap { rule: RuleName::Contact, kind: Kind::Pile, count, friction };
+    let pile = |count, friction| Heap { rule: Rule::Contact, kind: Kind::Pile, count, friction };
     let smooth = [2_000, 10_000].map(|count| pile(count, 0.0));
     let rough = [2_000, 10_000].map(|count| pile(count, 0.4));
     let rain = Heap { kind: Kind::Rain, ..pile(10_000, 0.0) };
     let large = full.then_some(pile(100_000, 0.0));
-    let exact = |heap| Heap { rule: RuleName::Exact, ..heap };
+    let exact = |heap| Heap { rule: Rule::Exact, ..heap };
     let under_contact = smooth.into_iter().chain(rough).chain([rain]).chain(large);
     let all = under_contact.chain(smooth.into_iter().chain([rain]).map(exact));
     all.map(|heap| Ok(measure(heap, runs)?)).collect()
@@ -165,11 +156,11 @@ impl Heap {
     }
 
     fn world(self) -> Result<World, Error> {
-        let rule: Rule = match self.rule {
-            RuleName::Contact => Contact::default().into(),
-            RuleName::Exact => Exact::default().into(),
-        };
-        let mut world = World::new(Settings::default().with_rule(rule))?;
+        let settings = Settings::default();
+        let mut world = World::new(match self.rule {
+            Rule::Contact => settings.with_rule(Contact::default()),
+            _ => settings,
+        })?;
         world.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0)))?;
         match self.kind {
             Kind::Pile => self.add_pile(&mut world)?,
@@ -255,12 +246,8 @@ pub fn table(rows: &[HeapRow]) -> Table {
             Kind::Pile => "pile",
             Kind::Rain => "rain",
         };
-        let rule = match row.rule {
-            RuleName::Contact => "contact",
-            RuleName::Exact => "exact",
-        };
         table.push(vec![
-            rule.to_string(),
+            row.rule.name().to_string(),
             kind.to_string(),
             row.balls.to_string(),
             row.friction.to_string(),
