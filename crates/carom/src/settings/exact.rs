@@ -63,17 +63,17 @@ impl Exact {
         Self { max_impacts, ..self }
     }
 
-    /// The same parameters, with or without stepped zones.
+    /// These parameters with stepped zones, or without.
     pub fn with_zones(self, zones: Zones) -> Self {
         Self { zones, ..self }
     }
 
-    /// The same parameters with this work of a group in a tick, from which on it is a zone.
+    /// These parameters with another [`Self::zone_budget`].
     pub fn with_zone_budget(self, zone_budget: u32) -> Self {
         Self { zone_budget, ..self }
     }
 
-    /// The same parameters with this time between two ticks \[s\].
+    /// These parameters with another [`Self::zone_tick`] \[s\].
     pub fn with_zone_tick(self, zone_tick: f64) -> Self {
         Self { zone_tick, ..self }
     }

@@ -16,8 +16,9 @@ use crate::system::System;
 /// difference to that of any other sphere is not zero.
 const BEARS: f64 = f64::INFINITY;
 
-/// Changes velocities over a sub-step of `h` \[s\], one of those of a frame that starts at a time \[s\], by all forces, `v' = (v + h a) / (1 + h c)` with the rate c of
-/// linear drag, which so slows down and never turns round.
+/// Changes velocities over a sub-step of `h` \[s\], one of those of a frame that starts at a time \[s\], by
+/// all forces, `v' = (v + h a) / (1 + h c)` with the rate c of linear drag, which so slows down and never
+/// turns round.
 pub(super) fn accelerate(
     system: &System,
     frame_start: f64,
