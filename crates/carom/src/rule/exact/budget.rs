@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use crate::settings::Exact;
 
-/// All groups together may spend the budget of one in so many ticks, for as long as it may be.
-const TICKS_OF_A_BUDGET: f64 = 4.0;
 /// A sphere may begin a new flight before it has moved as often as its budget holds this.
 const UNITS_OF_A_SHORT_FLIGHT: u64 = 60;
+/// All groups together may spend the budget of one in so many ticks, for as long as it may be.
+const TICKS_OF_A_BUDGET: f64 = 4.0;
 /// And they may be so many budgets ahead of that.
 const AHEAD: u64 = 8;
 /// Each time that all groups together have spent the budget of one, the budget of each is halved, so that
@@ -28,23 +28,18 @@ pub(crate) struct Budget {
 
 impl Budget {
     /// How much a group of these spheres, by index, may spend at `time` \[s\].
-    pub fn allowance(
-        &mut self,
-        parameters: Exact,
-        spheres: impl Iterator<Item = u32>,
-        time: f64,
-    ) -> u64 {
+    pub fn allowance(&mut self, parameters: Exact, spheres: &[u32], time: f64) -> u64 {
         let of_each = u64::from(parameters.zone_budget);
         self.follow(time / parameters.zone_tick, of_each);
         let halvings = (self.of_all / of_each).saturating_sub(AHEAD).min(MOST_HALVINGS);
-        let spent = spheres.filter_map(|index| self.of_spheres.get(&index)).max();
+        let spent = spheres.iter().filter_map(|index| self.of_spheres.get(index)).max();
         (of_each >> halvings).saturating_sub(spent.copied().unwrap_or(0))
     }
 
     /// Counts what the answer of a group of these spheres has spent, and what it took `besides`.
-    pub fn charge(&mut self, spheres: impl Iterator<Item = u32>, spent: u64, besides: u64) {
+    pub fn charge(&mut self, spheres: &[u32], spent: u64, besides: u64) {
         self.of_all += spent + besides;
-        spheres.for_each(|index| *self.of_spheres.entry(index).or_default() += spent);
+        spheres.iter().for_each(|&index| *self.of_spheres.entry(index).or_default() += spent);
     }
 
     /// Counts a flight of a sphere, by index, that ends at `time` \[s\] after too short a way to count. Tells

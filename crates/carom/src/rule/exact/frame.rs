@@ -55,11 +55,8 @@ pub(crate) fn start(
     if parameters.zones == Zones::Never {
         zone = Zone::default();
     }
-    let velocity_of = |index: usize| {
-        flights.set_stepped(flights.slot_of[index]);
-        motion.velocity[index]
-    };
-    zone.restart(system, time, parameters.zone_tick, velocity_of);
+    flights.set_stepped(&zone.indices(&system.spheres.id));
+    zone.restart(system, time, parameters.zone_tick, &motion.velocity);
     let frame = [time; 2];
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     arrange(&mut timeline, system, time);
@@ -87,9 +84,7 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     let Timeline { parameters, frame, .. } = *before;
     let mut zone = before.zone.clone();
     zone.follow(&system.spheres.id);
-    for index in zone.indices(&system.spheres.id) {
-        flights.set_stepped(flights.slot_of[index as usize]);
-    }
+    flights.set_stepped(&zone.indices(&system.spheres.id));
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     arrange(&mut timeline, system, time);
     if timeline.flights.hold_forces {
@@ -126,10 +121,6 @@ pub(crate) fn begin(
     }
     if is_due || hold_forces || !timeline.moving_surfaces.is_empty() {
         predict_all(timeline, system, frame[0]);
-        let (report, work) = (&mut StepReport::default(), &Work::unlimited());
-        let span = Span { start: frame[0], length: frame[1] - frame[0], end: frame[1] };
-        let mut context = StepContext::new(system, timeline.parameters, span, work, report);
-        predict::pass_over_again(timeline, &mut context, frame[0]);
     } else {
         timeline.schedule.tidy();
     }
@@ -153,11 +144,22 @@ pub(crate) fn end(
     }
     let period = system.settings.boundary.period();
     flights::write_motion(&timeline.flights, motion, period, span.end);
-    let (report, work) = (&mut StepReport::default(), &Work::unlimited());
-    let context = StepContext::new(system, timeline.parameters, span, work, report);
-    piece_end::write_motion(timeline, &context, motion, span.end);
+    reading(system, timeline.parameters, span, |context| {
+        piece_end::write_motion(timeline, context, motion, span.end);
+    });
     stepped::write_velocities(timeline, &system.spheres.id, motion, span.end);
     Ok(())
+}
+
+/// What is read from a world in a span. Nothing of that is reported, and its work does not count.
+fn reading<T>(
+    system: &System,
+    parameters: Exact,
+    span: Span,
+    read: impl FnOnce(&StepContext) -> T,
+) -> T {
+    let (report, work) = (&mut StepReport::default(), &Work::unlimited());
+    read(&StepContext::new(system, parameters, span, work, report))
 }
 
 /// The contacts that persist now, at `time` \[s\], when surfaces are where the system says.
@@ -166,10 +168,10 @@ pub(crate) fn persistent_contacts(
     system: &System,
     time: f64,
 ) -> Vec<PersistentContact> {
-    let (report, work) = (&mut StepReport::default(), &Work::unlimited());
     let now = Span { start: time, length: 0.0, end: time };
-    let context = StepContext::new(system, timeline.parameters, now, work, report);
-    let mut contacts = persistent::list(timeline, &context, time);
+    let mut contacts = reading(system, timeline.parameters, now, |context| {
+        persistent::list(timeline, context, time)
+    });
     let stepped = timeline.zone.persistent_contacts(system);
     if !stepped.is_empty() {
         contacts.extend(stepped);

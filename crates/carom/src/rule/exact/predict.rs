@@ -6,11 +6,21 @@ use super::context::StepContext;
 use super::events::{Event, EventTarget, NextEvents, PackedTarget, Prediction};
 use super::flights::{Body, Species};
 use super::pair_times::{NearTest, PairSearch};
-use super::passage::{Passage, Unresolved};
 use super::timeline::Timeline;
 use crate::contact_time::{self, Reach};
 use crate::detect::contact::Bodies;
 use crate::system::System;
+
+/// Two bodies that touch, and for how long a meeting of them has nothing to answer.
+///
+/// Two bodies that hardly touch may meet, by the rounding of one formula, and have nothing to
+/// answer, by that of another.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Unresolved {
+    pub bodies: Bodies,
+    /// On the world's clock \[s\].
+    pub until: f64,
+}
 
 /// Predicts what a sphere meets next as of `now` \[s\], and enters it into the schedule.
 pub(super) fn predict(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
@@ -115,7 +125,6 @@ pub(super) fn pass_over(
     if events == Some(predicted) {
         return;
     }
-    timeline.note_passage(slot, meetings, restart.time, now);
     // Of meetings only the first two are known.
     let is_far = restart.time - now > 2.0 * context.parameters.contact_duration;
     let next = match events {
@@ -124,18 +133,6 @@ pub(super) fn pass_over(
     };
     let next = next.filter(|next| next.time < restart.time);
     timeline.reschedule(slot, NextEvents::only(next.unwrap_or(restart)));
-}
-
-/// Lets spheres pass over what they were to pass over, `now` \[s\] that all is predicted anew.
-pub(super) fn pass_over_again(timeline: &mut Timeline, context: &mut StepContext, now: f64) {
-    for Passage { sphere, meetings, restart, .. } in timeline.take_passages(now) {
-        let slot = timeline.flights.slot_of[sphere as usize];
-        let restart = Event::at(restart, PackedTarget::RESTART);
-        let next = first_but(timeline, context, slot, &meetings, now);
-        let next = next.filter(|next| next.time < restart.time);
-        timeline.note_passage(slot, &meetings, restart.time, now);
-        timeline.reschedule(slot, NextEvents::only(next.unwrap_or(restart)));
-    }
 }
 
 /// The bodies that a sphere, by its index, meets in an event; `None` if it meets none.
@@ -185,26 +182,12 @@ pub(super) fn cross_cell(timeline: &mut Timeline, context: &mut StepContext, slo
     timeline.cross_cell(slot, state.into(), &mut search.near);
     let mut events = timeline.schedule.next_events(slot);
     search.search_found(timeline, slot, now);
-    note_zone(timeline, slot, search);
+    timeline.note_near_zone(slot, &search.near);
     let found = search.first_meetings(timeline, slot);
     events.add(found.first);
     events.add(found.second);
     let prediction = prediction_after(timeline, context.system, slot, events, &[], now);
     timeline.enter(slot, prediction);
-}
-
-/// Notes that a sphere has come near one in a zone, or others near it, which is in one.
-fn note_zone(timeline: &mut Timeline, slot: u32, search: &PairSearch) {
-    let Timeline { flights, zone, .. } = timeline;
-    if zone.is_empty() {
-        return;
-    }
-    let mut others = search.near.others(slot).map(|near| near.slot());
-    if flights.is_stepped(slot) {
-        zone.near.extend(others.filter(|&other| !flights.is_stepped(other)));
-    } else if others.any(|other| flights.is_stepped(other)) {
-        zone.near.push(slot);
-    }
 }
 
 /// Adds the surfaces near it that a sphere meets to its next events.

@@ -9,7 +9,6 @@ use super::events::{Event, NextEvents, PackedTarget, Prediction, Schedule, Upcom
 use super::flights::{Flights, Species};
 use super::frame_work::FrameWork;
 use super::neighbours::{NeighbourBuffer, Neighbours};
-use super::passage::{Passage, Unresolved};
 use super::zone::Zone;
 use crate::settings::Exact;
 use crate::system::System;
@@ -32,8 +31,6 @@ pub(crate) struct Timeline {
     /// By slot, where flights begin anew in each frame, near surfaces none of which moves; else empty.
     pub(super) clearances: Vec<Clearance>,
     pub(super) work: FrameWork,
-    /// What spheres pass over: should all be predicted anew, it is not to be met.
-    pub(super) passages: Vec<Passage>,
     /// What groups spent in a tick.
     pub(super) budget: Budget,
     /// The spheres that are stepped.
@@ -182,34 +179,18 @@ impl Timeline {
         }
     }
 
-    /// Notes `now` \[s\] that a sphere passes over meetings, until another flight begins at `restart` \[s\].
-    pub(super) fn note_passage(
-        &mut self,
-        slot: u32,
-        meetings: &[Unresolved],
-        restart: f64,
-        now: f64,
-    ) {
-        let flights = &self.flights;
-        if self.passages.len() > 2 * flights.bodies.len() {
-            self.passages.retain(|passage| passage.lasts(flights, now));
+    /// Notes that a sphere has one in a zone `near` it; or those near it, where it is in one.
+    pub(super) fn note_near_zone(&mut self, slot: u32, near: &NeighbourBuffer) {
+        let Self { flights, zone, .. } = self;
+        if zone.is_empty() {
+            return;
         }
-        let sphere = flights.index_of[slot as usize];
-        let generation = flights.bodies[slot as usize].generation;
-        let concerns = |it: &&Unresolved| it.bodies.spheres().any(|index| index == sphere);
-        let meetings = meetings.iter().filter(concerns).copied().collect();
-        self.passages.push(Passage { sphere, generation, meetings, restart });
-    }
-
-    /// Takes out what spheres pass over `now` \[s\], the last for each.
-    pub(super) fn take_passages(&mut self, now: f64) -> Vec<Passage> {
-        let mut passages = std::mem::take(&mut self.passages);
-        passages.retain(|passage| passage.lasts(&self.flights, now));
-        // Of one flight the last that was noted counts.
-        passages.reverse();
-        passages.sort_by_key(|passage| passage.sphere);
-        passages.dedup_by_key(|passage| passage.sphere);
-        passages
+        let mut others = near.others(slot).map(|near| near.slot());
+        if flights.is_stepped(slot) {
+            zone.near.extend(others.filter(|&other| !flights.is_stepped(other)));
+        } else if others.any(|other| flights.is_stepped(other)) {
+            zone.near.push(slot);
+        }
     }
 
     /// Notes what a sphere meets next, in the same neighbour region.

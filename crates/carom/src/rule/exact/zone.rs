@@ -103,15 +103,9 @@ impl Zone {
         tick / f64::from(1u32 << self.halvings)
     }
 
-    /// Has all spheres that are still there wait for the first tick after a time \[s\]; `velocity` gives
-    /// theirs, by index \[m/s\].
-    pub fn restart(
-        &mut self,
-        system: &System,
-        time: f64,
-        tick: f64,
-        mut velocity: impl FnMut(usize) -> DVec3,
-    ) {
+    /// Has all spheres that are still there wait for the first tick after a time \[s\], with these
+    /// velocities, by index \[m/s\].
+    pub fn restart(&mut self, system: &System, time: f64, tick: f64, velocities: &[DVec3]) {
         let all = self.indices(&system.spheres.id);
         self.waiting.clear();
         self.index.clear();
@@ -120,7 +114,7 @@ impl Zone {
         self.near.clear();
         self.solver.set_changed();
         for index in all {
-            self.join(system, index, velocity(index as usize), time, tick);
+            self.join(system, index, velocities[index as usize], time, tick);
         }
     }
 

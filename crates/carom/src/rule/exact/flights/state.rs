@@ -131,16 +131,19 @@ impl Flights {
         true
     }
 
-    /// Has a sphere fly straight in a zone from this place \[m\] on with a velocity \[m/s\], free of contact
-    /// forces, since a time \[s\].
+    /// Has a sphere on which no contact forces act fly straight in a zone from this place \[m\] on with a
+    /// velocity \[m/s\], since a time \[s\].
     pub fn enter_zone(&mut self, slot: u32, [position, velocity]: [DVec3; 2], time: f64) {
-        self.set_free(slot);
-        self.set_stepped(slot);
+        self.make_stepped(slot);
         self.bodies[slot as usize].begin_flight(position, velocity, time);
     }
 
-    /// Has a sphere whose flight is known be in a zone.
-    pub fn set_stepped(&mut self, slot: u32) {
+    /// Has spheres whose flights are known, by index, be in a zone.
+    pub fn set_stepped(&mut self, indices: &[u32]) {
+        indices.iter().for_each(|&index| self.make_stepped(self.slot_of[index as usize]));
+    }
+
+    fn make_stepped(&mut self, slot: u32) {
         let free = self.bodies[slot as usize].species;
         let next = self.species.len() as u32;
         let number = *self.stepped_species.entry(free).or_insert(next);

@@ -14,10 +14,9 @@ use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Support;
 use crate::rule::exact::frame_work::UNITS_PER_FLIGHT;
-use crate::rule::exact::passage::Unresolved;
 use crate::rule::exact::periodic;
 use crate::rule::exact::persistent::{piece_end, solve};
-use crate::rule::exact::predict;
+use crate::rule::exact::predict::{self, Unresolved};
 use crate::rule::exact::stepped;
 use crate::rule::exact::timeline::Timeline;
 
@@ -59,10 +58,9 @@ pub(super) fn answer(
         let group = gather(timeline, context, seeds, surface, &merged, time);
         return stepped::make_zone(timeline, context, &group);
     }
-    let indices: Vec<u32> = indices_of(timeline, &group).collect();
     // Impacts by which nothing stays in contact may be many: their number is that of flights.
     let lasting = if supports.is_empty() { 0 } else { group.members.len() as u64 };
-    timeline.budget.charge(indices.into_iter(), spent, UNITS_PER_MEMBER * lasting);
+    timeline.budget.charge(&indices_of(timeline, &group), spent, UNITS_PER_MEMBER * lasting);
     let held: Vec<Bodies> =
         supports.iter().flat_map(|support| &support.contacts).copied().collect();
     begin_flights(timeline, &group, &struck, supports);
@@ -96,9 +94,8 @@ fn gather(
 fn allow_work(timeline: &mut Timeline, context: &StepContext, group: &Group) -> u64 {
     let in_frame = UNITS_PER_FLIGHT * (u64::from(context.parameters.max_impacts) + 1);
     let allowed = if context.has_zones() {
-        let indices: Vec<u32> = indices_of(timeline, group).collect();
-        let budget = &mut timeline.budget;
-        budget.allowance(context.parameters, indices.into_iter(), group.time).min(in_frame)
+        let spheres = indices_of(timeline, group);
+        timeline.budget.allowance(context.parameters, &spheres, group.time).min(in_frame)
     } else {
         in_frame
     };
@@ -107,8 +104,9 @@ fn allow_work(timeline: &mut Timeline, context: &StepContext, group: &Group) -> 
 }
 
 /// The spheres of a group, by index.
-fn indices_of<'a>(timeline: &'a Timeline, group: &'a Group) -> impl Iterator<Item = u32> + use<'a> {
-    group.members.iter().map(|member| timeline.flights.index_of[member.slot as usize])
+fn indices_of(timeline: &Timeline, group: &Group) -> Vec<u32> {
+    let slots = group.members.iter().map(|member| member.slot);
+    slots.map(|slot| timeline.flights.index_of[slot as usize]).collect()
 }
 
 /// The bodies that touch and are not `held` in persistent contact, and those whose meeting was

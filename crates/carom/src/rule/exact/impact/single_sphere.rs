@@ -15,10 +15,9 @@ use crate::respond;
 use crate::rule::exact::contacts::Member;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Support;
-use crate::rule::exact::passage::Unresolved;
 use crate::rule::exact::persistent::REST;
 use crate::rule::exact::persistent::planar::{self, PlanarSupport};
-use crate::rule::exact::predict;
+use crate::rule::exact::predict::{self, Unresolved};
 use crate::rule::exact::timeline::Timeline;
 
 /// Answers what happens to a sphere at `time` \[s\]: it meets a `surface`, or else the forces of its

@@ -106,8 +106,6 @@ fn look_around(
 ) {
     for slot in slots {
         predict::predict(timeline, context, slot, time);
-        let Timeline { flights, zone, .. } = timeline;
-        let others = context.searches[0].near.others(slot).map(|near| near.slot());
-        zone.near.extend(others.filter(|&other| !flights.is_stepped(other)));
+        timeline.note_near_zone(slot, &context.searches[0].near);
     }
 }

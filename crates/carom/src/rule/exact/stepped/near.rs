@@ -5,19 +5,17 @@ use crate::rule::exact::timeline::Timeline;
 
 /// Finds them all, where neighbours are others than before.
 pub(crate) fn find_near(timeline: &mut Timeline) {
-    let Timeline { flights, zone, neighbours, .. } = timeline;
-    zone.near.clear();
-    if zone.is_empty() {
+    timeline.zone.near.clear();
+    if timeline.zone.is_empty() {
         return;
     }
     let mut found = NeighbourBuffer::default();
-    for slot in 0..flights.bodies.len() as u32 {
-        if flights.is_stepped(slot) {
+    for slot in 0..timeline.flights.bodies.len() as u32 {
+        if timeline.flights.is_stepped(slot) {
             continue;
         }
-        neighbours.find(slot, flights.species_of(slot).level, &mut found);
-        if found.others(slot).any(|other| flights.is_stepped(other.slot())) {
-            zone.near.push(slot);
-        }
+        let level = timeline.flights.species_of(slot).level;
+        timeline.neighbours.find(slot, level, &mut found);
+        timeline.note_near_zone(slot, &found);
     }
 }

@@ -1,5 +1,5 @@
-//! What happens at a tick: spheres leave the zone that are near no other one or fly freely, those that have joined are
-//! taken in, and all are stepped to the next tick.
+//! What happens at a tick: spheres leave the zone that are near no other one or fly freely, those that have
+//! joined are taken in, and all are stepped to the next tick.
 
 use glam::DVec3;
 
@@ -57,9 +57,7 @@ fn fly(timeline: &mut Timeline, stepped: &[Stepped], now: f64) {
         // Those near it look for it.
         let events = NextEvents::NEVER;
         timeline.enter(slot, Prediction { events, cell_crossing });
-        let Timeline { flights, zone, .. } = timeline;
-        let others = found.others(slot).map(|near| near.slot());
-        zone.near.extend(others.filter(|&other| !flights.is_stepped(other)));
+        timeline.note_near_zone(slot, &found);
         found.clear();
     }
 }
