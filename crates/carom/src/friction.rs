@@ -88,6 +88,11 @@ pub(crate) struct ContactFriction {
 }
 
 impl ContactFriction {
+    /// Whether there is any: a tangential force or a torque.
+    pub fn acts(&self) -> bool {
+        [self.sliding, self.rolling, self.spinning].iter().any(|&it| it > 0.0)
+    }
+
     /// Friction of the contact of two bodies.
     pub fn of(bodies: [Friction; 2], rule: CombineRule) -> Self {
         let [first, second] = bodies;

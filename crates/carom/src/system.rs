@@ -6,6 +6,7 @@ use crate::bodies::Properties;
 use crate::colliders::Colliders;
 use crate::detect::surface_tree::SurfaceTree;
 use crate::forces::Force;
+use crate::friction::Friction;
 use crate::numbered::Numbered;
 use crate::settings::Settings;
 use crate::surface::Surface;
@@ -32,5 +33,11 @@ impl<'a> System<'a> {
         let (surfaces, tree) = (colliders.surfaces(), colliders.tree());
         let trigger_tree = colliders.trigger_tree();
         Self { settings, forces, surfaces, tree, trigger_tree, spheres }
+    }
+
+    /// What all bodies say of friction, as far as they say something.
+    pub fn frictions(&self) -> impl Iterator<Item = Friction> {
+        let of_surfaces = self.surfaces.iter().map(|surface| surface.friction);
+        self.spheres.friction.iter().copied().chain(of_surfaces)
     }
 }

@@ -5,6 +5,7 @@ mod combine;
 mod complementarity;
 mod contact_force;
 mod face;
+mod friction;
 mod generalized_reflection;
 mod group;
 mod least_change;
@@ -21,6 +22,7 @@ mod touching;
 
 pub(crate) use contact_force::contact_forces_within;
 pub use contact_force::{ContactForces, contact_forces};
+pub(crate) use friction::{FrictionContact, SpinningSphere, rub};
 pub(crate) use group::rounding_of;
 pub(crate) use least_change::least_change;
 pub use line_of_centres::line_of_centres;
@@ -32,6 +34,7 @@ pub use touching::{GroupResponse, TouchingContact};
 use crate::bodies::Motion;
 use crate::detect::Separation;
 use crate::detect::contact::{Bodies, Contact};
+use crate::friction::ContactFriction;
 use crate::report::{BodyPair, Impact};
 use crate::surface::Form;
 use crate::system::System;
@@ -77,6 +80,18 @@ pub(crate) fn restitution_of(bodies: Bodies, system: &System) -> f64 {
         }
     };
     system.settings.combine_rule.combine(e1, e2)
+}
+
+/// Friction of a contact, from what its bodies say.
+pub(crate) fn friction_of(bodies: Bodies, system: &System) -> ContactFriction {
+    let of_sphere = |sphere: u32| system.spheres.friction(sphere as usize);
+    let both = match bodies {
+        Bodies::Pair(first, second) => [of_sphere(first), of_sphere(second)],
+        Bodies::Surface { sphere, surface } => {
+            [system.surfaces[surface as usize].friction, of_sphere(sphere)]
+        }
+    };
+    ContactFriction::of(both, system.settings.friction_combine_rule)
 }
 
 fn answer_with(

@@ -78,14 +78,12 @@ pub(super) fn go_on(system: &System, motion: &mut Motion, solver: &mut Solver) {
 
 /// What occurs in the contacts of this world.
 fn kinds_of(system: &System) -> ContactKinds {
-    let spheres = system.spheres;
-    let frictions = || {
-        let of_surfaces = system.surfaces.iter().map(|surface| surface.friction);
-        spheres.friction.iter().copied().chain(of_surfaces)
-    };
     let is_some = |coefficient: Option<f64>| coefficient.is_some_and(|it| it > 0.0);
     let rolls = |it: Friction| is_some(it.rolling) || is_some(it.spinning);
-    ContactKinds { friction: frictions().any(|it| it.acts()), rolling: frictions().any(rolls) }
+    ContactKinds {
+        friction: system.frictions().any(|it| it.acts()),
+        rolling: system.frictions().any(rolls),
+    }
 }
 
 /// Gives the world where spheres are and how they move, after a time of `h` \[s\].

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::detect::contact::Bodies;
 use crate::friction::{ContactFriction, Friction};
-use crate::respond::restitution_of;
+use crate::respond::{friction_of, restitution_of};
 use crate::system::System;
 
 /// With more materials than this, pairs are combined one by one.
@@ -21,17 +21,7 @@ pub(super) struct ContactMaterial {
 impl ContactMaterial {
     /// That of these bodies.
     pub fn of(bodies: Bodies, system: &System) -> Self {
-        let of_sphere = |sphere: u32| system.spheres.friction(sphere as usize);
-        let both = match bodies {
-            Bodies::Pair(first, second) => [of_sphere(first), of_sphere(second)],
-            Bodies::Surface { sphere, surface } => {
-                [system.surfaces[surface as usize].friction, of_sphere(sphere)]
-            }
-        };
-        Self {
-            restitution: restitution_of(bodies, system),
-            friction: ContactFriction::of(both, system.settings.friction_combine_rule),
-        }
+        Self { restitution: restitution_of(bodies, system), friction: friction_of(bodies, system) }
     }
 }
 

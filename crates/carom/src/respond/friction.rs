@@ -1,0 +1,167 @@
+//! Friction in impacts: impulses across the normal.
+
+use glam::DVec3;
+
+use crate::friction::ContactFriction;
+use crate::norm::Norm;
+use crate::sum::Sum;
+use crate::work::Work;
+
+/// Impulses count as found once they change by less than this part of the largest that friction allows.
+const SETTLED: f64 = f64::EPSILON;
+/// Sweeps over the contacts of a group, at most. Each takes kinetic energy, so any number will do.
+const MOST_SWEEPS: usize = 1000;
+
+/// A sphere that friction acts on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SpinningSphere {
+    /// \[m\]
+    pub radius: f64,
+    /// \[kg\]
+    pub mass: f64,
+    /// Moment of inertia divided by m r².
+    pub inertia_factor: f64,
+    /// \[m/s\]
+    pub velocity: DVec3,
+    /// \[rad/s\]
+    pub angular_velocity: DVec3,
+}
+
+/// A contact that got a normal impulse.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FrictionContact {
+    /// Index of sphere 1 among the spheres; none if body 1 is a surface.
+    pub first: Option<usize>,
+    /// Index of sphere 2.
+    pub second: usize,
+    /// Unit vector from body 1 to body 2.
+    pub normal: DVec3,
+    /// Velocity of the surface where it is touched \[m/s\]; zero if body 1 is a sphere.
+    pub surface_velocity: DVec3,
+    pub friction: ContactFriction,
+    /// Impulse on body 2 along the normal \[N s\].
+    pub normal_impulse: f64,
+    /// Impulse of friction on body 2, across the normal \[N s\].
+    pub impulse: DVec3,
+}
+
+impl SpinningSphere {
+    /// Kinetic energy of rotation \[J\].
+    pub fn rotational_energy(&self) -> f64 {
+        let speed = self.radius * self.angular_velocity.norm();
+        0.5 * self.inertia_factor * self.mass * speed * speed
+    }
+
+    /// How easily an impulse across the normal moves the sphere's surface \[1/kg\].
+    fn mobility(&self) -> f64 {
+        (1.0 + 1.0 / self.inertia_factor) / self.mass
+    }
+
+    /// Changes its motion by an impulse \[N s\] across the normal, which points away from it by this
+    /// `side`, 1 or -1.
+    fn push(&mut self, normal: DVec3, impulse: DVec3, side: f64) {
+        self.velocity += impulse / self.mass;
+        let moment_per_radius = self.inertia_factor * self.mass * self.radius;
+        self.angular_velocity += side * normal.cross(impulse) / moment_per_radius;
+    }
+}
+
+impl FrictionContact {
+    /// Velocity with which the surface of body 2 slides along that of body 1 \[m/s\].
+    fn slip(&self, spheres: &[SpinningSphere]) -> DVec3 {
+        let second = &spheres[self.second];
+        let mut relative = second.velocity - self.surface_velocity;
+        let mut turning = second.radius * second.angular_velocity;
+        if let Some(first) = self.first {
+            relative -= spheres[first].velocity;
+            turning += spheres[first].radius * spheres[first].angular_velocity;
+        }
+        relative - relative.dot(self.normal) * self.normal - turning.cross(self.normal)
+    }
+
+    /// The mass that a slip has to be stopped of \[kg\].
+    fn mass(&self, spheres: &[SpinningSphere]) -> f64 {
+        let first = self.first.map_or(0.0, |first| spheres[first].mobility());
+        1.0 / (first + spheres[self.second].mobility())
+    }
+
+    /// The largest impulse of friction \[N s\].
+    fn limit(&self) -> f64 {
+        self.friction.sliding * self.normal_impulse
+    }
+
+    /// Adds to the impulse of friction.
+    fn push(&mut self, spheres: &mut [SpinningSphere], change: DVec3) {
+        self.impulse += change;
+        spheres[self.second].push(self.normal, change, -1.0);
+        if let Some(first) = self.first {
+            spheres[first].push(self.normal, -change, 1.0);
+        }
+    }
+}
+
+/// Gives contacts that got normal impulses those of friction. Tells what that does to kinetic energy \[J\],
+/// <= 0 but for rounding, measured against the surfaces.
+///
+/// The impulses are those of least kinetic energy, each at most the coefficient of friction times the
+/// normal impulse; the tangential restitution of a contact turns part of its slip round. For one contact
+/// that is Walton's law, `J = -s/|s| min((1 + b) m |s|, mu Jn)` with the slip s and `1/m = Σ (1 + 1/k)/m_i`
+/// (Foerster, Louge, Chang and Allia, Phys. Fluids 6, 1108 (1994)).
+pub(crate) fn rub(
+    work: &Work,
+    contacts: &mut [FrictionContact],
+    spheres: &mut [SpinningSphere],
+) -> f64 {
+    let largest = contacts.iter().map(FrictionContact::limit).fold(0.0, f64::max);
+    if largest == 0.0 {
+        return 0.0;
+    }
+    if contacts.len() == 1 {
+        let target = -contacts[0].friction.tangential_restitution * contacts[0].slip(spheres);
+        return sweeps(work, contacts, spheres, &[target], largest);
+    }
+    let turned = |contact: &FrictionContact| {
+        -contact.friction.tangential_restitution * contact.slip(spheres)
+    };
+    let targets: Vec<DVec3> = contacts.iter().map(turned).collect();
+    let (before, free) = (spheres.to_vec(), contacts.to_vec());
+    let change = sweeps(work, contacts, spheres, &targets, largest);
+    if change <= 0.0 || targets.iter().all(|&target| target == DVec3::ZERO) {
+        return change;
+    }
+    // What one contact gives back, another one need not have taken.
+    spheres.copy_from_slice(&before);
+    contacts.copy_from_slice(&free);
+    sweeps(work, contacts, spheres, &vec![DVec3::ZERO; contacts.len()], largest)
+}
+
+/// Sweeps over the contacts, each of which gets the impulse that brings its slip to the target \[m/s\] or as
+/// near to that as friction allows, with the others as they are.
+fn sweeps(
+    work: &Work,
+    contacts: &mut [FrictionContact],
+    spheres: &mut [SpinningSphere],
+    targets: &[DVec3],
+    largest: f64,
+) -> f64 {
+    let mut energy = Sum::default();
+    for _ in 0..MOST_SWEEPS {
+        let mut moved = 0.0_f64;
+        for (contact, &target) in contacts.iter_mut().zip(targets) {
+            let slip = contact.slip(spheres);
+            let wanted = contact.impulse - contact.mass(spheres) * (slip - target);
+            let (size, limit) = (wanted.norm(), contact.limit());
+            let limited = if size > limit { wanted * (limit / size) } else { wanted };
+            let change = limited - contact.impulse;
+            contact.push(spheres, change);
+            // An impulse does the work of the mean slip.
+            energy.add(0.5 * change.dot(slip + contact.slip(spheres)));
+            moved = moved.max(change.norm());
+        }
+        let is_settled = contacts.len() == 1 || moved <= SETTLED * largest;
+        if is_settled || !work.spend(contacts.len() as u64) {
+            break;
+        }
+    }
+    energy.value()
+}
