@@ -200,6 +200,19 @@ impl Motion {
         self.spin.angular_velocity.clone_from(&from.spin.angular_velocity);
     }
 
+    /// That of some spheres, by index.
+    pub fn of_some(&self, indices: &[u32]) -> Self {
+        let Spin { orientation, angular_velocity } = &self.spin;
+        Self {
+            position: some(&self.position, indices),
+            velocity: some(&self.velocity, indices),
+            spin: Spin {
+                orientation: some(orientation, indices),
+                angular_velocity: some(angular_velocity, indices),
+            },
+        }
+    }
+
     /// Takes over place and velocity of one sphere.
     pub fn copy(&mut self, from: &Self, index: usize) {
         self.position[index] = from.position[index];

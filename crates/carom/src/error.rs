@@ -53,6 +53,21 @@ pub enum Error {
         /// Start of the refused step \[s\].
         time: f64,
     },
+    /// Friction acts on a sphere in a way that the rule `exact` can follow in stepped zones only, and there are
+    /// none: by its settings, or because the world is periodic.
+    #[error(
+        "sphere {sphere}, at {at} s: friction acts on it in contacts that have no closed form, and \
+         nothing may be stepped (`zones`, or a periodic box); the state before the step, at {time} s, \
+         was kept. The rule `contact` steps everything"
+    )]
+    NeedsZone {
+        /// A sphere that it acts on.
+        sphere: SphereId,
+        /// When it was needed \[s\].
+        at: f64,
+        /// Start of the refused step \[s\].
+        time: f64,
+    },
     /// A [`StopRequest`](crate::StopRequest) ended the step.
     #[error("the step that starts at {time} s was stopped; the state before it was kept")]
     Stopped {

@@ -18,7 +18,9 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
         let end = advance(attempt, &mut timeline, end, until)?;
         attempt.end_at(end);
         place_spheres(attempt, &timeline, end)?;
-        attempt.state.spheres.motion.spin.advance(attempt.length);
+        if !timeline.has_friction() {
+            attempt.state.spheres.motion.spin.advance(attempt.length);
+        }
         attempt.state.timeline = Some(timeline);
         let account = &mut attempt.report.zone_account;
         attempt.state.was_stepped |= account.joined > 0;
@@ -118,6 +120,7 @@ fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result
 fn refusal(unfinished: Unfinished, time: f64) -> Error {
     match unfinished {
         Unfinished::Stopped => Error::Stopped { time },
+        Unfinished::NoClosedForm { sphere, time: at } => Error::NeedsZone { sphere, at, time },
         Unfinished::TooManyImpacts { sphere, limit, companions, time: at } => {
             Error::TooManyImpacts { sphere, limit, companions, at, time }
         }

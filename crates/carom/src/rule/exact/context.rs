@@ -31,6 +31,9 @@ pub(super) struct StepContext<'a> {
     pub length: f64,
     /// Edges of the periodic box \[m\]; infinite along an open axis.
     pub period: DVec3,
+    /// The slot of a sphere on which friction acts in a way that has no closed form, where nothing is
+    /// stepped.
+    pub unanswered: Option<u32>,
     /// Working memory: the neighbours of the spheres at work, and when they meet.
     pub searches: [PairSearch; 2],
 }
@@ -44,8 +47,19 @@ impl<'a> StepContext<'a> {
         report: &'a mut StepReport,
     ) -> Self {
         let period = system.settings.boundary.period();
-        let (searches, counts) = Default::default();
-        Self { system, parameters, report, counts, work, start, length, period, searches }
+        let (searches, counts, unanswered) = Default::default();
+        Self {
+            system,
+            parameters,
+            report,
+            counts,
+            work,
+            start,
+            length,
+            period,
+            unanswered,
+            searches,
+        }
     }
 
     /// Whether what takes too much work is stepped. The rule `contact` knows no periodic box.

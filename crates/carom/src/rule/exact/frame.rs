@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::clearance::Clearance;
 use super::context::StepContext;
 use super::events::{Prediction, Schedule};
-use super::flights::{self, Body, Flights};
+use super::flights::{self, Body, Flights, Turning};
 use super::neighbours::{Contents, Neighbours};
 use super::pair_times::PairSearch;
 use super::persistent::{self, held_forces, piece_end};
@@ -55,6 +55,10 @@ pub(crate) fn start(
     if parameters.zones == Zones::Never {
         zone = Zone::default();
     }
+    if friction_acts(system) {
+        let all = 0..motion.position.len();
+        flights.turning = all.map(|index| Turning::of(motion, index, time)).collect();
+    }
     flights.set_stepped(&zone.indices(&system.spheres.id));
     zone.restart(system, time, parameters.zone_tick, &motion.velocity);
     let frame = [time; 2];
@@ -82,6 +86,14 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     };
     let mut flights = Flights::new(system, motion, flight_of);
     let Timeline { parameters, frame, .. } = *before;
+    if before.has_friction() || friction_acts(system) {
+        let turning_of = |(index, id)| match arrivals.known.binary_search(id) {
+            Ok(place) if before.has_friction() => before.flights.free_turning_of(place, time),
+            Ok(_) => Turning::of(motion, index, frame[0]),
+            Err(_) => Turning::of(motion, index, (arrivals.time_of)(*id)),
+        };
+        flights.turning = system.spheres.id.iter().enumerate().map(turning_of).collect();
+    }
     let mut zone = before.zone.clone();
     zone.follow(&system.spheres.id);
     flights.set_stepped(&zone.indices(&system.spheres.id));
@@ -92,6 +104,11 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     }
     predict_all(&mut timeline, system, time);
     timeline
+}
+
+/// Whether some body says of friction that it acts.
+fn friction_acts(system: &System) -> bool {
+    system.frictions().any(|friction| friction.acts())
 }
 
 /// Prepares for a frame from and to these times \[s\]. The next spheres are emitted at `next` \[s\].
@@ -144,6 +161,7 @@ pub(crate) fn end(
     }
     let period = system.settings.boundary.period();
     flights::write_motion(&timeline.flights, motion, period, span.end);
+    flights::write_spin(&timeline.flights.turning, motion, span.end);
     reading(system, timeline.parameters, span, |context| {
         piece_end::write_motion(timeline, context, motion, span.end);
     });

@@ -67,6 +67,13 @@ pub(crate) enum Unfinished {
         /// When it happened, on the world's clock \[s\].
         time: f64,
     },
+    /// Friction acts in a way that has no closed form, and nothing is stepped.
+    NoClosedForm {
+        /// A sphere that it acts on.
+        sphere: SphereId,
+        /// When it happened, on the world's clock \[s\].
+        time: f64,
+    },
     /// A stop request came.
     Stopped,
 }
@@ -154,6 +161,10 @@ fn happen(
         EventTarget::Cluster => {
             impact::of_sphere(timeline, context, slot, None, event.time);
         }
+    }
+    if let Some(slot) = context.unanswered {
+        let sphere = context.id_of(timeline, slot);
+        return Err(Unfinished::NoClosedForm { sphere, time: event.time });
     }
     check_work(timeline, context, slot, event.time)?;
     if is_counted {

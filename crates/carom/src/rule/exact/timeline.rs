@@ -50,6 +50,11 @@ impl Timeline {
         self.flights.hold_forces && self.zone.is_empty()
     }
 
+    /// Whether friction acts, so that spins change.
+    pub fn has_friction(&self) -> bool {
+        !self.flights.turning.is_empty()
+    }
+
     /// What is stepped, to go on with where the flights are dropped.
     pub fn into_zone(self) -> Zone {
         self.zone
@@ -102,9 +107,9 @@ impl Timeline {
         wrapped.is_some()
     }
 
-    /// Takes away the contact forces on a sphere, and its cluster.
-    pub(super) fn set_free(&mut self, slot: u32) {
-        if self.flights.set_free(slot) {
+    /// Takes away the contact forces on a sphere at `time` \[s\], and its cluster.
+    pub(super) fn set_free(&mut self, slot: u32, time: f64) {
+        if self.flights.set_free(slot, time) {
             self.drop_clearance(slot);
         }
     }
@@ -113,7 +118,7 @@ impl Timeline {
     /// is not predicted anew.
     pub fn place(&mut self, index: usize, position: DVec3, velocity: DVec3, time: f64) {
         let slot = self.flights.slot_of[index];
-        self.set_free(slot);
+        self.set_free(slot, time);
         self.flights.bodies[slot as usize].begin_flight(position, velocity, time);
         self.cross_cell(slot, [position, velocity], &mut NeighbourBuffer::default());
         self.wrap(slot);
@@ -126,6 +131,7 @@ impl Timeline {
             let (position, velocity) = self.flights.state_of(slot, now);
             self.begin_flight(slot, position, velocity, time);
         }
+        self.flights.turning.iter_mut().for_each(|turning| turning.set_time(now, time));
     }
 
     /// Gives a sphere that is at a position \[m\] with a velocity \[m/s\] another neighbour region, and

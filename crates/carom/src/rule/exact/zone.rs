@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 
-use crate::bodies::{Motion, Properties};
+use super::flights::{Flights, Turning};
+use crate::bodies::{Motion, Properties, Spin};
 use crate::forces;
-use crate::friction::Friction;
 use crate::id::SphereId;
 use crate::interval::Interval;
 use crate::norm::Norm;
@@ -62,6 +62,8 @@ pub(crate) struct Stepped {
     pub index: u32,
     /// Centre at the last tick and at the next one \[m\].
     pub positions: [DVec3; 2],
+    /// Where friction acts.
+    pub turning: Option<Turning>,
 }
 
 impl Zone {
@@ -140,31 +142,38 @@ impl Zone {
             return;
         }
         let kept: Vec<u32> = (0..stays.len() as u32).filter(|&it| stays[it as usize]).collect();
-        let all = |items: &[DVec3]| kept.iter().map(|&place| items[place as usize]).collect();
         self.index = kept.iter().filter_map(|&it| self.index.get(it as usize).copied()).collect();
         self.properties = self.properties.of_some(&kept);
-        self.motion.position = all(&self.motion.position);
-        self.motion.velocity = all(&self.motion.velocity);
-        self.velocity_before = all(&self.velocity_before);
+        self.motion = self.motion.of_some(&kept);
+        let velocity = |&place: &u32| self.velocity_before[place as usize];
+        self.velocity_before = kept.iter().map(velocity).collect();
         self.free_ticks = kept.iter().map(|&place| self.free_ticks[place as usize]).collect();
     }
 
     /// Takes out the spheres that are near no other one, or fly freely since some time, at a tick, before
-    /// those that wait are taken in. Gives their indices, and centres \[m\] and velocities \[m/s\].
-    pub fn take_out_free(&mut self) -> Vec<(u32, [DVec3; 2])> {
+    /// those that wait are taken in; but for those that bear something and would have to come back, as
+    /// `comes_back` tells of an index and a centre \[m\]. Gives their indices, and centres \[m\] and
+    /// velocities \[m/s\].
+    pub fn take_out_free(
+        &mut self,
+        comes_back: impl Fn(u32, DVec3) -> bool,
+    ) -> Vec<(u32, [DVec3; 2])> {
         let known = contact::nearness(&self.solver);
         let nearness = |id: &SphereId| {
             let found = known.binary_search_by_key(id, |sphere| sphere.0);
             found.map_or(Nearness::Near, |place| known[place].1)
         };
-        let spheres = self.properties.id.iter().zip(&self.free_ticks);
-        let stays: Vec<bool> = spheres
-            .map(|(id, &ticks)| match nearness(id) {
-                Nearness::Apart => false,
+        let stays = |(place, id): (usize, &SphereId)| {
+            let ticks = self.free_ticks[place];
+            let is_bound =
+                || ticks == 0 && comes_back(self.index[place], self.motion.position[place]);
+            match nearness(id) {
+                Nearness::Apart => is_bound(),
                 Nearness::Near => ticks < FREE_TICKS,
                 Nearness::Overlaps => true,
-            })
-            .collect();
+            }
+        };
+        let stays: Vec<bool> = self.properties.id.iter().enumerate().map(stays).collect();
         let state = |place: usize| [self.motion.position[place], self.motion.velocity[place]];
         let free = (0..stays.len()).filter(|&place| !stays[place]);
         let out = free.map(|place| (self.index[place], state(place))).collect();
@@ -181,8 +190,13 @@ impl Zone {
     pub fn rest(&mut self) -> Vec<Stepped> {
         self.ticks = [self.ticks[1], f64::INFINITY];
         self.velocity_before.clone_from(&self.motion.velocity);
-        let places = self.index.iter().zip(&self.motion.position);
-        places.map(|(&index, &place)| Stepped { index, positions: [place; 2] }).collect()
+        let spin = &self.motion.spin;
+        let stepped = |place: usize| Stepped {
+            index: self.index[place],
+            positions: [self.motion.position[place]; 2],
+            turning: turning_between([spin; 2], place, self.ticks),
+        };
+        (0..self.index.len()).map(stepped).collect()
     }
 
     /// Velocities of all spheres at a time between two ticks \[s\], by index and by id.
@@ -222,28 +236,44 @@ impl Zone {
         number(self.ticks[1]) != number(self.ticks[0])
     }
 
-    /// Takes those that wait into its arrays: `place` tells where spheres are, by their indices \[m\].
-    pub fn admit(&mut self, system: &System, place: impl Fn(u32) -> DVec3) {
+    /// Takes those that wait into its arrays: `flights` tell where spheres are at `now` \[s\], and how they
+    /// turn.
+    pub fn admit(&mut self, system: &System, flights: &Flights, now: f64) {
         if self.waiting.is_empty() {
             return;
         }
         let ids = &system.spheres.id;
-        let index_of = |id: SphereId| ids.binary_search(&id).map(|index| index as u32).ok();
-        let come =
-            self.waiting.drain(..).filter_map(|(id, velocity)| Some((index_of(id)?, velocity)));
-        let mut all: Vec<(u32, [DVec3; 2], u32)> =
-            come.map(|(index, velocity)| (index, [place(index), velocity], 0)).collect();
-        all.extend((0..self.index.len()).map(|place| {
-            let state = [self.motion.position[place], self.motion.velocity[place]];
-            (self.index[place], state, self.free_ticks[place])
-        }));
+        // By index, with the place that it has already.
+        let known = (0u32..).zip(&self.index).map(|(place, &index)| (index, Err(place)));
+        let come = self
+            .waiting
+            .drain(..)
+            .filter_map(|(id, velocity)| Some((ids.binary_search(&id).ok()? as u32, Ok(velocity))));
+        let mut all: Vec<(u32, Result<DVec3, u32>)> = known.chain(come).collect();
         all.sort_unstable_by_key(|sphere| sphere.0);
+        let mut motion = Motion::default();
+        let mut free_ticks = Vec::with_capacity(all.len());
+        for &(index, velocity) in &all {
+            let slot = flights.slot_of[index as usize];
+            let (position, velocity, ticks) = match velocity {
+                Ok(velocity) => (flights.state_of(slot, now).0, velocity, 0),
+                Err(place) => {
+                    let place = place as usize;
+                    let Motion { position, velocity, .. } = &self.motion;
+                    (position[place], velocity[place], self.free_ticks[place])
+                }
+            };
+            motion.position.push(position);
+            motion.velocity.push(velocity);
+            free_ticks.push(ticks);
+            if let Some(turning) = flights.turning.get(index as usize) {
+                motion.spin.orientation.push(turning.orientation_at(now));
+                motion.spin.angular_velocity.push(turning.angular_velocity_at(now));
+            }
+        }
         self.index = all.iter().map(|sphere| sphere.0).collect();
-        self.motion.position = all.iter().map(|sphere| sphere.1[0]).collect();
-        self.motion.velocity = all.iter().map(|sphere| sphere.1[1]).collect();
-        self.free_ticks = all.iter().map(|sphere| sphere.2).collect();
+        (self.motion, self.free_ticks) = (motion, free_ticks);
         self.properties = system.spheres.of_some(&self.index);
-        self.properties.friction.clear();
     }
 
     /// Steps all spheres from this tick to the next one. `offset` \[s\] is the time of this tick from when
@@ -260,7 +290,7 @@ impl Zone {
         if !system.spheres.applied_force.is_empty() {
             self.properties.applied_force = system.spheres.of_some(&self.index).applied_force;
         }
-        let before = self.motion.position.clone();
+        let before = self.motion.clone();
         self.velocity_before.clone_from(&self.motion.velocity);
         self.place_surfaces(system, offset);
         let system = System { spheres: &self.properties, surfaces: &self.surfaces, ..*system };
@@ -276,12 +306,12 @@ impl Zone {
             let ticks = &mut self.free_ticks[place as usize];
             *ticks = if bears { 0 } else { *ticks + 1 };
         }
-        let places = before.into_iter().zip(&self.motion.position);
-        let stepped = |(&index, (before, &after)): (&u32, (DVec3, &DVec3))| Stepped {
-            index,
-            positions: [before, after],
+        let stepped = |place: usize| Stepped {
+            index: self.index[place],
+            positions: [before.position[place], self.motion.position[place]],
+            turning: turning_between([&before.spin, &self.motion.spin], place, self.ticks),
         };
-        self.index.iter().zip(places).map(stepped).collect()
+        (0..self.index.len()).map(stepped).collect()
     }
 
     /// Has surfaces where they are at a time since they are where the system says \[s\].
@@ -289,9 +319,20 @@ impl Zone {
         self.surfaces.clear();
         self.surfaces.extend(system.surfaces.iter().map(|surface| {
             let (form, motion) = surface.after(offset);
-            Surface { form, motion, friction: Friction::default(), ..*surface }
+            Surface { form, motion, ..*surface }
         }));
     }
+}
+
+/// How a sphere turns between two ticks \[s\], by what its spin is at both.
+fn turning_between(
+    [before, after]: [&Spin; 2],
+    place: usize,
+    [now, next]: [f64; 2],
+) -> Option<Turning> {
+    let orientation = *before.orientation.get(place)?;
+    let velocities = [before, after].map(|spin| spin.angular_velocity[place]);
+    Some(Turning::between(orientation, velocities, [now, next]))
 }
 
 /// How often a tick \[s\] is to be halved for a sphere: until it is short in relation to the time in which

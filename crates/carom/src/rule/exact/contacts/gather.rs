@@ -85,9 +85,7 @@ impl<'a> Gathering<'a> {
         if self.members.contains_key(&index) {
             return;
         }
-        let (position, velocity) = self.timeline.flights.state_of(slot, self.time);
-        let species = *self.timeline.flights.free_species_of(slot);
-        self.members.insert(index, Member { slot, position, velocity, species });
+        self.members.insert(index, Member::at(&self.timeline.flights, slot, self.time));
         self.frontier.push(slot);
     }
 

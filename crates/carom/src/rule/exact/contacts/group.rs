@@ -4,7 +4,6 @@ use super::member::Member;
 use super::touch::Touch;
 use crate::detect::contact::Bodies;
 use crate::rule::exact::contact_scale::ContactScale;
-use crate::rule::exact::flights::Flights;
 
 /// Bodies that touch at one instant.
 pub(crate) struct Group {
@@ -20,9 +19,8 @@ pub(crate) struct Group {
 
 impl Group {
     /// Place among the members of the sphere at an index of the world's arrays.
-    pub fn place_of(&self, flights: &Flights, index: u32) -> Option<usize> {
-        let index_of = |member: &Member| flights.index_of[member.slot as usize];
-        self.members.binary_search_by_key(&index, index_of).ok()
+    pub fn place_of(&self, index: u32) -> Option<usize> {
+        self.members.binary_search_by_key(&index, |member| member.index).ok()
     }
 
     /// What can be resolved of a contact of the group. Where one contact is curved, the spheres that it

@@ -4,20 +4,37 @@ use glam::DVec3;
 
 use crate::flight::Flight;
 use crate::rule::exact::contact_scale::ContactScale;
-use crate::rule::exact::flights::Species;
+use crate::rule::exact::flights::{Flights, Species};
 
 /// A sphere of a group.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Member {
     pub slot: u32,
+    /// Of the sphere, in the arrays of the world.
+    pub index: u32,
     /// Centre \[m\] and velocity \[m/s\] at the instant.
     pub position: DVec3,
     pub velocity: DVec3,
+    /// Where friction acts \[rad/s\].
+    pub angular_velocity: DVec3,
     /// Free of contact forces.
     pub species: Species,
 }
 
 impl Member {
+    /// The sphere at `slot`, as it comes to `time` \[s\].
+    pub fn at(flights: &Flights, slot: u32, time: f64) -> Self {
+        let (position, velocity) = flights.state_of(slot, time);
+        Self {
+            slot,
+            index: flights.index_of[slot as usize],
+            position,
+            velocity,
+            angular_velocity: flights.angular_velocity_of(slot, time),
+            species: *flights.free_species_of(slot),
+        }
+    }
+
     /// What can be resolved of the contacts of this sphere with surfaces, some of them curved or none.
     pub fn scale(&self, is_curved: bool) -> ContactScale {
         let scale = ContactScale { is_curved, ..ContactScale::default() };

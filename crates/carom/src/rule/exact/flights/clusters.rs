@@ -19,13 +19,22 @@ pub(crate) struct Cluster {
 /// A cluster to be, with what its contact forces do.
 #[derive(Debug, Clone)]
 pub(crate) struct Support {
-    /// Slots of the spheres, in the order of their indices, with the acceleration of each, of
-    /// everything but drag \[m/s²\].
-    pub members: Vec<(u32, DVec3)>,
+    /// In the order of their indices.
+    pub members: Vec<Supported>,
     /// Ascending.
     pub contacts: Vec<Bodies>,
     /// When the forces have to be found anew, on the world's clock \[s\].
     pub renewal: f64,
+}
+
+/// A sphere of a cluster to be.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Supported {
+    pub slot: u32,
+    /// Of everything but drag \[m/s²\].
+    pub acceleration: DVec3,
+    /// How it turns, where friction acts: angular velocity \[rad/s\] and angular acceleration \[rad/s²\].
+    pub turning: Option<[DVec3; 2]>,
 }
 
 impl Cluster {

@@ -7,11 +7,13 @@ mod clusters;
 mod lanes;
 mod species;
 mod state;
+mod turning;
 
 pub(super) use at_time::{first_lost, write_motion};
 pub(super) use axis_motion::AxisMotion;
 pub(super) use body::Body;
-pub(super) use clusters::{Cluster, Support};
+pub(super) use clusters::{Cluster, Support, Supported};
 pub(super) use lanes::FlightLanes;
 pub(super) use species::Species;
 pub(super) use state::Flights;
+pub(super) use turning::{Turning, write_spin};

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::body::Body;
-use super::clusters::{Cluster, Clusters, Support};
+use super::clusters::{Cluster, Clusters, Support, Supported};
 use super::species::{Species, SpeciesOfSpheres};
+use super::turning::Turning;
 use crate::bodies::Motion;
 use crate::detect::contact::Bodies;
 use crate::system::System;
@@ -25,6 +26,8 @@ pub(crate) struct Flights {
     pub index_of: Vec<u32>,
     pub slot_of: Vec<u32>,
     pub clusters: Clusters,
+    /// How spheres turn, by index; empty where no friction acts.
+    pub turning: Vec<Turning>,
     /// Whether some forces have no closed form and are held constant over a frame.
     pub hold_forces: bool,
 }
@@ -54,6 +57,7 @@ impl Flights {
             slot_of: index_of.clone(),
             index_of,
             clusters: Clusters::default(),
+            turning: Vec::new(),
             hold_forces,
         }
     }
@@ -109,6 +113,30 @@ impl Flights {
         body
     }
 
+    /// Angular velocity of a sphere at `time` \[rad/s\]; zero where no friction acts.
+    pub fn angular_velocity_of(&self, slot: u32, time: f64) -> DVec3 {
+        let turning = self.turning.get(self.index_of[slot as usize] as usize);
+        turning.map_or(DVec3::ZERO, |turning| turning.angular_velocity_at(time))
+    }
+
+    /// Has a sphere turn with an angular velocity \[rad/s\] and an angular acceleration \[rad/s²\] from
+    /// `time` \[s\] on, where friction acts.
+    pub fn turn(&mut self, slot: u32, turning: [DVec3; 2], time: f64) {
+        if let Some(it) = self.turning.get_mut(self.index_of[slot as usize] as usize) {
+            it.begin(turning, time);
+        }
+    }
+
+    /// How the sphere at an index of the world's arrays turns. Where torques of persistent contacts act on
+    /// it, none does from `time` \[s\] on.
+    pub fn free_turning_of(&self, index: usize, time: f64) -> Turning {
+        let mut turning = self.turning[index];
+        if self.hold_forces || self.species_of(self.slot_of[index]).cluster.is_some() {
+            turning.let_go(time);
+        }
+        turning
+    }
+
     /// Changes the acceleration \[m/s²\] of a sphere that is a species of its own.
     pub fn set_acceleration(&mut self, slot: u32, acceleration: DVec3) {
         let species = self.bodies[slot as usize].species;
@@ -121,13 +149,16 @@ impl Flights {
         self.species[free as usize].acceleration = acceleration;
     }
 
-    /// Takes away the contact forces on a sphere, and its cluster; tells whether there was one.
-    pub fn set_free(&mut self, slot: u32) -> bool {
+    /// Takes away the contact forces on a sphere at `time` \[s\], and its cluster; tells whether there was
+    /// one.
+    pub fn set_free(&mut self, slot: u32, time: f64) -> bool {
         let species = *self.species_of(slot);
         let Some(cluster) = species.cluster else { return false };
         self.clusters.remove(cluster);
         self.spare_species.push(self.bodies[slot as usize].species);
         self.bodies[slot as usize].species = species.free;
+        let angular_velocity = self.angular_velocity_of(slot, time);
+        self.turn(slot, [angular_velocity, DVec3::ZERO], time);
         true
     }
 
@@ -174,12 +205,15 @@ impl Flights {
         self.species_of(slot).is_stepped
     }
 
-    /// Makes spheres that are free a cluster.
-    pub fn set_supported(&mut self, support: Support) {
+    /// Makes spheres that are free a cluster from `time` \[s\] on.
+    pub fn set_supported(&mut self, support: Support, time: f64) {
         let Support { members, contacts, renewal } = support;
-        let slots = members.iter().map(|member| member.0).collect();
+        let slots = members.iter().map(|member| member.slot).collect();
         let cluster = self.clusters.add(Cluster { members: slots, contacts, renewal });
-        for (slot, acceleration) in members {
+        for Supported { slot, acceleration, turning } in members {
+            if let Some(turning) = turning {
+                self.turn(slot, turning, time);
+            }
             let species =
                 Species { acceleration, cluster: Some(cluster), ..*self.species_of(slot) };
             let number = match self.spare_species.pop() {

@@ -27,7 +27,7 @@ pub(super) fn follow_ups(
     }
     let mut is_struck = vec![false; group.members.len()];
     for index in struck.iter().flat_map(|bodies| bodies.spheres()) {
-        if let Some(place) = group.place_of(&timeline.flights, index) {
+        if let Some(place) = group.place_of(index) {
             is_struck[place] = true;
         }
     }
@@ -58,14 +58,13 @@ impl Search<'_> {
             return;
         }
         let member = &group.members[place];
-        let index = timeline.flights.index_of[member.slot as usize];
         let mut near = NeighbourBuffer::default();
         timeline.neighbours.find(member.slot, member.species.level, &mut near);
         let flights = &timeline.flights;
         let free = near.others(member.slot).filter(|it| !flights.is_stepped(it.slot()));
         for neighbour in free {
             let other_index = timeline.flights.index_of[neighbour.slot() as usize];
-            let bodies = Bodies::pair([index, other_index]);
+            let bodies = Bodies::pair([member.index, other_index]);
             let other = self.state_of(neighbour.slot(), other_index);
             let shift = timeline.neighbours.shift_of(member.slot, neighbour);
             let offset = other.position + shift - member.position;
@@ -87,7 +86,7 @@ impl Search<'_> {
     fn surfaces_closing(&self, place: usize, found: &mut Vec<Bodies>) {
         let Self { timeline, context, group, .. } = *self;
         let member = &group.members[place];
-        let sphere = timeline.flights.index_of[member.slot as usize];
+        let sphere = member.index;
         for (surface, shift) in timeline.surfaces_near(member.slot) {
             let bodies = Bodies::Surface { sphere, surface };
             let (form, motion) = context.surface_at(surface, group.time);
@@ -111,16 +110,8 @@ impl Search<'_> {
     /// A sphere as the group leaves it, or as it flies outside the group.
     fn state_of(&self, slot: u32, index: u32) -> Member {
         let Self { timeline, group, .. } = *self;
-        group.place_of(&timeline.flights, index).map_or_else(
-            || {
-                let (position, velocity) = timeline.flights.state_of(slot, group.time);
-                Member {
-                    slot,
-                    position,
-                    velocity,
-                    species: *timeline.flights.free_species_of(slot),
-                }
-            },
+        group.place_of(index).map_or_else(
+            || Member::at(&timeline.flights, slot, group.time),
             |place| group.members[place],
         )
     }
@@ -138,8 +129,7 @@ impl Search<'_> {
         let duration = self.context.duration_of(&scale, time);
         let was_struck = |member: &&Member| {
             let body = &self.timeline.flights.bodies[member.slot as usize];
-            let index = self.timeline.flights.index_of[member.slot as usize];
-            let place = self.group.place_of(&self.timeline.flights, index);
+            let place = self.group.place_of(member.index);
             place.is_some_and(|place| self.is_struck[place])
                 || (body.is_struck() && time - body.time < duration)
         };

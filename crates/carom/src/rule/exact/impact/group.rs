@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::account::account_of;
 use super::follow_up;
+use super::rubbing::{self, Rubbing};
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
@@ -49,7 +50,7 @@ pub(super) fn answer(
     context.counts.groups += 1;
     record(context, &group, &answer);
     let struck = answer.struck(&group);
-    let supports = solve::find(context, &mut group);
+    let found = solve::find(context, &mut group);
     let spent = context.work.done() - work_before;
     context.work.allow(u64::MAX);
     if context.has_zones() && allowance.is_some_and(|allowed| spent >= allowed) {
@@ -58,9 +59,16 @@ pub(super) fn answer(
         let group = gather(timeline, context, seeds, surface, &merged, time);
         return stepped::make_zone(timeline, context, &group);
     }
+    let Ok(supports) = found else {
+        if context.has_zones() {
+            return stepped::make_zone(timeline, context, &group);
+        }
+        context.unanswered = Some(group.members[0].slot);
+        return;
+    };
     // Impacts by which nothing stays in contact may be many: their number is that of flights.
     let lasting = if supports.is_empty() { 0 } else { group.members.len() as u64 };
-    timeline.budget.charge(&indices_of(timeline, &group), spent, UNITS_PER_MEMBER * lasting);
+    timeline.budget.charge(&indices_of(&group), spent, UNITS_PER_MEMBER * lasting);
     let held: Vec<Bodies> =
         supports.iter().flat_map(|support| &support.contacts).copied().collect();
     begin_flights(timeline, &group, &struck, supports);
@@ -94,7 +102,7 @@ fn gather(
 fn allow_work(timeline: &mut Timeline, context: &StepContext, group: &Group) -> u64 {
     let in_frame = UNITS_PER_FLIGHT * (u64::from(context.parameters.max_impacts) + 1);
     let allowed = if context.has_zones() {
-        let spheres = indices_of(timeline, group);
+        let spheres = indices_of(group);
         timeline.budget.allowance(context.parameters, &spheres, group.time).min(in_frame)
     } else {
         in_frame
@@ -104,9 +112,8 @@ fn allow_work(timeline: &mut Timeline, context: &StepContext, group: &Group) -> 
 }
 
 /// The spheres of a group, by index.
-fn indices_of(timeline: &Timeline, group: &Group) -> Vec<u32> {
-    let slots = group.members.iter().map(|member| member.slot);
-    slots.map(|slot| timeline.flights.index_of[slot as usize]).collect()
+fn indices_of(group: &Group) -> Vec<u32> {
+    group.members.iter().map(|member| member.index).collect()
 }
 
 /// The bodies that touch and are not `held` in persistent contact, and those whose meeting was
@@ -163,11 +170,13 @@ fn met(timeline: &Timeline, seeds: &[u32], surface: Option<u32>) -> Option<Bodie
 }
 
 /// What impacts did to a group.
+#[derive(Default)]
 struct Answer {
     /// One per touch: speed of approach before all impacts \[m/s\].
     approach_speeds: Vec<f64>,
     /// One per touch \[N s\].
     impulses: Vec<f64>,
+    rubbing: Rubbing,
     /// What the impacts did to momentum and energy of the spheres.
     account: ImpactGroup,
 }
@@ -193,40 +202,59 @@ fn respond_to_impacts(
     let approach_speeds: Vec<f64> = speeds.collect();
     let (mut impulses, mut energy_demanded) = (vec![0.0; count], 0.0);
     if !approach_speeds.iter().any(|&speed| speed > 0.0) {
-        return Answer { approach_speeds, impulses, account: ImpactGroup::default() };
+        return Answer { approach_speeds, impulses, ..Answer::default() };
     }
     let masses: Vec<f64> = group.members.iter().map(|member| member.species.mass).collect();
-    let before: Vec<DVec3> = group.members.iter().map(|member| member.velocity).collect();
-    let mut after = before.clone();
+    let before = velocities_of(group);
     let contacts = contacts_of(timeline, context, group);
+    let plastic = |contact: &TouchingContact| TouchingContact { restitution: 0.0, ..*contact };
+    let plastic: Vec<TouchingContact> = contacts.iter().map(plastic).collect();
+    let all: Vec<usize> = (0..count).collect();
     let law = context.parameters.impact_law;
-    let mut resolve = |places: &[usize], contacts: &[TouchingContact]| {
+    let mut resolve = |places: &[usize], contacts: &[TouchingContact], group: &mut Group| {
+        let mut after = velocities_of(group);
         let response = respond::resolve_within(context.work, law, contacts, &masses, &mut after);
+        for (member, velocity) in group.members.iter_mut().zip(after) {
+            member.velocity = velocity;
+        }
         energy_demanded += response.restitution_energy;
         for (&place, impulse) in places.iter().zip(response.impulses) {
             impulses[place] += impulse;
         }
+        impulses.clone()
     };
     let is_merged = |place: &usize| merged.contains(&group.touches[*place].bodies);
     let touching: Vec<usize> = (0..count).filter(|place| !is_merged(place)).collect();
     let given: Vec<_> = touching.iter().map(|&place| contacts[place]).collect();
-    resolve(&touching, &given);
+    let mut normal_impulses = resolve(&touching, &given, group);
     if !merged.is_empty() {
-        let plastic = |contact: &TouchingContact| TouchingContact { restitution: 0.0, ..*contact };
-        let all: Vec<usize> = (0..count).collect();
-        resolve(&all, &contacts.iter().map(plastic).collect::<Vec<_>>());
+        normal_impulses = resolve(&all, &plastic, group);
     }
-    for (member, velocity) in group.members.iter_mut().zip(&after) {
-        member.velocity = *velocity;
+    let mut rubbing = Rubbing::default();
+    if timeline.has_friction() {
+        rubbing = rubbing::rub(context, group, &normal_impulses);
+        // Friction may have set bodies in motion towards others.
+        resolve(&all, &plastic, group);
     }
-    let account = ImpactGroup { energy_demanded, ..account_of([&before, &after], &masses) };
-    Answer { approach_speeds, impulses, account }
+    let account = account_of([&before, &velocities_of(group)], &masses);
+    let account = rubbing.add_to(ImpactGroup { energy_demanded, ..account });
+    Answer { approach_speeds, impulses, rubbing, account }
+}
+
+fn velocities_of(group: &Group) -> Vec<DVec3> {
+    group.members.iter().map(|member| member.velocity).collect()
 }
 
 /// Writes down the impacts of a group.
 fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
-    let Answer { approach_speeds, impulses, .. } = answer;
+    let Answer { approach_speeds, impulses, rubbing, .. } = answer;
     let mut account = answer.account;
+    for (touch, &impulse) in group.touches.iter().zip(&rubbing.impulses) {
+        if touch.first.is_none() {
+            account.momentum_after -= impulse;
+            account.energy_after -= impulse.dot(rubbing::surface_velocity(touch, &group.members));
+        }
+    }
     let mut impacts: Vec<Impact> = Vec::new();
     for ((touch, &impulse), &approach_speed) in
         group.touches.iter().zip(impulses).zip(approach_speeds)
@@ -291,11 +319,12 @@ fn begin_flights(
     supports: Vec<Support>,
 ) {
     for member in &group.members {
-        timeline.set_free(member.slot);
+        timeline.set_free(member.slot, group.time);
         timeline.begin_flight(member.slot, member.position, member.velocity, group.time);
+        timeline.flights.turn(member.slot, [member.angular_velocity, DVec3::ZERO], group.time);
     }
     for index in struck.iter().flat_map(|bodies| bodies.spheres()) {
         timeline.flights.bodies[timeline.flights.slot_of[index as usize] as usize].strike();
     }
-    supports.into_iter().for_each(|support| timeline.flights.set_supported(support));
+    supports.into_iter().for_each(|support| timeline.flights.set_supported(support, group.time));
 }

@@ -4,6 +4,7 @@ mod account;
 mod follow_up;
 mod group;
 mod pair;
+mod rubbing;
 mod single_sphere;
 mod surface_contacts;
 

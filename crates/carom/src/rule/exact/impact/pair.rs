@@ -6,9 +6,12 @@ use glam::DVec3;
 
 use super::account::account_of_pair;
 use super::group;
+use super::rubbing::{Rubbing, rub_two};
+use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact};
 use crate::respond;
+use crate::rule::exact::contacts::Member;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Body;
 use crate::rule::exact::pair_times::NearTest;
@@ -56,6 +59,11 @@ pub(crate) fn of_spheres(
             .zip(before)
             .for_each(|(slot, body)| timeline.flights.bodies[slot as usize] = body);
         return group::answer(timeline, context, &slots, None, time);
+    }
+    if let Some(rubbing) = &impact.rubbing {
+        for (slot, angular_velocity) in slots.into_iter().zip(rubbing.1) {
+            timeline.flights.turn(slot, [angular_velocity, DVec3::ZERO], time);
+        }
     }
     if impact.impulse.is_some() {
         slots.iter().for_each(|&slot| timeline.flights.bodies[slot as usize].strike());
@@ -107,6 +115,8 @@ struct PairImpact {
     restitution: f64,
     /// \[N s\]; `None` if a grazing contact turns out, by rounding, not to close.
     impulse: Option<f64>,
+    /// What friction did, and angular velocities after it \[rad/s\].
+    rubbing: Option<(Rubbing, [DVec3; 2])>,
 }
 
 impl PairImpact {
@@ -121,15 +131,20 @@ impl PairImpact {
         let restitution = context.restitution_at(timeline, slots, restitution, time);
         let masses = species.map(|species| species.mass);
         let answer = respond::line_of_centres([v1, v2], masses, normal, restitution);
+        let mut velocities = answer.map_or([v1, v2], |answer| answer.0);
+        let rubbing = answer.filter(|_| timeline.has_friction()).map(|(_, impulse)| {
+            rub(timeline, context, slots, (&mut velocities, normal, impulse), time)
+        });
         Self {
             time,
             places: [x1, x2],
             velocities_before: [v1, v2],
-            velocities: answer.map_or([v1, v2], |answer| answer.0),
+            velocities,
             normal,
             approach_speed: (v1 - v2).dot(normal),
             restitution,
             impulse: answer.map(|answer| answer.1),
+            rubbing,
         }
     }
 
@@ -154,6 +169,27 @@ impl PairImpact {
             self.approach_speed,
             self.restitution,
         );
-        context.record([impact], account);
+        let with_rotation = |(rubbing, _): &(Rubbing, _)| rubbing.add_to(account);
+        context.record([impact], self.rubbing.as_ref().map_or(account, with_rotation));
     }
+}
+
+/// Gives two spheres that got an impulse \[N s\] along the normal that of friction, which changes their
+/// velocities \[m/s\]; with their angular velocities after it \[rad/s\].
+#[inline(never)]
+fn rub(
+    timeline: &Timeline,
+    context: &StepContext,
+    slots: [u32; 2],
+    (velocities, normal, impulse): (&mut [DVec3; 2], DVec3, f64),
+    time: f64,
+) -> (Rubbing, [DVec3; 2]) {
+    let mut members = slots.map(|slot| Member::at(&timeline.flights, slot, time));
+    for (member, velocity) in members.iter_mut().zip(&*velocities) {
+        member.velocity = *velocity;
+    }
+    let bodies = Bodies::pair(members.map(|member| member.index));
+    let rubbing = rub_two(context, &mut members, bodies, (normal, impulse));
+    *velocities = members.map(|member| member.velocity);
+    (rubbing, members.map(|member| member.angular_velocity))
 }

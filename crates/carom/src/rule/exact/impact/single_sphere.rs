@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::account::account_of;
 use super::group;
+use super::rubbing::{Rubbing, rub_one};
 use super::surface_contacts::{
     MOST_TOUCHED, SingleSphere, SurfaceContacts, restitution_of, single_sphere,
 };
@@ -34,27 +35,37 @@ pub(crate) fn of_sphere(
     else {
         return group::answer(timeline, context, &[slot], surface, time);
     };
+    // With friction, one contact feels the other; and drag leaves no closed form.
+    let is_rubbed = timeline.has_friction();
+    let is_one = touched.contacts(member.position).iter().flatten().count() == 1;
+    if is_rubbed && !(is_one && member.species.drag_rate == 0.0) {
+        return group::answer(timeline, context, &[slot], surface, time);
+    }
     let fastest = member.velocity.norm();
     let struck = strike(timeline, context, &touched, &mut member, time);
     let contact_duration = context.duration_of(&member.scale(touched.is_curved()), time);
     let corner = &touched.corner;
-    let planar = planar::support(&member, corner, contact_duration, timeline.horizon() - time);
+    let duration = timeline.horizon() - time;
+    let planar = planar::support(context.system, &member, corner, contact_duration, duration);
+    let planar = planar.ok().flatten();
     if let Some(planar) = &planar {
         let is_at_rest = planar.velocity.norm() <= REST * fastest;
         member.velocity = if is_at_rest { DVec3::ZERO } else { planar.velocity };
     }
-    timeline.set_free(slot);
+    timeline.set_free(slot, time);
     timeline.begin_flight(slot, member.position, member.velocity, time);
+    timeline.flights.turn(slot, [member.angular_velocity, DVec3::ZERO], time);
     if struck.iter().any(Option::is_some) {
         timeline.flights.bodies[slot as usize].strike();
     }
     let sphere = timeline.flights.index_of[slot as usize];
-    if let Some(PlanarSupport { acceleration, valid_for, persists, .. }) = planar {
+    if let Some(planar) = planar {
+        let PlanarSupport { valid_for, persists, .. } = planar;
         let lasting = corner.planes().zip(persists).filter(|it| it.1).map(|it| it.0.surface);
         let contacts = lasting.map(|surface| Bodies::Surface { sphere, surface }).collect();
-        let support =
-            Support { members: vec![(slot, acceleration)], contacts, renewal: time + valid_for };
-        timeline.flights.set_supported(support);
+        let members = vec![planar.supported(slot)];
+        let support = Support { members, contacts, renewal: time + valid_for };
+        timeline.flights.set_supported(support, time);
     }
     predict::predict(timeline, context, slot, time);
     let is_answered = |timeline: &Timeline, surface: u32| {
@@ -82,11 +93,10 @@ fn strike(
     member: &mut Member,
     time: f64,
 ) -> [Option<u32>; MOST_TOUCHED] {
-    let Member { slot, position, velocity: before, species } = *member;
-    let sphere = timeline.flights.index_of[slot as usize];
+    let Member { slot, index, position, velocity: before, species, .. } = *member;
     let rounding = respond::rounding_of(before);
     let (mut impacts, mut struck) = ([None; MOST_TOUCHED], [None; MOST_TOUCHED]);
-    let mut energy_demanded = 0.0;
+    let (mut energy_demanded, mut rubbing) = (0.0, Rubbing::default());
     for (place, contact) in touched.contacts(position).into_iter().flatten().enumerate() {
         let approach_speed = -before.dot(contact.normal);
         if approach_speed <= rounding {
@@ -99,8 +109,11 @@ fn strike(
         member.velocity += change * contact.normal;
         let impulse = species.mass * change;
         energy_demanded -= 0.5 * (1.0 - restitution) * impulse * approach_speed;
+        let bodies = Bodies::Surface { sphere: index, surface: contact.surface };
+        if timeline.has_friction() {
+            rubbing = rub_one(context, member, bodies, (contact.normal, impulse));
+        }
         struck[place] = Some(contact.surface);
-        let bodies = Bodies::Surface { sphere, surface: contact.surface };
         impacts[place] = Some(Impact {
             time: context.since_start(time),
             between: BodyPair::of(bodies, context.system),
@@ -116,7 +129,9 @@ fn strike(
         for impact in impacts.iter().flatten() {
             account.momentum_after -= impact.impulse * impact.normal;
         }
-        context.record(impacts.into_iter().flatten(), ImpactGroup { energy_demanded, ..account });
+        account.momentum_after -= rubbing.impulses.iter().sum::<DVec3>();
+        let account = rubbing.add_to(ImpactGroup { energy_demanded, ..account });
+        context.record(impacts.into_iter().flatten(), account);
     }
     struck
 }

@@ -128,9 +128,7 @@ pub(super) fn single_sphere<'a>(
     if is_held_with_others || context.period != DVec3::INFINITY {
         return None;
     }
-    let (position, velocity) = timeline.flights.state_of(slot, time);
-    let member =
-        Member { slot, position, velocity, species: *timeline.flights.free_species_of(slot) };
+    let member = Member::at(&timeline.flights, slot, time);
     let mut touched = SurfaceContacts::default();
     for (near, shift) in timeline.surfaces_near(slot) {
         let is_known = surface == Some(near) || timeline.flights.is_held_by(slot, near);
@@ -147,7 +145,7 @@ pub(super) fn single_sphere<'a>(
         }
     };
     let search = &mut context.searches[0];
-    let nearness = Nearness { position, time, margin: NEARBY };
+    let nearness = Nearness { position: member.position, time, margin: NEARBY };
     let is_alone = is_felt_apart && !search.is_near_any(timeline, slot, nearness);
     is_alone.then_some(SingleSphere { member, touched })
 }

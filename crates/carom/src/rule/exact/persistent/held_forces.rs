@@ -27,7 +27,7 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64
             begin_under(timeline, system, slot, uniform, [start, end]);
             timeline.find_clearance(system, slot);
         } else {
-            timeline.set_free(slot);
+            timeline.set_free(slot, start);
             begin_under_varying(timeline, system, slot, uniform, [start, end]);
         }
     }
@@ -42,17 +42,16 @@ fn begin_under(
     acceleration: DVec3,
     [start, end]: [f64; 2],
 ) {
-    let (position, velocity) = timeline.flights.state_of(slot, start);
     timeline.flights.set_free_acceleration(slot, acceleration);
-    let species = *timeline.flights.free_species_of(slot);
-    let member = Member { slot, position, velocity, species };
+    let member = Member::at(&timeline.flights, slot, start);
     let Some((cluster, planar)) = planar_support(timeline, system, &member, end - start) else {
-        timeline.set_free(slot);
-        timeline.begin_flight(slot, position, velocity, start);
+        timeline.set_free(slot, start);
+        timeline.begin_flight(slot, member.position, member.velocity, start);
         return;
     };
-    let PlanarSupport { velocity, acceleration, valid_for, persists } = planar;
+    let PlanarSupport { velocity, acceleration, valid_for, persists, .. } = planar;
     timeline.flights.set_acceleration(slot, acceleration);
+    timeline.flights.turn(slot, [planar.angular_velocity, planar.angular_acceleration], start);
     let cluster = timeline.flights.clusters.get_mut(cluster);
     cluster.renewal = start + valid_for;
     let (before, mut persists) = (cluster.contacts.len(), persists.into_iter());
@@ -60,7 +59,7 @@ fn begin_under(
     if cluster.contacts.len() < before {
         timeline.drop_clearance(slot);
     }
-    timeline.begin_flight(slot, position, velocity, start);
+    timeline.begin_flight(slot, member.position, velocity, start);
 }
 
 /// How the persistent contacts of a sphere go on, with the number of its cluster, if that is known
@@ -87,7 +86,7 @@ fn planar_support(
     }
     let scale = member.scale(false);
     let contact_duration = scale.duration(timeline.parameters.contact_duration, timeline.frame[0]);
-    let planar = planar::support(member, &corner, contact_duration, duration)?;
+    let planar = planar::support(system, member, &corner, contact_duration, duration).ok()??;
     Some((number, planar))
 }
 

@@ -1,14 +1,21 @@
 //! The list of the contacts that persist, with their forces.
 
+use glam::DVec3;
+
 use super::accelerations::forces;
 use super::piece_end::settle;
 use crate::detect::contact::Bodies;
+use crate::norm::Norm;
 use crate::persistent_contact::PersistentContact;
 use crate::report::BodyPair;
-use crate::rule::exact::contacts;
+use crate::respond;
+use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::periodic;
 use crate::rule::exact::timeline::Timeline;
+
+/// A contact slides where friction is this part of the largest possible at least.
+const SLIDES: f64 = 1.0 - 1e-9;
 
 /// All contacts that persist at `time` \[s\], in the order of their bodies: pairs of spheres first.
 /// Forces are those of this instant.
@@ -23,17 +30,34 @@ pub(crate) fn list(
         settle(timeline, context, &mut group);
         let forces = forces(context.work, &group.members, &group.touches);
         found.extend(group.touches.iter().zip(forces).map(|(touch, normal_force)| {
+            let tangential_force = friction_on(timeline, &group, touch);
+            let sliding = respond::friction_of(touch.bodies, context.system).sliding;
             let contact = PersistentContact {
                 between: BodyPair::of(touch.bodies, context.system),
                 point: periodic::wrapped(touch.point, context.period),
                 normal: touch.normal,
                 gap: touch.gap,
                 normal_force,
-                ..PersistentContact::NONE
+                tangential_force,
+                is_sliding: tangential_force.norm() >= SLIDES * sliding * normal_force,
             };
             (touch.bodies, contact)
         }));
     }
     found.sort_by_key(|(bodies, _)| *bodies);
     found.into_iter().map(|(_, contact)| contact).collect()
+}
+
+/// The force of friction on body 2 of a touch \[N\]: what accelerates a sphere on a plane, along it, besides
+/// the forces on all.
+fn friction_on(timeline: &Timeline, group: &Group, touch: &Touch) -> DVec3 {
+    if !timeline.has_friction() || group.members.len() > 1 {
+        return DVec3::ZERO;
+    }
+    let Member { slot, species, .. } = group.members[touch.second];
+    let change = timeline.flights.species_of(slot).acceleration - species.acceleration;
+    let forces = group.touches.iter().filter(|it| it.bodies != touch.bodies);
+    // Another plane bears what is along its normal.
+    let along = |rest: DVec3, other: &Touch| rest - rest.dot(other.normal) * other.normal;
+    species.mass * touch.across(forces.fold(change, along))
 }

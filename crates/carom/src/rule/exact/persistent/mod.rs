@@ -4,12 +4,18 @@ mod accelerations;
 mod correction;
 pub(super) mod held_forces;
 mod listing;
+mod on_planes;
 mod piece;
 pub(super) mod piece_end;
 pub(super) mod planar;
+mod rolling;
 mod sliding;
 pub(super) mod solve;
 
 pub(super) use accelerations::free_acceleration;
 pub(super) use listing::list;
+/// Friction acts at contacts whose motion has no closed form.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NoClosedForm;
+
 pub(super) use solve::{REST, is_back_within};

@@ -2,25 +2,42 @@
 
 use glam::DVec3;
 
+use super::NoClosedForm;
 use super::accelerations::{IDLE, free_acceleration};
+use super::rolling::{PressedSphere, Rolling, on_plane};
 use super::sliding::time_on_face;
 use super::solve::is_back_within;
+use crate::detect::contact::Bodies;
 use crate::flight::Flight;
 use crate::norm::Norm;
-use crate::rule::exact::contacts::{Corner, MOST_PLANES, Member, beyond};
-use crate::rule::exact::flights::AxisMotion;
+use crate::respond::friction_of;
+use crate::rule::exact::contacts::{Corner, MOST_PLANES, Member, Plane, beyond};
+use crate::rule::exact::flights::{AxisMotion, Supported};
 use crate::surface::Form;
+use crate::system::System;
 
 /// How a sphere goes on in its persistent contacts.
 pub(crate) struct PlanarSupport {
     /// \[m/s\]
     pub velocity: DVec3,
+    /// \[rad/s\]
+    pub angular_velocity: DVec3,
     /// Of everything but drag \[m/s²\].
     pub acceleration: DVec3,
+    /// \[rad/s²\]
+    pub angular_acceleration: DVec3,
     /// How long that holds \[s\]; infinite if longer than the given duration.
     pub valid_for: f64,
     /// Which contacts persist, in the order of the planes; the others part.
     pub persists: [bool; MOST_PLANES],
+}
+
+impl PlanarSupport {
+    /// The sphere at `slot`, so supported.
+    pub fn supported(&self, slot: u32) -> Supported {
+        let turning = Some([self.angular_velocity, self.angular_acceleration]);
+        Supported { slot, acceleration: self.acceleration, turning }
+    }
 }
 
 /// How a sphere that touches the planes of a corner goes on: where it is pressed on one, without the
@@ -30,14 +47,19 @@ pub(crate) struct PlanarSupport {
 /// \[s\] persist, and what holds for less is in doubt only by rounding.
 ///
 /// Forces at right angles do not depend on each other, so each follows from its own plane, as it
-/// would from [`contact_forces`](crate::respond::contact_forces).
+/// would from [`contact_forces`](crate::respond::contact_forces). With friction that is so on one plane only:
+/// [`on_plane`].
+///
+/// # Errors
+/// [`NoClosedForm`] if friction acts, and the sphere is pressed onto several planes, or slowed by drag.
 pub(crate) fn support(
+    system: &System,
     member: &Member,
     corner: &Corner,
     contact_duration: f64,
     duration: f64,
-) -> Option<PlanarSupport> {
-    let Member { position, mut velocity, species, .. } = *member;
+) -> Result<Option<PlanarSupport>, NoClosedForm> {
+    let Member { position, mut velocity, mut angular_velocity, species, .. } = *member;
     let (mut acceleration, mut largest) = (species.acceleration, 0.0f64);
     let mut persists = [false; MOST_PLANES];
     let pull = free_acceleration(member).norm();
@@ -55,10 +77,30 @@ pub(crate) fn support(
         }
     }
     if largest == 0.0 {
-        return None;
+        return Ok(None);
     }
     if acceleration.norm() <= IDLE * (species.acceleration.norm() + largest) {
         acceleration = DVec3::ZERO;
+    }
+    let (mut angular_acceleration, mut valid_for) = (DVec3::ZERO, f64::INFINITY);
+    let pressed = pressed_spheres(system, member, corner, (velocity, acceleration, persists));
+    if !pressed.is_empty() {
+        let rolling = rolling_on(&pressed, contact_duration)?;
+        (velocity, angular_velocity) = (rolling.velocity, rolling.angular_velocity);
+        (acceleration, angular_acceleration) = (rolling.acceleration, rolling.angular_acceleration);
+        valid_for = rolling.valid_for;
+        let moves = velocity != DVec3::ZERO || acceleration != DVec3::ZERO;
+        if moves && species.drag_rate > 0.0 {
+            return Err(NoClosedForm);
+        }
+        for (plane, persists) in corner.planes().zip(&mut persists) {
+            let opening = acceleration.dot(plane.normal);
+            if *persists && opening < -IDLE * pull {
+                // Friction presses it onto another plane.
+                return Err(NoClosedForm);
+            }
+            *persists &= opening <= IDLE * pull;
+        }
     }
     let motion = |axis: DVec3| AxisMotion {
         velocity: velocity.dot(axis),
@@ -67,7 +109,6 @@ pub(crate) fn support(
     };
     let flight = Flight { position, velocity, acceleration, drag_rate: species.drag_rate };
     let way = flight.farthest(duration).element_sum();
-    let mut valid_for = f64::INFINITY;
     for (plane, persists) in corner.planes().zip(persists) {
         // Nothing may be known of how far that is in endless time.
         let is_within = |beyond: f64| beyond + way < 0.0;
@@ -79,5 +120,47 @@ pub(crate) fn support(
         }
     }
     let valid_for = valid_for.max(contact_duration);
-    Some(PlanarSupport { velocity, acceleration, valid_for, persists })
+    Ok(Some(PlanarSupport {
+        velocity,
+        angular_velocity,
+        acceleration,
+        angular_acceleration,
+        valid_for,
+        persists,
+    }))
+}
+
+/// The sphere on each of the planes that it is pressed onto and where it persists, if friction acts on one
+/// of them; it moves so along them \[m/s\], and accelerates without friction \[m/s²\].
+fn pressed_spheres(
+    system: &System,
+    member: &Member,
+    corner: &Corner,
+    (velocity, pull, persists): (DVec3, DVec3, [bool; MOST_PLANES]),
+) -> Vec<PressedSphere> {
+    let Member { species, angular_velocity, index, .. } = *member;
+    let on = |plane: Plane| PressedSphere {
+        normal: plane.normal,
+        radius: species.radius,
+        inertia_factor: system.spheres.inertia_factor(index as usize),
+        velocity,
+        angular_velocity,
+        pressing: -species.acceleration.dot(plane.normal),
+        pull,
+        friction: friction_of(Bodies::Surface { sphere: index, surface: plane.surface }, system),
+    };
+    let persisting = corner.planes().zip(persists).filter(|it| it.1).map(|it| on(it.0));
+    let least = IDLE * species.acceleration.norm();
+    let pressed: Vec<PressedSphere> = persisting.filter(|it| it.pressing > least).collect();
+    if pressed.iter().any(|it| it.friction.acts()) { pressed } else { Vec::new() }
+}
+
+/// How a sphere goes on that is pressed onto planes.
+fn rolling_on(pressed: &[PressedSphere], contact_duration: f64) -> Result<Rolling, NoClosedForm> {
+    match pressed {
+        [sphere] => Ok(on_plane(sphere, contact_duration)),
+        // Nothing sets it in motion.
+        _ if pressed.iter().all(PressedSphere::is_at_rest) => Ok(Rolling::AT_REST),
+        _ => Err(NoClosedForm),
+    }
 }

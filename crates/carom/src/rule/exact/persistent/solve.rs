@@ -10,12 +10,13 @@ use super::accelerations::{
 use super::correction::correct;
 use super::piece::{TURN, TurnStart, through_the_middle, turning_time};
 use super::sliding::sliding_time;
+use super::{NoClosedForm, on_planes};
 use crate::norm::Norm;
-use crate::respond::restitution_of;
+use crate::respond::{friction_of, restitution_of};
 use crate::rule::exact::contact_scale::ContactScale;
 use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::flights::Support;
+use crate::rule::exact::flights::{Support, Supported};
 use crate::work::Work;
 
 /// Spheres in persistent contact whose speed is below this part of the speeds they came with are at
@@ -24,9 +25,29 @@ pub(crate) const REST: f64 = 1e-12;
 
 /// Finds the contacts of a group that stay closed and what they do; brings their gaps and normal
 /// velocities to zero.
-pub(crate) fn find(context: &StepContext, group: &mut Group) -> Vec<Support> {
+///
+/// # Errors
+/// [`NoClosedForm`] where friction acts but on spheres that lie on one plane each.
+pub(crate) fn find(context: &StepContext, group: &mut Group) -> Result<Vec<Support>, NoClosedForm> {
     let candidates = may_persist(context, group);
-    let (mut persistent, known_forces) = pressing(context.work, &group.members, &candidates);
+    let (persistent, known_forces) = pressing(context.work, &group.members, &candidates);
+    let least = IDLE * known_forces.iter().copied().fold(0.0, f64::max);
+    let forces = persistent.iter().zip(&known_forces);
+    let bearing: Vec<Touch> = forces.filter(|it| *it.1 > least).map(|it| *it.0).collect();
+    if bearing.iter().any(|touch| friction_of(touch.bodies, context.system).acts()) {
+        return on_planes::find(context, group, &candidates, &bearing);
+    }
+    Ok(find_smooth(context, group, candidates, persistent, known_forces))
+}
+
+/// Finds what stays closed of contacts without friction.
+fn find_smooth(
+    context: &StepContext,
+    group: &mut Group,
+    candidates: Vec<Touch>,
+    mut persistent: Vec<Touch>,
+    known_forces: Vec<f64>,
+) -> Vec<Support> {
     let mut known_forces = Some(known_forces);
     while !persistent.is_empty() {
         let has_moved = correct(context, group, &mut persistent);
@@ -179,7 +200,8 @@ fn connected(
     {
         let root = of(&mut supports, place);
         if let Some(support) = supports.get_mut(&root) {
-            support.members.push((member.slot, accelerations.each[place]));
+            let acceleration = accelerations.each[place];
+            support.members.push(Supported { slot: member.slot, acceleration, turning: None });
         }
     }
     for touch in touches {

@@ -90,7 +90,7 @@ fn join(
     common: DVec3,
     time: f64,
 ) {
-    timeline.set_free(slot);
+    timeline.set_free(slot, time);
     timeline.flights.enter_zone(slot, [position, common], time);
     let index = timeline.flights.index_of[slot as usize];
     timeline.zone.join(context.system, index, velocity, time, context.parameters.zone_tick);

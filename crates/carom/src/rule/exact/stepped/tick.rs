@@ -1,17 +1,23 @@
 //! What happens at a tick: spheres leave the zone that are near no other one or fly freely, those that have
 //! joined are taken in, and all are stepped to the next tick.
 
+use std::mem::take;
+
 use glam::DVec3;
 
 use crate::bodies::Motion;
 use crate::detect::sphere_surface;
 use crate::id::SphereId;
+use crate::rule::exact::contacts::Plane;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::events::{NextEvents, Prediction};
 use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::exact::zone::Stepped;
+
+/// A sphere touches surfaces that are nearer than this part of its radius: the solver leaves less.
+const NEAR: f64 = 0.01;
 
 /// Steps the zones from the tick that is now to the next one. Gives the time \[s\].
 pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
@@ -23,12 +29,17 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
         return now;
     }
     if timeline.zone.is_due_to_leave(tick) {
-        for (index, state) in timeline.zone.take_out_free() {
+        let mut zone = take(&mut timeline.zone);
+        let free = zone.take_out_free(|index, center| {
+            comes_back(timeline, context, timeline.flights.slot_of[index as usize], center, now)
+        });
+        timeline.zone = zone;
+        for (index, state) in free {
             leave(timeline, context, index, state, now);
         }
     }
     let Timeline { zone, flights, .. } = timeline;
-    zone.admit(context.system, |index| flights.state_of(flights.slot_of[index as usize], now).0);
+    zone.admit(context.system, flights, now);
     let first = context.report.impacts.len();
     let stepped = zone.step(context.system, now - context.start, tick, context.report);
     // Of a zone it is known in which sub-step an impact was.
@@ -41,12 +52,40 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
     now
 }
 
+/// Whether a sphere about `center` \[m\] that bears something would have to come back to its zone: friction
+/// acts, and it does not lie on one plane only.
+fn comes_back(
+    timeline: &Timeline,
+    context: &StepContext,
+    slot: u32,
+    center: DVec3,
+    now: f64,
+) -> bool {
+    if !timeline.has_friction() {
+        return false;
+    }
+    let species = timeline.flights.free_species_of(slot);
+    let touches = |(surface, shift): (u32, DVec3)| {
+        let (form, _) = context.surface_at(surface, now);
+        let separation = sphere_surface(&form, center - shift, species.radius);
+        let is_near = separation.is_some_and(|it| it.distance <= NEAR * species.radius);
+        is_near.then_some(surface)
+    };
+    let mut touched = timeline.surfaces_near(slot).filter_map(touches);
+    let Some(first) = touched.next() else { return false };
+    let is_plane = Plane::under(center, first, context.system.surfaces).is_some();
+    !is_plane || touched.next().is_some() || species.drag_rate > 0.0
+}
+
 /// Begins the straight flights of spheres in a zone from a tick at `now` \[s\] to the next one.
 fn fly(timeline: &mut Timeline, stepped: &[Stepped], now: f64) {
     let next = timeline.zone.next_tick();
     let mut found = NeighbourBuffer::default();
-    for &Stepped { index, positions: [from, to] } in stepped {
+    for &Stepped { index, positions: [from, to], turning } in stepped {
         let slot = timeline.flights.slot_of[index as usize];
+        if let Some(turning) = turning {
+            timeline.flights.turning[index as usize] = turning;
+        }
         let velocity = if from == to { DVec3::ZERO } else { (to - from) / (next - now) };
         let body = &mut timeline.flights.bodies[slot as usize];
         if velocity == DVec3::ZERO && body.velocity == DVec3::ZERO && body.position == from {
@@ -88,7 +127,7 @@ fn stay_in_region(
 
 /// Predicts which spheres in a zone those meet that are in none, and have neighbours in one.
 fn look_around(timeline: &mut Timeline, context: &mut StepContext) {
-    let mut near = std::mem::take(&mut timeline.zone.near);
+    let mut near = take(&mut timeline.zone.near);
     near.sort_unstable();
     near.dedup();
     near.retain(|&slot| {
@@ -128,6 +167,8 @@ fn leave(
         }
     }
     timeline.flights.leave_zone(slot, [position, velocity], now);
+    let angular_velocity = timeline.flights.angular_velocity_of(slot, now);
+    timeline.flights.turn(slot, [angular_velocity, DVec3::ZERO], now);
     predict::predict(timeline, context, slot, now);
     timeline.zone.near.push(slot);
     context.report.zone_account.left += 1;

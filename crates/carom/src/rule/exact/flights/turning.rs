@@ -1,0 +1,102 @@
+//! How spheres turn, where friction acts.
+
+use glam::{DQuat, DVec3};
+
+use crate::bodies::Motion;
+use crate::norm::Norm;
+use crate::rotation::turned;
+
+/// Where the axis of a rotation turns, orientations are found in steps of this angle \[rad\].
+const STEP: f64 = 0.1;
+/// Steps at most; longer ones after that.
+const MOST_STEPS: f64 = 1e4;
+/// An axis counts as fixed if the angular acceleration is along it but for this part.
+const SAME_AXIS: f64 = 1e-14;
+
+/// How one sphere turns since some time: its angular velocity changes steadily.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Turning {
+    orientation: DQuat,
+    /// \[rad/s\]
+    angular_velocity: DVec3,
+    /// \[rad/s²\]
+    angular_acceleration: DVec3,
+    /// On the world's clock \[s\].
+    time: f64,
+}
+
+impl Turning {
+    /// How a sphere turns, on which no torque acts, since the motion of all was this at `time` \[s\].
+    pub fn of(motion: &Motion, index: usize, time: f64) -> Self {
+        let spin = &motion.spin;
+        Self {
+            orientation: spin.orientation.get(index).copied().unwrap_or(DQuat::IDENTITY),
+            angular_velocity: spin.angular_velocity.get(index).copied().unwrap_or(DVec3::ZERO),
+            angular_acceleration: DVec3::ZERO,
+            time,
+        }
+    }
+
+    /// How a sphere turns from one time to another \[s\], with angular velocities \[rad/s\] of both.
+    pub fn between(orientation: DQuat, velocities: [DVec3; 2], [from, to]: [f64; 2]) -> Self {
+        let [angular_velocity, after] = velocities;
+        let change = after - angular_velocity;
+        let angular_acceleration =
+            if change == DVec3::ZERO { change } else { change / (to - from) };
+        Self { orientation, angular_velocity, angular_acceleration, time: from }
+    }
+
+    /// Angular velocity at `time` \[rad/s\].
+    pub fn angular_velocity_at(&self, time: f64) -> DVec3 {
+        self.angular_velocity + (time - self.time) * self.angular_acceleration
+    }
+
+    /// Orientation at `time` \[s\]: exact where the axis is fixed, else to the fifth order in steps of
+    /// [`STEP`] by the expansion of Magnus (Iserles and Nørsett, Phil. Trans. R. Soc. A 357, 983 (1999)).
+    pub fn orientation_at(&self, time: f64) -> DQuat {
+        let Self { orientation, angular_velocity: w, angular_acceleration: a, .. } = *self;
+        let h = time - self.time;
+        let twist = a.cross(w);
+        if twist.norm() <= SAME_AXIS * a.norm() * w.norm() {
+            return turned(orientation, w + 0.5 * h * a, h);
+        }
+        let fastest = w.norm() + h.abs() * a.norm();
+        let steps = (fastest * h.abs() / STEP).ceil().clamp(1.0, MOST_STEPS);
+        let step = h / steps;
+        (0..steps as u32).fold(orientation, |orientation, number| {
+            let middle = w + (f64::from(number) + 0.5) * step * a;
+            turned(orientation, middle + step * step / 12.0 * twist, step)
+        })
+    }
+
+    /// The sphere as it is at `time` \[s\], with another angular velocity \[rad/s\] and angular acceleration
+    /// \[rad/s²\] from there on.
+    pub fn begin(&mut self, [angular_velocity, angular_acceleration]: [DVec3; 2], time: f64) {
+        let orientation = self.orientation_at(time);
+        *self = Self { orientation, angular_velocity, angular_acceleration, time };
+    }
+
+    /// The sphere as it is at `time` \[s\], where no torque acts from there on.
+    pub fn let_go(&mut self, time: f64) {
+        self.begin([self.angular_velocity_at(time), DVec3::ZERO], time);
+    }
+
+    /// Puts it to another time \[s\], as it is `now` \[s\].
+    pub fn set_time(&mut self, now: f64, time: f64) {
+        self.let_go(now);
+        self.time = time;
+    }
+}
+
+/// Writes how all spheres are turned and turn at `time` \[s\].
+pub(crate) fn write_spin(all: &[Turning], motion: &mut Motion, time: f64) {
+    if all.is_empty() {
+        return;
+    }
+    motion.spin.make_room(all.len());
+    let spin = motion.spin.orientation.iter_mut().zip(&mut motion.spin.angular_velocity);
+    for (turning, (orientation, angular_velocity)) in all.iter().zip(spin) {
+        *orientation = turning.orientation_at(time);
+        *angular_velocity = turning.angular_velocity_at(time);
+    }
+}
