@@ -22,6 +22,8 @@ embed!(
     "tutorial4.toml",
     "pour.toml",
     "billiards.toml",
+    "draw-shot.toml",
+    "masse.toml",
     "galton.toml",
     "granular-column.toml",
     "hourglass.toml",

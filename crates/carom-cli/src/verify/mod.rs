@@ -17,6 +17,7 @@ mod motion;
 mod packing;
 mod report;
 mod resting;
+mod rolling;
 mod setup;
 mod silo;
 mod simultaneous;
@@ -68,6 +69,7 @@ fn claims() -> Vec<Claim> {
         conservation::claims,
         resting::claims,
         friction::claims,
+        rolling::claims,
         convergence::claims,
         packing::claims,
         silo::claims,

@@ -116,7 +116,7 @@ struct PairImpact {
     /// \[N s\]; `None` if a grazing contact turns out, by rounding, not to close.
     impulse: Option<f64>,
     /// What friction did, and angular velocities after it \[rad/s\].
-    rubbing: Option<(Rubbing, [DVec3; 2])>,
+    rubbing: Option<Box<(Rubbing, [DVec3; 2])>>,
 }
 
 impl PairImpact {
@@ -133,7 +133,7 @@ impl PairImpact {
         let answer = respond::line_of_centres([v1, v2], masses, normal, restitution);
         let mut velocities = answer.map_or([v1, v2], |answer| answer.0);
         let rubbing = answer.filter(|_| timeline.has_friction()).map(|(_, impulse)| {
-            rub(timeline, context, slots, (&mut velocities, normal, impulse), time)
+            Box::new(rub(timeline, context, slots, (&mut velocities, normal, impulse), time))
         });
         Self {
             time,
@@ -169,8 +169,8 @@ impl PairImpact {
             self.approach_speed,
             self.restitution,
         );
-        let with_rotation = |(rubbing, _): &(Rubbing, _)| rubbing.add_to(account);
-        context.record([impact], self.rubbing.as_ref().map_or(account, with_rotation));
+        let with_rotation = self.rubbing.as_ref().map(|rubbing| rubbing.0.add_to(account));
+        context.record([impact], with_rotation.unwrap_or(account));
     }
 }
 
