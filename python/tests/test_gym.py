@@ -263,6 +263,19 @@ def test_a_maze_is_read_from_a_file(drawing: Path) -> None:
     assert env.observation_space == gymnasium.make(MAZE, maze=CORRIDOR).observation_space
 
 
+def test_a_ball_with_friction_rolls_five_sevenths_as_fast() -> None:
+    speeds = []
+    for friction in (0.0, 0.4):
+        env = gymnasium.make(
+            MAZE, maze=OPEN, friction=friction, tilt_speed_degrees_per_second=float("inf")
+        )
+        env.reset()
+        for _ in range(10):
+            observation = env.step(np.array([0.2, 0.0], dtype=np.float32))[0]
+        speeds.append(float(observation[2]))
+    assert speeds[1] / speeds[0] == pytest.approx(5 / 7, rel=1e-5)
+
+
 @pytest.mark.parametrize(
     ("given", "name"),
     [
@@ -270,6 +283,7 @@ def test_a_maze_is_read_from_a_file(drawing: Path) -> None:
         ({"rule": "bisect"}, "rule"),
         ({"frame_time": float("nan")}, "frame_time"),
         ({"frames_per_step": 0}, "frames_per_step"),
+        ({"friction": -0.1}, "friction"),
         ({"max_tilt_degrees": 60.0}, "max_tilt_degrees"),
         ({"start": "anywhere"}, "start"),
         ({"maze": "random", "maze_size": (1, 1)}, "maze_size"),

@@ -1,8 +1,8 @@
 //! The game: the maze tilts, the ball rolls, and what it touches counts.
 
 use carom::{
-    BodyPair, Collider, ColliderId, DQuat, DVec3, Discrete, Error, Exact, Pose, Rule, Settings,
-    Snapshot, SphereId, World, Zones,
+    BodyPair, Collider, ColliderId, Contact, DQuat, DVec3, Discrete, Error, Exact, Friction, Pose,
+    Rule, Settings, Snapshot, SphereId, World, Zones,
 };
 use carom_scene::scene::Scene;
 
@@ -17,6 +17,8 @@ const MOST_IMPACTS: u32 = 2_000;
 /// A ball that is deeper in the maze than that \[m\] has sunk in: it is put out again. Far more than
 /// what the rule `exact` leaves uncertain where surfaces turn, far less than one can see.
 const SUNK: f64 = 1e-6;
+/// The same for a ball with friction, as a part of its radius: sub-steps leave more.
+const STEPPED_SUNK: f64 = 0.02;
 
 /// Where a game stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,7 +104,7 @@ impl Game {
             return Err(GameError::Option { field, requirement: "below the ball's start", value });
         }
         let mut world = maze.scene().world()?;
-        world.set_settings(settings(Rule::Exact(exact()), &world))?;
+        play_with(&mut world, &options)?;
         let both = world.colliders().zip(maze.roles());
         let parts = both.map(|((id, level), &role)| Part { id, role, level: *level }).collect();
         Ok(Self {
@@ -150,7 +152,7 @@ impl Game {
     /// that fails by the rule `discrete`. The ball never gets lost.
     fn step_world(&mut self, tilt: Tilt) -> Result<(), GameError> {
         let before = self.world.snapshot();
-        if self.world.overlaps(SUNK).is_empty() {
+        if self.world.overlaps(self.sunk()).is_empty() {
             let reach = self.reach(tilt);
             let place = self.world.spheres().positions()[0];
             self.move_maze(self.tilt, tilt)?;
@@ -181,7 +183,12 @@ impl Game {
     /// Whether the ball, which was at a place, is where it can have got to, and in no wall.
     fn is_lawful(&self, place: DVec3, reach: f64) -> bool {
         let way = self.world.spheres().positions()[0].distance(place);
-        way <= reach + SUNK && self.world.overlaps(SUNK).is_empty()
+        way <= reach + self.sunk() && self.world.overlaps(self.sunk()).is_empty()
+    }
+
+    /// How deep in the maze a ball has sunk in \[m\].
+    fn sunk(&self) -> f64 {
+        if self.options.friction > 0.0 { STEPPED_SUNK * self.maze.ball_radius() } else { SUNK }
     }
 
     /// Takes a frame by the rule `discrete`, which always ends: the ball moves, and is put out of
@@ -200,7 +207,7 @@ impl Game {
         self.world.set_colliders(&turned)?;
         self.world.set_settings(settings(Rule::Discrete(Discrete::default()), &self.world))?;
         let stepped = self.world.step(self.options.frame_time).map(drop);
-        self.world.set_settings(settings(Rule::Exact(exact()), &self.world))?;
+        play_with(&mut self.world, &self.options)?;
         Ok(stepped?)
     }
 
@@ -253,7 +260,11 @@ impl Game {
             BodyPair::Collider { collider, .. } => is_end_wall(collider),
             BodyPair::Spheres(..) => false,
         };
-        if self.world.report().impacts.iter().any(|impact| touches(impact.between)) {
+        // What rolls up to a wall slowly is in contact with it, without an impact.
+        let contacts = self.world.contacts();
+        let in_contact = contacts.iter().map(|contact| contact.between);
+        let impacts = self.world.report().impacts.iter().map(|impact| impact.between);
+        if impacts.chain(in_contact).any(touches) {
             let (time, collected) = (self.elapsed(), self.collected);
             let is_best = self.best.is_none_or(|best| time < best);
             if is_best {
@@ -271,7 +282,10 @@ impl Game {
             return Ok(());
         }
         let ball = self.world.sphere(self.ball)?;
-        let ball = ball.with_position(self.maze.start()).with_velocity(DVec3::ZERO);
+        let ball = ball
+            .with_position(self.maze.start())
+            .with_velocity(DVec3::ZERO)
+            .with_angular_velocity(DVec3::ZERO);
         self.world.set_sphere(self.ball, ball)?;
         self.tilt = Tilt::LEVEL;
         self.move_maze(Tilt::LEVEL, Tilt::LEVEL)?;
@@ -307,6 +321,14 @@ impl Game {
     /// [`GameError::Option`] for a value that makes no sense; then it is played as before.
     pub fn set_options(&mut self, options: Options) -> Result<(), GameError> {
         options.validate()?;
+        if options.friction != self.options.friction {
+            let now = self.world.snapshot();
+            self.world.restore(&self.start);
+            play_with(&mut self.world, &options)?;
+            self.start = self.world.snapshot();
+            self.world.restore(&now);
+            play_with(&mut self.world, &options)?;
+        }
         self.options = options;
         Ok(())
     }
@@ -385,8 +407,16 @@ impl Game {
     }
 }
 
-fn exact() -> Exact {
-    Exact::default().with_max_impacts(MOST_IMPACTS).with_zones(Zones::Never)
+/// Gives the world the rule by which a game is played, and the ball its friction.
+fn play_with(world: &mut World, options: &Options) -> Result<(), Error> {
+    let rolls = options.friction > 0.0;
+    let exact = Exact::default().with_max_impacts(MOST_IMPACTS).with_zones(Zones::Never);
+    let rule = if rolls { Rule::Contact(Contact::default()) } else { Rule::Exact(exact) };
+    world.set_settings(settings(rule, world))?;
+    let said = if rolls { Friction::sliding(options.friction) } else { Friction::default() };
+    let (id, ball) = (world.spheres().ids()[0], world.spheres().get(0));
+    // What is set begins anew.
+    if ball.friction == said { Ok(()) } else { world.set_sphere(id, ball.with_friction(said)) }
 }
 
 fn settings(rule: Rule, world: &World) -> Settings {

@@ -49,9 +49,10 @@ fn state(episodes: &Episodes, ball: usize) -> (Vec<u64>, u64, Outcome) {
 
 #[test]
 fn an_episode_has_the_same_bits_alone_and_among_others() {
-    for rule in rules() {
+    for (rule, friction) in rules().map(|rule| (rule, 0.0)).into_iter().chain([(rules()[1], 0.4)]) {
         let rewards = Rewards { shaping: 0.1, ..Rewards::default() };
-        let options = EpisodeOptions { rule, max_steps: Some(40), rewards, ..Default::default() };
+        let options =
+            EpisodeOptions { rule, friction, max_steps: Some(40), rewards, ..Default::default() };
         let arena = Arc::new(Arena::new(Maze::course().unwrap(), options).unwrap());
         let mut many = Episodes::new(Arc::clone(&arena), 5).unwrap();
         let mut alone: Vec<Episodes> =
@@ -299,4 +300,25 @@ fn what_makes_no_sense_is_refused_and_nothing_is_done() {
     let wrong = episodes.reset(&[0, 2], Start::Random).unwrap_err();
     assert!(matches!(wrong, EpisodeError::NoBall { ball: 2, balls: 2 }));
     assert_eq!(before, [state(&episodes, 0), state(&episodes, 1)]);
+}
+
+#[test]
+fn a_ball_with_friction_rolls_and_starts_anew_without_spin() {
+    let options = EpisodeOptions {
+        friction: 0.4,
+        tilt_speed_degrees_per_second: f64::INFINITY,
+        ..Default::default()
+    };
+    let mut rolling = on(&open_floor(0.0), options);
+    let sliding = EpisodeOptions { friction: 0.0, ..options };
+    let mut sliding = on(&open_floor(0.0), sliding);
+    for _ in 0..50 {
+        rolling.step(&[[0.2, 0.0]]).unwrap();
+        sliding.step(&[[0.2, 0.0]]).unwrap();
+    }
+    let speeds = [&rolling, &sliding].map(|it| it.motion(0).1.x);
+    assert!((speeds[0] / speeds[1] - 5.0 / 7.0).abs() < 1e-6, "{speeds:?}");
+    rolling.reset(&[0], Start::Maze).unwrap();
+    rolling.step(&[[0.0, 0.0]]).unwrap();
+    assert_eq!(rolling.motion(0).1.x, 0.0);
 }

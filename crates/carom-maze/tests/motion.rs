@@ -147,3 +147,56 @@ fn however_it_is_tilted_the_ball_stays_in_the_maze() {
         assert_eq!(game.rough_frames(), 0);
     }
 }
+
+/// A game with friction on an open floor.
+fn rolling() -> Game {
+    game_with(&open_floor(0.0), Options { friction: 0.4, ..Options::default() })
+}
+
+#[test]
+fn with_friction_the_ball_rolls_with_five_sevenths_of_the_acceleration() {
+    let (mut sliding, mut rolling) = (game(&open_floor(0.0)), rolling());
+    // Tilted from the start, for the turning floor to do no work.
+    for game in [&mut sliding, &mut rolling] {
+        play(game, Steering::Towards(Tilt::down(0.05, 0.0)), 1.0);
+    }
+    let start = [&sliding, &rolling].map(|game| game.ball_in_maze().1.x);
+    for game in [&mut sliding, &mut rolling] {
+        play(game, Steering::Towards(Tilt::down(0.05, 0.0)), 1.0);
+    }
+    let gained = [&sliding, &rolling].map(|game| game.ball_in_maze().1.x);
+    let part = (gained[1] - start[1]) / (gained[0] - start[0]);
+    // Frames and sub-steps differ by a frame's part of the second at most.
+    assert!((part - 5.0 / 7.0).abs() < 0.02, "{part}");
+    let ball = rolling.world().spheres().get(0);
+    let slip = ball.velocity.length() - 0.5 * ball.angular_velocity.length();
+    assert!(slip.abs() < 0.01 * ball.velocity.length(), "{slip}");
+    assert_eq!(rolling.rough_frames(), 0);
+}
+
+#[test]
+fn friction_can_be_chosen_while_a_game_is_played() {
+    let mut game = game(&open_floor(0.0));
+    play(&mut game, Steering::roll(1.0, 0.0), 0.5);
+    game.set_options(Options { friction: 0.4, ..*game.options() }).unwrap();
+    play(&mut game, Steering::roll(1.0, 0.0), 0.5);
+    assert!(game.world().spheres().get(0).angular_velocity.length() > 0.1);
+    game.play_again();
+    play(&mut game, Steering::roll(1.0, 0.0), 0.5);
+    assert!(game.world().spheres().get(0).angular_velocity.length() > 0.1);
+    game.set_options(Options { friction: 0.0, ..*game.options() }).unwrap();
+    game.play_again();
+    play(&mut game, Steering::roll(1.0, 0.0), 0.5);
+    assert_eq!(game.world().spheres().get(0).angular_velocity, DVec3::ZERO);
+    let refused = game.set_options(Options { friction: -1.0, ..*game.options() });
+    assert!(refused.unwrap_err().to_string().contains("friction"));
+}
+
+#[test]
+fn a_ball_with_friction_that_rolls_up_to_the_end_wall_wins() {
+    let mut game = rolling();
+    let towards = Steering::Towards(Tilt::down(-0.02, 0.0));
+    let events = common::until_event(&mut game, towards, 30.0);
+    assert!(matches!(events[..], [carom_maze::GameEvent::Won { .. }]), "{events:?}");
+    assert_eq!(game.rough_frames(), 0);
+}

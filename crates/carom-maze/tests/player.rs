@@ -7,8 +7,12 @@ use common::{collectible, open_floor, wall};
 
 /// Plays until it is won; the time and how many collectibles were taken.
 fn played(maze: Maze, wanted: usize, seconds: f64) -> (f64, usize) {
+    played_with(Options::default(), maze, wanted, seconds)
+}
+
+fn played_with(options: Options, maze: Maze, wanted: usize, seconds: f64) -> (f64, usize) {
     let mut player = Player::new(&maze, wanted).unwrap();
-    let mut game = Game::new(maze, Options::default()).unwrap();
+    let mut game = Game::new(maze, options).unwrap();
     for _ in 0..(seconds / game.frame_time()) as usize {
         let steering = player.steer(&game);
         assert!(!game.step(steering).unwrap().contains(&GameEvent::Fell));
@@ -30,6 +34,16 @@ fn the_player_wins_the_course_with_three_collectibles_within_a_minute() {
 fn the_player_wins_random_mazes() {
     for seed in 2..5 {
         let (_, collected) = played(Maze::random(seed, 5, 4).unwrap(), 1, 60.0);
+        assert!(collected >= 1);
+    }
+}
+
+#[test]
+fn the_player_wins_with_a_ball_that_rolls() {
+    let options = Options { friction: 0.15, ..Options::default() };
+    for seed in 2..5 {
+        let maze = Maze::random(seed, 5, 4).unwrap();
+        let (_, collected) = played_with(options, maze, 1, 90.0);
         assert!(collected >= 1);
     }
 }

@@ -11,6 +11,10 @@ use crate::orbit::{Orbit, Preset, zoom_asked};
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 
+/// Friction of a ball that rolls: enough for that at the steepest tilt, and so little that walls do not hold
+/// it.
+const FRICTION: f64 = 0.15;
+
 /// A game being played.
 pub struct MazeScreen {
     game: Game,
@@ -178,6 +182,20 @@ impl MazeScreen {
         self.message = None;
     }
 
+    /// Whether the ball rolls by friction.
+    pub fn rolls(&self) -> bool {
+        self.game.options().friction > 0.0
+    }
+
+    /// Has the ball roll by friction, or slide without any.
+    ///
+    /// # Errors
+    /// None but what the world had from the start.
+    pub fn set_rolls(&mut self, rolls: bool) -> Result<(), GameError> {
+        let friction = if rolls { FRICTION } else { 0.0 };
+        self.game.set_options(Options { friction, ..*self.game.options() })
+    }
+
     /// Whether the maze turns back to level when nothing steers it.
     pub fn levels_back(&self) -> bool {
         self.game.options().levels_back
@@ -204,8 +222,13 @@ impl MazeScreen {
     }
 
     fn draw(&mut self) {
-        // The pattern shows the rolling along the maze, whichever way the maze is tilted.
-        let rotation = self.game.tilt() * self.roll.rotation;
+        // Where friction does not turn the ball, the pattern shows the way along the maze, whichever way
+        // the maze is tilted.
+        let rotation = if self.rolls() {
+            self.game.world().spheres().get(0).orientation
+        } else {
+            self.game.tilt() * self.roll.rotation
+        };
         let Self { game, palette, drawing, .. } = self;
         draw_world(game.scene(), game.world(), palette, |_| Some(rotation), drawing);
         if self.dark {

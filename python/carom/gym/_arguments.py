@@ -26,6 +26,9 @@ class MazeArguments(TypedDict, total=False):
         rule: ``"exact"`` (default), or ``"discrete"``, which is faster: `docs/physics/`.
         frame_time: Length of a frame, 0.02 [s].
         frames_per_step: Frames in a step, 1: for so long an action holds.
+        friction: Coefficient of friction of the ball, 0. Without any it slides, as in the course's
+            maze; with some it rolls, and the rule ``contact`` takes all frames, whatever ``rule``
+            says.
         max_tilt_degrees: Steepest tilt, 20 [°], at most 45.
         tilt_speed_degrees_per_second: How fast the maze follows an action about each axis,
             60 [°/s]; ``inf``: at once.
@@ -47,6 +50,7 @@ class MazeArguments(TypedDict, total=False):
     rule: Literal["exact", "discrete"]
     frame_time: float
     frames_per_step: int
+    friction: float
     max_tilt_degrees: float
     tilt_speed_degrees_per_second: float
     start: Start
@@ -65,6 +69,7 @@ DEFAULTS = MazeArguments(
     rule="exact",
     frame_time=0.02,
     frames_per_step=1,
+    friction=0.0,
     max_tilt_degrees=20.0,
     tilt_speed_degrees_per_second=60.0,
     start="maze",

@@ -57,6 +57,10 @@ impl Arena {
         let mut world = scene.world().map_err(MazeError::from)?;
         let settings = world.settings().with_rule(limited(options.rule));
         world.set_settings(settings.with_spheres_collide(false))?;
+        if options.friction > 0.0 {
+            let (id, ball) = (world.spheres().ids()[0], world.spheres().get(0));
+            world.set_sphere(id, ball.with_friction(options.friction))?;
+        }
         let floor = Floor::new(&maze)?;
         let starts = starts(&maze, &floor);
         let ways = (options.rewards.shaping > 0.0).then(|| Ways::new(&maze, floor));

@@ -1,6 +1,6 @@
 //! One ball's episode.
 
-use carom::{BodyPair, DVec3, SphereId, StepReport};
+use carom::{BodyPair, DVec3, SphereId, World};
 
 use super::Arena;
 use super::options::EpisodeOptions;
@@ -145,19 +145,23 @@ pub(super) fn index_of(id: SphereId) -> usize {
 /// Notes what balls touched in a frame: collectibles first, which count in the frame that wins.
 /// `index_of` says which ball a sphere is, if it counts.
 pub(super) fn note(
-    report: &StepReport,
+    world: &World,
     balls: &mut [Ball],
     arena: &Arena,
     index_of: impl Fn(SphereId) -> Option<usize>,
 ) {
+    let report = world.report();
     for contact in &report.triggers {
         let Role::Collectible(collectible) = arena.role(contact.collider) else { continue };
         if let Some(index) = index_of(contact.sphere) {
             balls[index].take(collectible, arena);
         }
     }
-    for impact in &report.impacts {
-        let BodyPair::Collider { collider, sphere } = impact.between else { continue };
+    // What rolls up to a wall slowly is in contact with it, without an impact.
+    let contacts = if arena.options().friction > 0.0 { world.contacts() } else { Vec::new() };
+    let in_contact = contacts.iter().map(|contact| contact.between);
+    for between in report.impacts.iter().map(|impact| impact.between).chain(in_contact) {
+        let BodyPair::Collider { collider, sphere } = between else { continue };
         if arena.role(collider) != Role::EndWall {
             continue;
         }

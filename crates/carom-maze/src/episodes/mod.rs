@@ -1,5 +1,6 @@
 //! Episodes for agents that learn: many balls at once, each for itself, in one maze.
 
+mod alone;
 mod arena;
 mod ball;
 mod ground;
@@ -10,12 +11,13 @@ mod ways;
 
 use std::sync::Arc;
 
-use carom::{DQuat, DVec3, Error, SphereId, World};
+use carom::{Contact, DQuat, DVec3, Error, SphereId, World};
 use carom_scene::scene::Scene;
 
 use crate::error::EpisodeError;
 use crate::maze::Role;
 use crate::tilt::Tilt;
+use alone::Alone;
 use ball::{Ball, Steering};
 use rescue::Rescue;
 
@@ -68,6 +70,8 @@ pub struct Episodes {
     /// Weight of each ball along the axes of the maze \[N\].
     weights: Vec<DVec3>,
     rescue: Rescue,
+    /// Takes the frames of balls with friction.
+    rolling: Option<Alone>,
     /// Working memory of resets.
     moved: Vec<(SphereId, DVec3, DVec3)>,
 }
@@ -91,7 +95,10 @@ impl Episodes {
         let balls = (0..count as u64).map(Ball::new).collect();
         let rescue = Rescue::new(&arena)?;
         let weights = vec![DVec3::ZERO; count];
-        let mut episodes = Self { arena, world, balls, weights, rescue, moved: Vec::new() };
+        let rolls = arena.options().friction > 0.0;
+        let rolling = rolls.then(|| Alone::new(&arena, Contact::default())).transpose()?;
+        let moved = Vec::new();
+        let mut episodes = Self { arena, world, balls, weights, rescue, rolling, moved };
         let all: Vec<usize> = (0..count).collect();
         episodes.reset(&all, Start::Maze)?;
         Ok(episodes)
@@ -145,6 +152,16 @@ impl Episodes {
 
     /// Moves all balls by a frame, and notes what they touch.
     fn step_world(&mut self) -> Result<(), EpisodeError> {
+        let Self { arena, world, balls, weights, .. } = self;
+        if let Some(rolling) = &mut self.rolling {
+            for (index, &weight) in weights.iter().enumerate() {
+                let id = world.spheres().ids()[index];
+                let ball = world.spheres().get(index);
+                let after = rolling.take_frame(id, ball, weight, balls, arena)?;
+                world.set_sphere(id, after)?;
+            }
+            return Ok(());
+        }
         self.rescue.clear();
         loop {
             self.world.set_applied_forces(&self.weights)?;
@@ -160,7 +177,7 @@ impl Episodes {
             }
         }
         let rescue = &self.rescue;
-        ball::note(self.world.report(), &mut self.balls, &self.arena, |id| {
+        ball::note(&self.world, &mut self.balls, &self.arena, |id| {
             (!rescue.has(id)).then_some(ball::index_of(id))
         });
         self.rescue.release(&mut self.world, &mut self.balls, &self.arena)
@@ -182,7 +199,15 @@ impl Episodes {
             ball.begin(place, &self.arena);
             self.moved.push((self.world.spheres().ids()[index], place, DVec3::ZERO));
         }
-        Ok(self.world.set_motions(&self.moved)?)
+        self.world.set_motions(&self.moved)?;
+        if self.rolling.is_some() {
+            for &index in balls {
+                let (id, ball) =
+                    (self.world.spheres().ids()[index], self.world.spheres().get(index));
+                self.world.set_sphere(id, ball.with_angular_velocity(DVec3::ZERO))?;
+            }
+        }
+        Ok(())
     }
 
     /// Gives a ball the random numbers of a seed, from which it chooses where to start.
@@ -270,6 +295,10 @@ impl Episodes {
         scene.simulation.allow_overlap = true;
         let turned = |vector: DVec3| (rotation * vector).to_array();
         (scene.spheres[0].position, scene.spheres[0].velocity) = (turned(place), turned(velocity));
+        if self.rolling.is_some() {
+            let orientation = self.world.spheres().get(ball).orientation;
+            scene.spheres[0].orientation = (rotation * orientation).to_array();
+        }
         let is_taken = |role: &Role| match role {
             Role::Collectible(index) => self.taken(ball) >> index & 1 == 1,
             _ => false,

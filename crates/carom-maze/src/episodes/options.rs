@@ -13,6 +13,9 @@ pub struct EpisodeOptions {
     pub frame_time: f64,
     /// Frames in a step: for so long an action holds. At least 1.
     pub frames_per_step: u32,
+    /// Coefficient of friction of the ball, >= 0. Without any it slides, as in the course's maze, and does
+    /// not turn; with some it rolls, and the rule `contact` takes all frames.
+    pub friction: f64,
     /// Largest tilt against level \[°\], in (0, 45].
     pub max_tilt_degrees: f64,
     /// How fast the maze turns about each axis \[°/s\], > 0; infinite: at once.
@@ -33,6 +36,7 @@ impl Default for EpisodeOptions {
             // The course's.
             frame_time: 0.02,
             frames_per_step: 1,
+            friction: 0.0,
             max_tilt_degrees: 20.0,
             // A quick hand: from level to the steepest in a third of a second.
             tilt_speed_degrees_per_second: 60.0,
@@ -95,6 +99,9 @@ impl EpisodeOptions {
         require(in_range, "max_tilt_degrees", "above 0 and at most 45", tilt)?;
         let speed = self.tilt_speed_degrees_per_second;
         require(speed > 0.0, "tilt_speed_degrees_per_second", "positive", speed)?;
+        let friction = self.friction;
+        let is_coefficient = friction >= 0.0 && friction.is_finite();
+        require(is_coefficient, "friction", "zero or positive, and finite", friction)?;
         let height = self.reset_height;
         let is_below = height < start && height.is_finite();
         require(is_below, "reset_height", "finite, and below the ball's start", height)?;

@@ -1,17 +1,18 @@
 //! Balls that meet walls too often in a frame, and take it by another rule.
 
-use carom::{DVec3, Discrete, SphereId, World};
+use carom::{DVec3, Discrete, Sphere, SphereId, World};
 
 use super::Arena;
-use super::ball::{self, Ball};
+use super::alone::Alone;
+use super::ball::Ball;
 use crate::error::EpisodeError;
 
 /// What becomes of balls whose frame the rule `exact` refuses: while the others take it they are
 /// parked at the start of the maze, and then each takes it by the rule `discrete`, which always ends.
 #[derive(Debug, Clone)]
 pub(super) struct Rescue {
-    /// One ball, the rule `discrete`.
-    world: World,
+    /// By the rule `discrete`.
+    alone: Alone,
     parked: Vec<Parked>,
     frames: u64,
 }
@@ -26,9 +27,8 @@ struct Parked {
 
 impl Rescue {
     pub fn new(arena: &Arena) -> Result<Self, EpisodeError> {
-        let mut world = arena.world().clone();
-        world.set_settings(world.settings().with_rule(Discrete::default()))?;
-        Ok(Self { world, parked: Vec::new(), frames: 0 })
+        let alone = Alone::new(arena, Discrete::default())?;
+        Ok(Self { alone, parked: Vec::new(), frames: 0 })
     }
 
     pub fn clear(&mut self) {
@@ -65,16 +65,11 @@ impl Rescue {
         balls: &mut [Ball],
         arena: &Arena,
     ) -> Result<(), EpisodeError> {
-        let alone = self.world.spheres().ids()[0];
         for parked in &self.parked {
             self.frames += 1;
-            self.world.set_motions(&[(alone, parked.place, parked.velocity)])?;
-            self.world.set_applied_forces(&[parked.weight])?;
-            self.world.set_time(0.0)?;
-            let report = self.world.step(arena.options().frame_time)?;
-            ball::note(report, balls, arena, |_| Some(ball::index_of(parked.id)));
-            let ball = self.world.sphere(alone)?;
-            world.set_motions(&[(parked.id, ball.position, ball.velocity)])?;
+            let before = Sphere::new(parked.place, 1.0).with_velocity(parked.velocity);
+            let after = self.alone.take_frame(parked.id, before, parked.weight, balls, arena)?;
+            world.set_motions(&[(parked.id, after.position, after.velocity)])?;
         }
         Ok(())
     }

@@ -79,6 +79,7 @@ impl<'py> Given<'py> {
             rule,
             frame_time: self.number("frame_time")?,
             frames_per_step: self.count("frames_per_step")?,
+            friction: self.number("friction")?,
             max_tilt_degrees: self.number("max_tilt_degrees")?,
             tilt_speed_degrees_per_second: self.number("tilt_speed_degrees_per_second")?,
             max_steps: has_limit.then(|| self.count("max_episode_steps")).transpose()?,

@@ -17,6 +17,13 @@ impl App {
         {
             self.notices.complain(error);
         }
+        let mut rolls = screen.rolls();
+        let friction = "the ball rolls, and no longer slides";
+        if ui.checkbox(&mut rolls, "Friction").on_hover_text(friction).changed()
+            && let Err(error) = screen.set_rolls(rolls)
+        {
+            self.notices.complain(error);
+        }
         if self.host.offers_tilt()
             && ui.checkbox(&mut self.tilts_device, "Tilt the device").changed()
         {
