@@ -7,7 +7,8 @@ use crate::validate;
 /// What a body says of friction at its surface. Where it says nothing, its partner's value counts; where
 /// both are silent, there is none.
 ///
-/// Only the rule `contact` lets friction act.
+/// Friction acts under the rules `exact` and `contact`. Rolling friction acts under `exact` where a ball rolls,
+/// under `contact` where it slides, too.
 ///
 /// ```
 /// use carom::{DVec3, Friction, Sphere};

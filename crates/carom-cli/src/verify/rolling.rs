@@ -10,10 +10,12 @@ use super::setup::{FRAME, G, world};
 
 const RADIUS: f64 = 0.03;
 const ROUNDING: &str = "rounding of some events";
+const CORIOLIS: &str = "Coriolis, Effets du jeu de billard (1835)";
 const SHORT: &str = "what is shorter than a contact's duration has ended";
 
 pub fn claims() -> Vec<Claim> {
     let mut claims = on_the_level();
+    claims.extend(shots());
     claims.extend(inclines());
     claims.extend(bounces());
     claims.extend(billiards());
@@ -25,62 +27,32 @@ fn on_the_level() -> Vec<Claim> {
     let (v, mu) = (3.0, 0.2);
     let rolls_at = 2.0 * v / (7.0 * mu * G);
     let slides = move |time: f64| roll(mu, DVec3::Y * -G, ball(v * DVec3::X, DVec3::ZERO), time);
-    let draw = ball(DVec3::X, 150.0 * DVec3::Z);
-    let masse = ball(1.5 * DVec3::X, DVec3::new(60.0, 25.0, 90.0));
-    let bends_until = 2.0 * slip(&masse).length() / (7.0 * mu * G);
-    let leaves = masse.velocity - 2.0 / 7.0 * slip(&masse);
-    let bent = masse.position + 0.5 * bends_until * (masse.velocity + leaves);
     let (rolling, spinning) = (0.01, 0.04);
     let stops = 1.0 / (2.0 * 5.0 / 7.0 * rolling * G);
-    let coriolis = "Coriolis, Effets du jeu de billard (1835)";
     vec![
         Claim::new(
             "exact: a sliding ball rolls with 5/7 of its speed [part of it]",
-            Expected::value(5.0 / 7.0, coriolis),
+            Expected::value(5.0 / 7.0, CORIOLIS),
             Tolerance::relative(1e-12, ROUNDING),
             move |_| slides(rolls_at + 1.0)?.measure(|ball| ball.velocity.x / v),
         ),
         Claim::new(
             "exact: it rolls after 2 v/(7 mu g): slip then [m/s]",
-            Expected::no_error(coriolis),
+            Expected::no_error(CORIOLIS),
             Tolerance::absolute(1e-12, ROUNDING),
             move |_| slides(rolls_at)?.measure(|ball| slip(ball).length()),
         ),
         Claim::new(
             "exact: just before, it still slides: slip a microsecond earlier [m/s]",
-            Expected::value(3.5 * mu * G * 1e-6, coriolis),
+            Expected::value(3.5 * mu * G * 1e-6, CORIOLIS),
             Tolerance::relative(1e-8, "rounding of 3 m/s in a slip of 7e-6"),
             move |_| slides(rolls_at - 1e-6)?.measure(|ball| slip(ball).length()),
         ),
         Claim::new(
             "exact: and it slides for 12 v²/(49 mu g) [m]",
-            Expected::value(12.0 * v * v / (49.0 * mu * G), coriolis),
+            Expected::value(12.0 * v * v / (49.0 * mu * G), CORIOLIS),
             Tolerance::relative(1e-12, ROUNDING),
             move |_| slides(rolls_at)?.measure(|ball| ball.position.x),
-        ),
-        Claim::new(
-            "exact: a draw shot comes back with 5/7 v - 2/7 r w [m/s]",
-            Expected::value(5.0 / 7.0 - 2.0 / 7.0 * RADIUS * 150.0, coriolis),
-            Tolerance::relative(1e-12, ROUNDING),
-            move |_| roll(mu, DVec3::Y * -G, draw, 3.0)?.measure(|ball| ball.velocity.x),
-        ),
-        Claim::new(
-            "exact: a masse shot goes along a parabola: error of its end [m]",
-            Expected::no_error(coriolis),
-            Tolerance::absolute(1e-12, ROUNDING),
-            move |_| {
-                let shot = roll(mu, DVec3::Y * -G, masse, bends_until)?;
-                shot.measure(|ball| (ball.position - bent).length())
-            },
-        ),
-        Claim::new(
-            "exact: then straight on with v - 2/7 of its slip: error [m/s]",
-            Expected::no_error(coriolis),
-            Tolerance::absolute(1e-11, ROUNDING),
-            move |_| {
-                let shot = roll(mu, DVec3::Y * -G, masse, bends_until + 1.0)?;
-                shot.measure(|ball| (ball.velocity - leaves).length())
-            },
         ),
         Claim::new(
             "exact: rolling friction stops a ball after v²/(2 5/7 mu g) [m]",
@@ -100,6 +72,42 @@ fn on_the_level() -> Vec<Claim> {
                 let spinning = Friction::sliding(0.3).with_spinning(spinning);
                 let ball = ball(DVec3::ZERO, 80.0 * DVec3::Y);
                 roll(spinning, DVec3::Y * -G, ball, 1.0)?.measure(|ball| ball.angular_velocity.y)
+            },
+        ),
+    ]
+}
+
+/// Balls struck with spin.
+fn shots() -> Vec<Claim> {
+    let mu = 0.2;
+    let draw = ball(DVec3::X, 150.0 * DVec3::Z);
+    let masse = ball(1.5 * DVec3::X, DVec3::new(60.0, 25.0, 90.0));
+    let bends_until = 2.0 * slip(&masse).length() / (7.0 * mu * G);
+    let leaves = masse.velocity - 2.0 / 7.0 * slip(&masse);
+    let bent = masse.position + 0.5 * bends_until * (masse.velocity + leaves);
+    vec![
+        Claim::new(
+            "exact: a draw shot comes back with 5/7 v - 2/7 r w [m/s]",
+            Expected::value(5.0 / 7.0 - 2.0 / 7.0 * RADIUS * 150.0, CORIOLIS),
+            Tolerance::relative(1e-12, ROUNDING),
+            move |_| roll(mu, DVec3::Y * -G, draw, 3.0)?.measure(|ball| ball.velocity.x),
+        ),
+        Claim::new(
+            "exact: a masse shot goes along a parabola: error of its end [m]",
+            Expected::no_error(CORIOLIS),
+            Tolerance::absolute(1e-12, ROUNDING),
+            move |_| {
+                let shot = roll(mu, DVec3::Y * -G, masse, bends_until)?;
+                shot.measure(|ball| (ball.position - bent).length())
+            },
+        ),
+        Claim::new(
+            "exact: then straight on with v - 2/7 of its slip: error [m/s]",
+            Expected::no_error(CORIOLIS),
+            Tolerance::absolute(1e-11, ROUNDING),
+            move |_| {
+                let shot = roll(mu, DVec3::Y * -G, masse, bends_until + 1.0)?;
+                shot.measure(|ball| (ball.velocity - leaves).length())
             },
         ),
     ]

@@ -82,6 +82,11 @@ impl Rule {
     pub const NAMES: [&str; 4] =
         [Self::Exact.name(), Self::Contact.name(), Self::Bisect.name(), Self::Discrete.name()];
 
+    /// Whether friction acts under it.
+    pub const fn has_friction(self) -> bool {
+        matches!(self, Self::Exact | Self::Contact)
+    }
+
     /// Its name in scene files.
     pub const fn name(self) -> &'static str {
         match self {

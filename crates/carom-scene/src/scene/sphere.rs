@@ -40,7 +40,7 @@ pub struct Sphere {
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
-    /// Coulomb's coefficient of friction, >= 0, under the rule `contact`; that of what it touches
+    /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`; that of what it touches
     /// where it is missing.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]

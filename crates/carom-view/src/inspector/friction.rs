@@ -1,7 +1,6 @@
 //! What balls and surfaces say of friction.
 
 use carom::Friction;
-use carom_scene::scene::Rule;
 use carom_session::View;
 use egui::Ui;
 
@@ -9,8 +8,8 @@ use super::value::{Field, optional};
 
 /// Whether friction acts under a rule that is shown.
 pub(super) fn acts(view: &View) -> bool {
-    let is_contact = |view: &View| view.setup.simulation.rule == Rule::Contact;
-    is_contact(view) || view.other.as_deref().is_some_and(is_contact)
+    let acts = |view: &View| view.setup.simulation.rule.has_friction();
+    acts(view) || view.other.as_deref().is_some_and(acts)
 }
 
 /// The coefficients, to be unfolded under this title. Returns whether any was changed.

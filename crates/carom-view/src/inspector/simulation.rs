@@ -50,8 +50,10 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         Rule::Contact => {
             count(ui, "sub-steps", &mut simulation.contact.sub_steps);
             count(ui, "sweeps", &mut simulation.contact.sweeps);
-            choice(ui, "friction", &COMBINE_RULES, &mut simulation.friction_combine_rule);
         }
+    }
+    if simulation.rule.has_friction() {
+        choice(ui, "friction", &COMBINE_RULES, &mut simulation.friction_combine_rule);
     }
     number(ui, Field::positive("frame time", "s"), &mut simulation.frame_time);
     choice(ui, "restitution", &COMBINE_RULES, &mut simulation.combine_rule);

@@ -107,7 +107,7 @@ impl FrictionContact {
 /// normal impulse; the tangential restitution of a contact turns part of its slip round. For one contact
 /// that is Walton's law, `J = -s/|s| min((1 + b) m |s|, mu Jn)` with the slip s and `1/m = Σ (1 + 1/k)/m_i`
 /// (Foerster, Louge, Chang and Allia, Phys. Fluids 6, 1108 (1994)).
-pub(crate) fn rub(
+pub(crate) fn apply_friction(
     work: &Work,
     contacts: &mut [FrictionContact],
     spheres: &mut [SpinningSphere],

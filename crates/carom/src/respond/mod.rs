@@ -22,7 +22,7 @@ mod touching;
 
 pub(crate) use contact_force::contact_forces_within;
 pub use contact_force::{ContactForces, contact_forces};
-pub(crate) use friction::{FrictionContact, SpinningSphere, rub};
+pub(crate) use friction::{FrictionContact, SpinningSphere, apply_friction};
 pub(crate) use group::rounding_of;
 pub(crate) use least_change::least_change;
 pub use line_of_centres::line_of_centres;

@@ -47,6 +47,13 @@ pub enum Rule {
     Contact(Contact),
 }
 
+impl Rule {
+    /// Whether friction acts under it.
+    pub fn has_friction(&self) -> bool {
+        matches!(self, Self::Exact(_) | Self::Contact(_))
+    }
+}
+
 impl Default for Rule {
     fn default() -> Self {
         Self::Exact(Exact::default())

@@ -6,7 +6,6 @@ use super::World;
 use crate::detect::contacts::{self, Search};
 use crate::invariants;
 use crate::report::Overlap;
-use crate::settings::Rule;
 
 impl World {
     /// Kinetic energy \[J\], that of rotation included.
@@ -40,12 +39,12 @@ impl World {
     }
 
     /// Whether spheres are turned or turn, or may come to: an emitter emits such, or friction of a sphere,
-    /// an emitter or a solid collider acts, which it does under the rule `contact`.
+    /// an emitter or a solid collider acts, which it does under the rules `exact` and `contact`.
     pub fn has_spin(&self) -> bool {
         let emitted = || self.emitters().map(|(_, emitter)| emitter.sphere);
         self.state.spheres.motion.spin.is_any()
             || emitted().any(|sphere| sphere.is_turned())
-            || (matches!(self.settings().rule, Rule::Contact(_)) && self.is_rough())
+            || (self.settings().rule.has_friction() && self.is_rough())
     }
 
     /// Whether there is friction.

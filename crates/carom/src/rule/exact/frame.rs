@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::clearance::Clearance;
 use super::context::StepContext;
 use super::events::{Prediction, Schedule};
-use super::flights::{self, Body, Flights, Turning};
+use super::flights::{self, Body, Flights, Rotation};
 use super::neighbours::{Contents, Neighbours};
 use super::pair_times::PairSearch;
 use super::persistent::{self, held_forces, piece_end};
@@ -57,7 +57,7 @@ pub(crate) fn start(
     }
     if friction_acts(system) {
         let all = 0..motion.position.len();
-        flights.turning = all.map(|index| Turning::of(motion, index, time)).collect();
+        flights.rotations = all.map(|index| Rotation::of(motion, index, time)).collect();
     }
     flights.set_stepped(&zone.indices(&system.spheres.id));
     zone.restart(system, time, parameters.zone_tick, &motion.velocity);
@@ -87,12 +87,12 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     let mut flights = Flights::new(system, motion, flight_of);
     let Timeline { parameters, frame, .. } = *before;
     if before.has_friction() || friction_acts(system) {
-        let turning_of = |(index, id)| match arrivals.known.binary_search(id) {
-            Ok(place) if before.has_friction() => before.flights.free_turning_of(place, time),
-            Ok(_) => Turning::of(motion, index, frame[0]),
-            Err(_) => Turning::of(motion, index, (arrivals.time_of)(*id)),
+        let rotation_of = |(index, id)| match arrivals.known.binary_search(id) {
+            Ok(place) if before.has_friction() => before.flights.free_rotation_of(place, time),
+            Ok(_) => Rotation::of(motion, index, frame[0]),
+            Err(_) => Rotation::of(motion, index, (arrivals.time_of)(*id)),
         };
-        flights.turning = system.spheres.id.iter().enumerate().map(turning_of).collect();
+        flights.rotations = system.spheres.id.iter().enumerate().map(rotation_of).collect();
     }
     let mut zone = before.zone.clone();
     zone.follow(&system.spheres.id);
@@ -161,7 +161,7 @@ pub(crate) fn end(
     }
     let period = system.settings.boundary.period();
     flights::write_motion(&timeline.flights, motion, period, span.end);
-    flights::write_spin(&timeline.flights.turning, motion, span.end);
+    flights::write_spin(&timeline.flights.rotations, motion, span.end);
     reading(system, timeline.parameters, span, |context| {
         piece_end::write_motion(timeline, context, motion, span.end);
     });

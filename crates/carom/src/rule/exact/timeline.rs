@@ -52,7 +52,7 @@ impl Timeline {
 
     /// Whether friction acts, so that spins change.
     pub fn has_friction(&self) -> bool {
-        !self.flights.turning.is_empty()
+        !self.flights.rotations.is_empty()
     }
 
     /// What is stepped, to go on with where the flights are dropped.
@@ -131,7 +131,7 @@ impl Timeline {
             let (position, velocity) = self.flights.state_of(slot, now);
             self.begin_flight(slot, position, velocity, time);
         }
-        self.flights.turning.iter_mut().for_each(|turning| turning.set_time(now, time));
+        self.flights.rotations.iter_mut().for_each(|rotation| rotation.set_time(now, time));
     }
 
     /// Gives a sphere that is at a position \[m\] with a velocity \[m/s\] another neighbour region, and

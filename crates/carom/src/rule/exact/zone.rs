@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::flights::{Flights, Turning};
+use super::flights::{Flights, Rotation};
 use crate::bodies::{Motion, Properties, Spin};
 use crate::forces;
 use crate::id::SphereId;
@@ -63,7 +63,7 @@ pub(crate) struct Stepped {
     /// Centre at the last tick and at the next one \[m\].
     pub positions: [DVec3; 2],
     /// Where friction acts.
-    pub turning: Option<Turning>,
+    pub rotation: Option<Rotation>,
 }
 
 impl Zone {
@@ -194,7 +194,7 @@ impl Zone {
         let stepped = |place: usize| Stepped {
             index: self.index[place],
             positions: [self.motion.position[place]; 2],
-            turning: turning_between([spin; 2], place, self.ticks),
+            rotation: rotation_between([spin; 2], place, self.ticks),
         };
         (0..self.index.len()).map(stepped).collect()
     }
@@ -266,9 +266,9 @@ impl Zone {
             motion.position.push(position);
             motion.velocity.push(velocity);
             free_ticks.push(ticks);
-            if let Some(turning) = flights.turning.get(index as usize) {
-                motion.spin.orientation.push(turning.orientation_at(now));
-                motion.spin.angular_velocity.push(turning.angular_velocity_at(now));
+            if let Some(rotation) = flights.rotations.get(index as usize) {
+                motion.spin.orientation.push(rotation.orientation_at(now));
+                motion.spin.angular_velocity.push(rotation.angular_velocity_at(now));
             }
         }
         self.index = all.iter().map(|sphere| sphere.0).collect();
@@ -309,7 +309,7 @@ impl Zone {
         let stepped = |place: usize| Stepped {
             index: self.index[place],
             positions: [before.position[place], self.motion.position[place]],
-            turning: turning_between([&before.spin, &self.motion.spin], place, self.ticks),
+            rotation: rotation_between([&before.spin, &self.motion.spin], place, self.ticks),
         };
         (0..self.index.len()).map(stepped).collect()
     }
@@ -325,14 +325,14 @@ impl Zone {
 }
 
 /// How a sphere turns between two ticks \[s\], by what its spin is at both.
-fn turning_between(
+fn rotation_between(
     [before, after]: [&Spin; 2],
     place: usize,
     [now, next]: [f64; 2],
-) -> Option<Turning> {
+) -> Option<Rotation> {
     let orientation = *before.orientation.get(place)?;
     let velocities = [before, after].map(|spin| spin.angular_velocity[place]);
-    Some(Turning::between(orientation, velocities, [now, next]))
+    Some(Rotation::between(orientation, velocities, [now, next]))
 }
 
 /// How often a tick \[s\] is to be halved for a sphere: until it is short in relation to the time in which

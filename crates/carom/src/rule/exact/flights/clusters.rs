@@ -34,7 +34,7 @@ pub(crate) struct Supported {
     /// Of everything but drag \[m/s²\].
     pub acceleration: DVec3,
     /// How it turns, where friction acts: angular velocity \[rad/s\] and angular acceleration \[rad/s²\].
-    pub turning: Option<[DVec3; 2]>,
+    pub rotation: Option<[DVec3; 2]>,
 }
 
 impl Cluster {

@@ -5,15 +5,15 @@ mod axis_motion;
 mod body;
 mod clusters;
 mod lanes;
+mod rotation;
 mod species;
 mod state;
-mod turning;
 
 pub(super) use at_time::{first_lost, write_motion};
 pub(super) use axis_motion::AxisMotion;
 pub(super) use body::Body;
 pub(super) use clusters::{Cluster, Support, Supported};
 pub(super) use lanes::FlightLanes;
+pub(super) use rotation::{Rotation, write_spin};
 pub(super) use species::Species;
 pub(super) use state::Flights;
-pub(super) use turning::{Turning, write_spin};

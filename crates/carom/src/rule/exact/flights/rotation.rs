@@ -15,7 +15,7 @@ const SAME_AXIS: f64 = 1e-14;
 
 /// How one sphere turns since some time: its angular velocity changes steadily.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Turning {
+pub(crate) struct Rotation {
     orientation: DQuat,
     /// \[rad/s\]
     angular_velocity: DVec3,
@@ -25,7 +25,7 @@ pub(crate) struct Turning {
     time: f64,
 }
 
-impl Turning {
+impl Rotation {
     /// How a sphere turns, on which no torque acts, since the motion of all was this at `time` \[s\].
     pub fn of(motion: &Motion, index: usize, time: f64) -> Self {
         let spin = &motion.spin;
@@ -89,14 +89,14 @@ impl Turning {
 }
 
 /// Writes how all spheres are turned and turn at `time` \[s\].
-pub(crate) fn write_spin(all: &[Turning], motion: &mut Motion, time: f64) {
+pub(crate) fn write_spin(all: &[Rotation], motion: &mut Motion, time: f64) {
     if all.is_empty() {
         return;
     }
     motion.spin.make_room(all.len());
     let spin = motion.spin.orientation.iter_mut().zip(&mut motion.spin.angular_velocity);
-    for (turning, (orientation, angular_velocity)) in all.iter().zip(spin) {
-        *orientation = turning.orientation_at(time);
-        *angular_velocity = turning.angular_velocity_at(time);
+    for (rotation, (orientation, angular_velocity)) in all.iter().zip(spin) {
+        *orientation = rotation.orientation_at(time);
+        *angular_velocity = rotation.angular_velocity_at(time);
     }
 }

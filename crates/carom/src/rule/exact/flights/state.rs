@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use super::body::Body;
 use super::clusters::{Cluster, Clusters, Support, Supported};
+use super::rotation::Rotation;
 use super::species::{Species, SpeciesOfSpheres};
-use super::turning::Turning;
 use crate::bodies::Motion;
 use crate::detect::contact::Bodies;
 use crate::system::System;
@@ -27,7 +27,7 @@ pub(crate) struct Flights {
     pub slot_of: Vec<u32>,
     pub clusters: Clusters,
     /// How spheres turn, by index; empty where no friction acts.
-    pub turning: Vec<Turning>,
+    pub rotations: Vec<Rotation>,
     /// Whether some forces have no closed form and are held constant over a frame.
     pub hold_forces: bool,
 }
@@ -57,7 +57,7 @@ impl Flights {
             slot_of: index_of.clone(),
             index_of,
             clusters: Clusters::default(),
-            turning: Vec::new(),
+            rotations: Vec::new(),
             hold_forces,
         }
     }
@@ -115,26 +115,26 @@ impl Flights {
 
     /// Angular velocity of a sphere at `time` \[rad/s\]; zero where no friction acts.
     pub fn angular_velocity_of(&self, slot: u32, time: f64) -> DVec3 {
-        let turning = self.turning.get(self.index_of[slot as usize] as usize);
-        turning.map_or(DVec3::ZERO, |turning| turning.angular_velocity_at(time))
+        let rotation = self.rotations.get(self.index_of[slot as usize] as usize);
+        rotation.map_or(DVec3::ZERO, |rotation| rotation.angular_velocity_at(time))
     }
 
     /// Has a sphere turn with an angular velocity \[rad/s\] and an angular acceleration \[rad/s²\] from
     /// `time` \[s\] on, where friction acts.
-    pub fn turn(&mut self, slot: u32, turning: [DVec3; 2], time: f64) {
-        if let Some(it) = self.turning.get_mut(self.index_of[slot as usize] as usize) {
-            it.begin(turning, time);
+    pub fn rotate(&mut self, slot: u32, rotation: [DVec3; 2], time: f64) {
+        if let Some(it) = self.rotations.get_mut(self.index_of[slot as usize] as usize) {
+            it.begin(rotation, time);
         }
     }
 
     /// How the sphere at an index of the world's arrays turns. Where torques of persistent contacts act on
     /// it, none does from `time` \[s\] on.
-    pub fn free_turning_of(&self, index: usize, time: f64) -> Turning {
-        let mut turning = self.turning[index];
+    pub fn free_rotation_of(&self, index: usize, time: f64) -> Rotation {
+        let mut rotation = self.rotations[index];
         if self.hold_forces || self.species_of(self.slot_of[index]).cluster.is_some() {
-            turning.let_go(time);
+            rotation.let_go(time);
         }
-        turning
+        rotation
     }
 
     /// Changes the acceleration \[m/s²\] of a sphere that is a species of its own.
@@ -158,7 +158,7 @@ impl Flights {
         self.spare_species.push(self.bodies[slot as usize].species);
         self.bodies[slot as usize].species = species.free;
         let angular_velocity = self.angular_velocity_of(slot, time);
-        self.turn(slot, [angular_velocity, DVec3::ZERO], time);
+        self.rotate(slot, [angular_velocity, DVec3::ZERO], time);
         true
     }
 
@@ -210,9 +210,9 @@ impl Flights {
         let Support { members, contacts, renewal } = support;
         let slots = members.iter().map(|member| member.slot).collect();
         let cluster = self.clusters.add(Cluster { members: slots, contacts, renewal });
-        for Supported { slot, acceleration, turning } in members {
-            if let Some(turning) = turning {
-                self.turn(slot, turning, time);
+        for Supported { slot, acceleration, rotation } in members {
+            if let Some(rotation) = rotation {
+                self.rotate(slot, rotation, time);
             }
             let species =
                 Species { acceleration, cluster: Some(cluster), ..*self.species_of(slot) };

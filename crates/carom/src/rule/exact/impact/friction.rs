@@ -9,9 +9,9 @@ use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::sum::Sum;
 
-/// What friction did in a group.
+/// What friction did in an impact.
 #[derive(Default)]
-pub(super) struct Rubbing {
+pub(super) struct FrictionImpulses {
     /// Impulses on body 2 \[N s\], one per touch; empty where no friction acts.
     pub impulses: Vec<DVec3>,
     /// Change of kinetic energy \[J\], <= 0, measured against the surfaces.
@@ -20,7 +20,7 @@ pub(super) struct Rubbing {
     rotational: [f64; 2],
 }
 
-impl Rubbing {
+impl FrictionImpulses {
     /// An account of the group, with rotation and with what friction demands.
     pub fn add_to(&self, account: ImpactGroup) -> ImpactGroup {
         ImpactGroup {
@@ -34,7 +34,11 @@ impl Rubbing {
 
 /// Gives each touch that got a normal impulse \[N s\] one of friction, which changes how the members move
 /// and turn.
-pub(super) fn rub(context: &StepContext, group: &mut Group, normal_impulses: &[f64]) -> Rubbing {
+pub(super) fn in_group(
+    context: &StepContext,
+    group: &mut Group,
+    normal_impulses: &[f64],
+) -> FrictionImpulses {
     let contact = |(touch, &normal_impulse): (&Touch, &f64)| {
         let along = (touch.normal, normal_impulse);
         let surface_velocity = surface_velocity(touch, &group.members);
@@ -43,29 +47,29 @@ pub(super) fn rub(context: &StepContext, group: &mut Group, normal_impulses: &[f
     };
     let mut contacts: Vec<FrictionContact> =
         group.touches.iter().zip(normal_impulses).map(contact).collect();
-    rub_all(context, &mut contacts, &mut group.members)
+    apply(context, &mut contacts, &mut group.members)
 }
 
 /// Gives a sphere that gets an impulse \[N s\] along the normal of a surface at rest that of friction.
-pub(super) fn rub_one(
+pub(super) fn at_surface(
     context: &StepContext,
     member: &mut Member,
     bodies: Bodies,
     along: (DVec3, f64),
-) -> Rubbing {
+) -> FrictionImpulses {
     let contact = contact_of(context, bodies, (None, 0), along);
-    rub_all(context, &mut [contact], std::slice::from_mut(member))
+    apply(context, &mut [contact], std::slice::from_mut(member))
 }
 
 /// Gives two spheres that get an impulse \[N s\] along the normal that of friction.
-pub(super) fn rub_two(
+pub(super) fn of_pair(
     context: &StepContext,
     members: &mut [Member; 2],
     bodies: Bodies,
     along: (DVec3, f64),
-) -> Rubbing {
+) -> FrictionImpulses {
     let contact = contact_of(context, bodies, (Some(0), 1), along);
-    rub_all(context, &mut [contact], members)
+    apply(context, &mut [contact], members)
 }
 
 /// A contact that got an impulse \[N s\] along its normal, of bodies at these places among the members; a
@@ -88,24 +92,24 @@ fn contact_of(
 }
 
 /// Gives contacts of spheres the impulses of friction.
-fn rub_all(
+fn apply(
     context: &StepContext,
     contacts: &mut [FrictionContact],
     members: &mut [Member],
-) -> Rubbing {
+) -> FrictionImpulses {
     let mut spheres: Vec<SpinningSphere> =
         members.iter().map(|member| spinning(context, member)).collect();
     let rotational = |spheres: &[SpinningSphere]| {
         spheres.iter().map(SpinningSphere::rotational_energy).collect::<Sum>().value()
     };
     let before = rotational(&spheres);
-    let energy = respond::rub(context.work, contacts, &mut spheres);
+    let energy = respond::apply_friction(context.work, contacts, &mut spheres);
     for (member, sphere) in members.iter_mut().zip(&spheres) {
         member.velocity = sphere.velocity;
         member.angular_velocity = sphere.angular_velocity;
     }
     let impulses = contacts.iter().map(|contact| contact.impulse).collect();
-    Rubbing { impulses, energy, rotational: [before, rotational(&spheres)] }
+    FrictionImpulses { impulses, energy, rotational: [before, rotational(&spheres)] }
 }
 
 /// A sphere of a group, as friction takes it.

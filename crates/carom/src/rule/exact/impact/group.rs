@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::account::account_of;
 use super::follow_up;
-use super::rubbing::{self, Rubbing};
+use super::friction::{self, FrictionImpulses};
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact, ImpactGroup};
@@ -176,7 +176,7 @@ struct Answer {
     approach_speeds: Vec<f64>,
     /// One per touch \[N s\].
     impulses: Vec<f64>,
-    rubbing: Rubbing,
+    friction: FrictionImpulses,
     /// What the impacts did to momentum and energy of the spheres.
     account: ImpactGroup,
 }
@@ -230,15 +230,15 @@ fn respond_to_impacts(
     if !merged.is_empty() {
         normal_impulses = resolve(&all, &plastic, group);
     }
-    let mut rubbing = Rubbing::default();
+    let mut friction = FrictionImpulses::default();
     if timeline.has_friction() {
-        rubbing = rubbing::rub(context, group, &normal_impulses);
+        friction = friction::in_group(context, group, &normal_impulses);
         // Friction may have set bodies in motion towards others.
         resolve(&all, &plastic, group);
     }
     let account = account_of([&before, &velocities_of(group)], &masses);
-    let account = rubbing.add_to(ImpactGroup { energy_demanded, ..account });
-    Answer { approach_speeds, impulses, rubbing, account }
+    let account = friction.add_to(ImpactGroup { energy_demanded, ..account });
+    Answer { approach_speeds, impulses, friction, account }
 }
 
 fn velocities_of(group: &Group) -> Vec<DVec3> {
@@ -247,12 +247,12 @@ fn velocities_of(group: &Group) -> Vec<DVec3> {
 
 /// Writes down the impacts of a group.
 fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
-    let Answer { approach_speeds, impulses, rubbing, .. } = answer;
+    let Answer { approach_speeds, impulses, friction, .. } = answer;
     let mut account = answer.account;
-    for (touch, &impulse) in group.touches.iter().zip(&rubbing.impulses) {
+    for (touch, &impulse) in group.touches.iter().zip(&friction.impulses) {
         if touch.first.is_none() {
             account.momentum_after -= impulse;
-            account.energy_after -= impulse.dot(rubbing::surface_velocity(touch, &group.members));
+            account.energy_after -= impulse.dot(friction::surface_velocity(touch, &group.members));
         }
     }
     let mut impacts: Vec<Impact> = Vec::new();
@@ -321,7 +321,7 @@ fn begin_flights(
     for member in &group.members {
         timeline.set_free(member.slot, group.time);
         timeline.begin_flight(member.slot, member.position, member.velocity, group.time);
-        timeline.flights.turn(member.slot, [member.angular_velocity, DVec3::ZERO], group.time);
+        timeline.flights.rotate(member.slot, [member.angular_velocity, DVec3::ZERO], group.time);
     }
     for index in struck.iter().flat_map(|bodies| bodies.spheres()) {
         timeline.flights.bodies[timeline.flights.slot_of[index as usize] as usize].strike();

@@ -2,9 +2,9 @@
 
 mod account;
 mod follow_up;
+mod friction;
 mod group;
 mod pair;
-mod rubbing;
 mod single_sphere;
 mod surface_contacts;
 

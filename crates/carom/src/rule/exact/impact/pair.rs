@@ -5,8 +5,8 @@ use std::hint::select_unpredictable;
 use glam::DVec3;
 
 use super::account::account_of_pair;
+use super::friction::{self, FrictionImpulses};
 use super::group;
-use super::rubbing::{Rubbing, rub_two};
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::report::{BodyPair, Impact};
@@ -60,9 +60,9 @@ pub(crate) fn of_spheres(
             .for_each(|(slot, body)| timeline.flights.bodies[slot as usize] = body);
         return group::answer(timeline, context, &slots, None, time);
     }
-    if let Some(rubbing) = &impact.rubbing {
-        for (slot, angular_velocity) in slots.into_iter().zip(rubbing.1) {
-            timeline.flights.turn(slot, [angular_velocity, DVec3::ZERO], time);
+    if let Some(friction) = &impact.friction {
+        for (slot, angular_velocity) in slots.into_iter().zip(friction.1) {
+            timeline.flights.rotate(slot, [angular_velocity, DVec3::ZERO], time);
         }
     }
     if impact.impulse.is_some() {
@@ -116,7 +116,7 @@ struct PairImpact {
     /// \[N s\]; `None` if a grazing contact turns out, by rounding, not to close.
     impulse: Option<f64>,
     /// What friction did, and angular velocities after it \[rad/s\].
-    rubbing: Option<Box<(Rubbing, [DVec3; 2])>>,
+    friction: Option<Box<(FrictionImpulses, [DVec3; 2])>>,
 }
 
 impl PairImpact {
@@ -131,21 +131,35 @@ impl PairImpact {
         let restitution = context.restitution_at(timeline, slots, restitution, time);
         let masses = species.map(|species| species.mass);
         let answer = respond::line_of_centres([v1, v2], masses, normal, restitution);
-        let mut velocities = answer.map_or([v1, v2], |answer| answer.0);
-        let rubbing = answer.filter(|_| timeline.has_friction()).map(|(_, impulse)| {
-            Box::new(rub(timeline, context, slots, (&mut velocities, normal, impulse), time))
-        });
-        Self {
+        let mut impact = Self {
             time,
             places: [x1, x2],
             velocities_before: [v1, v2],
-            velocities,
+            velocities: answer.map_or([v1, v2], |answer| answer.0),
             normal,
             approach_speed: (v1 - v2).dot(normal),
             restitution,
             impulse: answer.map(|answer| answer.1),
-            rubbing,
+            friction: None,
+        };
+        if timeline.has_friction() {
+            impact.apply_friction(timeline, context, slots);
         }
+        impact
+    }
+
+    /// Gives two spheres that got an impulse along the normal that of friction.
+    #[inline(never)]
+    fn apply_friction(&mut self, timeline: &Timeline, context: &StepContext, slots: [u32; 2]) {
+        let Some(impulse) = self.impulse else { return };
+        let mut members = slots.map(|slot| Member::at(&timeline.flights, slot, self.time));
+        for (member, velocity) in members.iter_mut().zip(self.velocities) {
+            member.velocity = velocity;
+        }
+        let bodies = Bodies::pair(members.map(|member| member.index));
+        let friction = friction::of_pair(context, &mut members, bodies, (self.normal, impulse));
+        self.velocities = members.map(|member| member.velocity);
+        self.friction = Some(Box::new((friction, members.map(|member| member.angular_velocity))));
     }
 
     fn record(&self, timeline: &Timeline, context: &mut StepContext, slots: [u32; 2]) {
@@ -169,27 +183,7 @@ impl PairImpact {
             self.approach_speed,
             self.restitution,
         );
-        let with_rotation = self.rubbing.as_ref().map(|rubbing| rubbing.0.add_to(account));
+        let with_rotation = self.friction.as_ref().map(|friction| friction.0.add_to(account));
         context.record([impact], with_rotation.unwrap_or(account));
     }
-}
-
-/// Gives two spheres that got an impulse \[N s\] along the normal that of friction, which changes their
-/// velocities \[m/s\]; with their angular velocities after it \[rad/s\].
-#[inline(never)]
-fn rub(
-    timeline: &Timeline,
-    context: &StepContext,
-    slots: [u32; 2],
-    (velocities, normal, impulse): (&mut [DVec3; 2], DVec3, f64),
-    time: f64,
-) -> (Rubbing, [DVec3; 2]) {
-    let mut members = slots.map(|slot| Member::at(&timeline.flights, slot, time));
-    for (member, velocity) in members.iter_mut().zip(&*velocities) {
-        member.velocity = *velocity;
-    }
-    let bodies = Bodies::pair(members.map(|member| member.index));
-    let rubbing = rub_two(context, &mut members, bodies, (normal, impulse));
-    *velocities = members.map(|member| member.velocity);
-    (rubbing, members.map(|member| member.angular_velocity))
 }

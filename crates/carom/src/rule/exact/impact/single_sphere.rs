@@ -4,8 +4,8 @@
 use glam::DVec3;
 
 use super::account::account_of;
+use super::friction::{self, FrictionImpulses};
 use super::group;
-use super::rubbing::{Rubbing, rub_one};
 use super::surface_contacts::{
     MOST_TOUCHED, SingleSphere, SurfaceContacts, restitution_of, single_sphere,
 };
@@ -36,9 +36,9 @@ pub(crate) fn of_sphere(
         return group::answer(timeline, context, &[slot], surface, time);
     };
     // With friction, one contact feels the other; and drag leaves no closed form.
-    let is_rubbed = timeline.has_friction();
+    let has_friction = timeline.has_friction();
     let is_one = touched.contacts(member.position).iter().flatten().count() == 1;
-    if is_rubbed && !(is_one && member.species.drag_rate == 0.0) {
+    if has_friction && !(is_one && member.species.drag_rate == 0.0) {
         return group::answer(timeline, context, &[slot], surface, time);
     }
     let fastest = member.velocity.norm();
@@ -54,7 +54,7 @@ pub(crate) fn of_sphere(
     }
     timeline.set_free(slot, time);
     timeline.begin_flight(slot, member.position, member.velocity, time);
-    timeline.flights.turn(slot, [member.angular_velocity, DVec3::ZERO], time);
+    timeline.flights.rotate(slot, [member.angular_velocity, DVec3::ZERO], time);
     if struck.iter().any(Option::is_some) {
         timeline.flights.bodies[slot as usize].strike();
     }
@@ -96,7 +96,7 @@ fn strike(
     let Member { slot, index, position, velocity: before, species, .. } = *member;
     let rounding = respond::rounding_of(before);
     let (mut impacts, mut struck) = ([None; MOST_TOUCHED], [None; MOST_TOUCHED]);
-    let (mut energy_demanded, mut rubbing) = (0.0, Rubbing::default());
+    let (mut energy_demanded, mut friction) = (0.0, FrictionImpulses::default());
     for (place, contact) in touched.contacts(position).into_iter().flatten().enumerate() {
         let approach_speed = -before.dot(contact.normal);
         if approach_speed <= rounding {
@@ -111,7 +111,7 @@ fn strike(
         energy_demanded -= 0.5 * (1.0 - restitution) * impulse * approach_speed;
         let bodies = Bodies::Surface { sphere: index, surface: contact.surface };
         if timeline.has_friction() {
-            rubbing = rub_one(context, member, bodies, (contact.normal, impulse));
+            friction = friction::at_surface(context, member, bodies, (contact.normal, impulse));
         }
         struck[place] = Some(contact.surface);
         impacts[place] = Some(Impact {
@@ -129,8 +129,8 @@ fn strike(
         for impact in impacts.iter().flatten() {
             account.momentum_after -= impact.impulse * impact.normal;
         }
-        account.momentum_after -= rubbing.impulses.iter().sum::<DVec3>();
-        let account = rubbing.add_to(ImpactGroup { energy_demanded, ..account });
+        account.momentum_after -= friction.impulses.iter().sum::<DVec3>();
+        let account = friction.add_to(ImpactGroup { energy_demanded, ..account });
         context.record(impacts.into_iter().flatten(), account);
     }
     struck

@@ -96,3 +96,9 @@ pub(super) fn accelerations_under(
 pub(super) fn is_idle(accelerations: &Accelerations, touch: &Touch, members: &[Member]) -> bool {
     accelerations.along(touch, members) <= IDLE * accelerations.scale_at(touch, members)
 }
+
+/// Whether what parts with a speed \[m/s\] against an acceleration \[m/s²\] is back within a `duration`
+/// \[s\]: thrown up with u against a, a body is back after 2 u / a.
+pub(crate) fn is_back_within(duration: f64, speed: f64, acceleration: f64) -> bool {
+    acceleration > 0.0 && speed <= 0.5 * acceleration * duration
+}

@@ -51,7 +51,7 @@ fn begin_under(
     };
     let PlanarSupport { velocity, acceleration, valid_for, persists, .. } = planar;
     timeline.flights.set_acceleration(slot, acceleration);
-    timeline.flights.turn(slot, [planar.angular_velocity, planar.angular_acceleration], start);
+    timeline.flights.rotate(slot, [planar.angular_velocity, planar.angular_acceleration], start);
     let cluster = timeline.flights.clusters.get_mut(cluster);
     cluster.renewal = start + valid_for;
     let (before, mut persists) = (cluster.contacts.len(), persists.into_iter());

@@ -12,10 +12,10 @@ mod rolling;
 mod sliding;
 pub(super) mod solve;
 
-pub(super) use accelerations::free_acceleration;
+pub(super) use accelerations::{free_acceleration, is_back_within};
 pub(super) use listing::list;
 /// Friction acts at contacts whose motion has no closed form.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NoClosedForm;
 
-pub(super) use solve::{REST, is_back_within};
+pub(super) use solve::REST;

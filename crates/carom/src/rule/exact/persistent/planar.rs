@@ -3,10 +3,9 @@
 use glam::DVec3;
 
 use super::NoClosedForm;
-use super::accelerations::{IDLE, free_acceleration};
+use super::accelerations::{IDLE, free_acceleration, is_back_within};
 use super::rolling::{PressedSphere, Rolling, on_plane};
 use super::sliding::time_on_face;
-use super::solve::is_back_within;
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
 use crate::norm::Norm;
@@ -35,8 +34,8 @@ pub(crate) struct PlanarSupport {
 impl PlanarSupport {
     /// The sphere at `slot`, so supported.
     pub fn supported(&self, slot: u32) -> Supported {
-        let turning = Some([self.angular_velocity, self.angular_acceleration]);
-        Supported { slot, acceleration: self.acceleration, turning }
+        let rotation = Some([self.angular_velocity, self.angular_acceleration]);
+        Supported { slot, acceleration: self.acceleration, rotation }
     }
 }
 
@@ -59,7 +58,7 @@ pub(crate) fn support(
     contact_duration: f64,
     duration: f64,
 ) -> Result<Option<PlanarSupport>, NoClosedForm> {
-    let Member { position, mut velocity, mut angular_velocity, species, .. } = *member;
+    let Member { mut velocity, angular_velocity, species, .. } = *member;
     let (mut acceleration, mut largest) = (species.acceleration, 0.0f64);
     let mut persists = [false; MOST_PLANES];
     let pull = free_acceleration(member).norm();
@@ -82,77 +81,104 @@ pub(crate) fn support(
     if acceleration.norm() <= IDLE * (species.acceleration.norm() + largest) {
         acceleration = DVec3::ZERO;
     }
-    let (mut angular_acceleration, mut valid_for) = (DVec3::ZERO, f64::INFINITY);
-    let pressed = pressed_spheres(system, member, corner, (velocity, acceleration, persists));
-    if !pressed.is_empty() {
-        let rolling = rolling_on(&pressed, contact_duration)?;
-        (velocity, angular_velocity) = (rolling.velocity, rolling.angular_velocity);
-        (acceleration, angular_acceleration) = (rolling.acceleration, rolling.angular_acceleration);
-        valid_for = rolling.valid_for;
-        let moves = velocity != DVec3::ZERO || acceleration != DVec3::ZERO;
-        if moves && species.drag_rate > 0.0 {
-            return Err(NoClosedForm);
-        }
-        for (plane, persists) in corner.planes().zip(&mut persists) {
-            let opening = acceleration.dot(plane.normal);
-            if *persists && opening < -IDLE * pull {
-                // Friction presses it onto another plane.
-                return Err(NoClosedForm);
-            }
-            *persists &= opening <= IDLE * pull;
-        }
-    }
-    let motion = |axis: DVec3| AxisMotion {
-        velocity: velocity.dot(axis),
-        acceleration: acceleration.dot(axis),
-        drag_rate: species.drag_rate,
-    };
-    let flight = Flight { position, velocity, acceleration, drag_rate: species.drag_rate };
-    let way = flight.farthest(duration).element_sum();
-    for (plane, persists) in corner.planes().zip(persists) {
-        // Nothing may be known of how far that is in endless time.
-        let is_within = |beyond: f64| beyond + way < 0.0;
-        if let Form::Rectangle(face) = plane.form
-            && persists
-            && !beyond(face, position).into_iter().all(is_within)
-        {
-            valid_for = valid_for.min(time_on_face(face, position, motion));
-        }
-    }
-    let valid_for = valid_for.max(contact_duration);
-    Ok(Some(PlanarSupport {
+    let mut support = PlanarSupport {
         velocity,
         angular_velocity,
         acceleration,
-        angular_acceleration,
-        valid_for,
+        angular_acceleration: DVec3::ZERO,
+        valid_for: f64::INFINITY,
         persists,
-    }))
+    };
+    support.add_friction(system, member, corner, contact_duration)?;
+    support.end_at_edges(member, corner, duration);
+    support.valid_for = support.valid_for.max(contact_duration);
+    Ok(Some(support))
 }
 
-/// The sphere on each of the planes that it is pressed onto and where it persists, if friction acts on one
-/// of them; it moves so along them \[m/s\], and accelerates without friction \[m/s²\].
-fn pressed_spheres(
-    system: &System,
-    member: &Member,
-    corner: &Corner,
-    (velocity, pull, persists): (DVec3, DVec3, [bool; MOST_PLANES]),
-) -> Vec<PressedSphere> {
-    let Member { species, angular_velocity, index, .. } = *member;
-    let on = |plane: Plane| PressedSphere {
-        normal: plane.normal,
-        radius: species.radius,
-        inertia_factor: system.spheres.inertia_factor(index as usize),
-        velocity,
-        angular_velocity,
-        pressing: -species.acceleration.dot(plane.normal),
-        pull,
-        friction: friction_of(Bodies::Surface { sphere: index, surface: plane.surface }, system),
-    };
-    let persisting = corner.planes().zip(persists).filter(|it| it.1).map(|it| on(it.0));
-    let least = IDLE * species.acceleration.norm();
-    let pressed: Vec<PressedSphere> = persisting.filter(|it| it.pressing > least).collect();
-    if pressed.iter().any(|it| it.friction.acts()) { pressed } else { Vec::new() }
+impl PlanarSupport {
+    /// Has friction act on the sphere.
+    fn add_friction(
+        &mut self,
+        system: &System,
+        member: &Member,
+        corner: &Corner,
+        contact_duration: f64,
+    ) -> Result<(), NoClosedForm> {
+        let pressed = self.pressed_spheres(system, member, corner);
+        if pressed.is_empty() {
+            return Ok(());
+        }
+        let rolling = rolling_on(&pressed, contact_duration)?;
+        (self.velocity, self.angular_velocity) = (rolling.velocity, rolling.angular_velocity);
+        self.acceleration = rolling.acceleration;
+        self.angular_acceleration = rolling.angular_acceleration;
+        self.valid_for = rolling.valid_for;
+        let moves = self.velocity != DVec3::ZERO || self.acceleration != DVec3::ZERO;
+        if moves && member.species.drag_rate > 0.0 {
+            return Err(NoClosedForm);
+        }
+        let least = IDLE * free_acceleration(member).norm();
+        for (plane, persists) in corner.planes().zip(&mut self.persists) {
+            let opening = self.acceleration.dot(plane.normal);
+            if *persists && opening < -least {
+                // Friction presses it onto another plane.
+                return Err(NoClosedForm);
+            }
+            *persists &= opening <= least;
+        }
+        Ok(())
+    }
+
+    /// Has it hold until the sphere may come to the end of a face, if that is within a `duration` \[s\].
+    fn end_at_edges(&mut self, member: &Member, corner: &Corner, duration: f64) {
+        let Member { position, species, .. } = *member;
+        let Self { velocity, acceleration, .. } = *self;
+        let motion = |axis: DVec3| AxisMotion {
+            velocity: velocity.dot(axis),
+            acceleration: acceleration.dot(axis),
+            drag_rate: species.drag_rate,
+        };
+        let flight = Flight { position, velocity, acceleration, drag_rate: species.drag_rate };
+        let way = flight.farthest(duration).element_sum();
+        for (plane, persists) in corner.planes().zip(self.persists) {
+            // Nothing may be known of how far that is in endless time.
+            let is_within = |beyond: f64| beyond + way < 0.0;
+            if let Form::Rectangle(face) = plane.form
+                && persists
+                && !beyond(face, position).into_iter().all(is_within)
+            {
+                self.valid_for = self.valid_for.min(time_on_face(face, position, motion));
+            }
+        }
+    }
+
+    /// The sphere on each of the planes that it is pressed onto and where it persists, if friction acts on
+    /// one of them; as it moves without.
+    fn pressed_spheres(
+        &self,
+        system: &System,
+        member: &Member,
+        corner: &Corner,
+    ) -> Vec<PressedSphere> {
+        let Member { species, angular_velocity, index, .. } = *member;
+        let on = |plane: Plane| PressedSphere {
+            normal: plane.normal,
+            radius: species.radius,
+            inertia_factor: system.spheres.inertia_factor(index as usize),
+            velocity: self.velocity,
+            angular_velocity,
+            pressing: -species.acceleration.dot(plane.normal),
+            pull: self.acceleration,
+            friction: friction_of(
+                Bodies::Surface { sphere: index, surface: plane.surface },
+                system,
+            ),
+        };
+        let persisting = corner.planes().zip(self.persists).filter(|it| it.1).map(|it| on(it.0));
+        let least = IDLE * species.acceleration.norm();
+        let pressed: Vec<PressedSphere> = persisting.filter(|it| it.pressing > least).collect();
+        if pressed.iter().any(|it| it.friction.acts()) { pressed } else { Vec::new() }
+    }
 }
 
 /// How a sphere goes on that is pressed onto planes.

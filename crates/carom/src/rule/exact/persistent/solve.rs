@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::accelerations::{
-    Accelerations, IDLE, accelerations_under, bias, forces, free_acceleration, is_idle,
+    Accelerations, IDLE, accelerations_under, bias, forces, free_acceleration, is_back_within,
+    is_idle,
 };
 use super::correction::correct;
 use super::piece::{TURN, TurnStart, through_the_middle, turning_time};
@@ -147,12 +148,6 @@ fn add_closing(
     persistent.sort_unstable_by_key(|touch| touch.bodies);
 }
 
-/// Whether what parts with a speed \[m/s\] against an acceleration \[m/s²\] is back within a `duration`
-/// \[s\]: thrown up with u against a, a body is back after 2 u / a.
-pub(crate) fn is_back_within(duration: f64, speed: f64, acceleration: f64) -> bool {
-    acceleration > 0.0 && speed <= 0.5 * acceleration * duration
-}
-
 /// Stops what moves and accelerates by no more than rounding.
 fn zero_roundoff(
     context: &StepContext,
@@ -201,7 +196,7 @@ fn connected(
         let root = of(&mut supports, place);
         if let Some(support) = supports.get_mut(&root) {
             let acceleration = accelerations.each[place];
-            support.members.push(Supported { slot: member.slot, acceleration, turning: None });
+            support.members.push(Supported { slot: member.slot, acceleration, rotation: None });
         }
     }
     for touch in touches {

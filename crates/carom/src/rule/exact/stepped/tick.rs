@@ -81,10 +81,10 @@ fn comes_back(
 fn fly(timeline: &mut Timeline, stepped: &[Stepped], now: f64) {
     let next = timeline.zone.next_tick();
     let mut found = NeighbourBuffer::default();
-    for &Stepped { index, positions: [from, to], turning } in stepped {
+    for &Stepped { index, positions: [from, to], rotation } in stepped {
         let slot = timeline.flights.slot_of[index as usize];
-        if let Some(turning) = turning {
-            timeline.flights.turning[index as usize] = turning;
+        if let Some(rotation) = rotation {
+            timeline.flights.rotations[index as usize] = rotation;
         }
         let velocity = if from == to { DVec3::ZERO } else { (to - from) / (next - now) };
         let body = &mut timeline.flights.bodies[slot as usize];
@@ -168,7 +168,7 @@ fn leave(
     }
     timeline.flights.leave_zone(slot, [position, velocity], now);
     let angular_velocity = timeline.flights.angular_velocity_of(slot, now);
-    timeline.flights.turn(slot, [angular_velocity, DVec3::ZERO], now);
+    timeline.flights.rotate(slot, [angular_velocity, DVec3::ZERO], now);
     predict::predict(timeline, context, slot, now);
     timeline.zone.near.push(slot);
     context.report.zone_account.left += 1;
