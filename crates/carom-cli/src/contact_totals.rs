@@ -40,15 +40,19 @@ impl ContactTotals {
         self.largest_overlap = self.largest_overlap.max(largest_overlap);
     }
 
-    /// The lines of a summary.
-    pub fn rows(&self) -> Vec<(&'static str, String)> {
+    /// The lines of a summary; of a part of the spheres, that are `stepped`, or of all.
+    pub fn rows(&self, stepped: bool) -> Vec<(&'static str, String)> {
+        let part = if stepped { " of stepped zones" } else { "" };
         let Self { correction_work, surface_work, residual, largest_overlap, .. } = self;
         let mut added = format!("{correction_work:.3e} J by correction of overlaps");
         if *surface_work != 0.0 {
             added += &format!(", {surface_work:.3e} J by moving colliders");
         }
         vec![
-            ("energy taken", format!("{:.3e} J by impacts and friction", 0.0 - self.impulse_work)),
+            (
+                "energy taken",
+                format!("{:.3e} J by impacts and friction{part}", 0.0 - self.impulse_work),
+            ),
             ("energy added", added),
             (
                 "overlap",

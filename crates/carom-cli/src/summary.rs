@@ -260,7 +260,7 @@ impl Summary {
         }
         if let Some(contact) = &self.contact {
             // Before the momentum.
-            rows.splice(6..6, contact.rows());
+            rows.splice(6..6, contact.rows(self.zones.is_some()));
         }
         if let (Some(momentum), Some(energy)) =
             (self.largest_momentum_error, self.largest_energy_error)

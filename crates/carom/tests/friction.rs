@@ -8,8 +8,8 @@ mod common;
 use std::f64::consts::FRAC_PI_2;
 
 use carom::{
-    Collider, DVec3, Error, Exact, Friction, Gravity, Pose, Settings, Shape, Sphere, SphereId,
-    World, Zones,
+    Collider, DVec3, Emitter, Error, Exact, Friction, Gravity, Pose, Settings, Shape, Sphere,
+    SphereId, World, Zones,
 };
 use common::{G, Numbers, vec, world};
 
@@ -347,4 +347,92 @@ fn without_zones_what_has_no_closed_form_is_an_error() {
     let refused = (0..100).find_map(|_| world.step(0.1).err());
     assert!(matches!(refused, Some(Error::NeedsZone { .. })), "{refused:?}");
     assert!(world.time() > before);
+}
+
+#[test]
+fn a_snapshot_goes_on_with_the_same_bits() {
+    let mut world = on_floor(Friction::sliding(0.2).with_rolling(0.01).with_spinning(0.04));
+    world.add_sphere(ball(vec(1.0, 0.0, 0.5), vec(30.0, 40.0, 60.0))).unwrap();
+    let other = ball(vec(-1.0, 0.0, 0.0), DVec3::ZERO).with_position(vec(1.5, RADIUS, 0.2));
+    world.add_sphere(other.with_friction(0.1)).unwrap();
+    let run = |world: &mut World| {
+        (0..50).for_each(|_| world.step(0.013).map(|_| ()).unwrap());
+        world.state_hash()
+    };
+    world.step(0.1).unwrap();
+    let snapshot = world.snapshot();
+    let first = run(&mut world);
+    world.restore(&snapshot);
+    assert_eq!(run(&mut world), first);
+}
+
+#[test]
+fn what_is_emitted_rolls_and_leaves_the_others_as_they_are() {
+    let hash = |frames: u32| {
+        let mut world = on_floor(Friction::sliding(0.2).with_rolling(0.01));
+        world.add_sphere(ball(vec(1.0, 0.0, 0.5), vec(30.0, 40.0, 60.0))).unwrap();
+        let emitted = ball(vec(0.0, 0.0, 1.0), 20.0 * DVec3::X).with_position(vec(-1.0, 0.2, 0.0));
+        let emitter = Emitter::new(emitted.with_restitution(0.0), 0.3).with_max_spheres(Some(4));
+        world.add_emitter(emitter).unwrap();
+        (0..frames).for_each(|_| world.step(2.0 / f64::from(frames)).map(|_| ()).unwrap());
+        let spheres = world.spheres();
+        let first = spheres.get(0);
+        assert!(spheres.angular_velocities().iter().all(|spin| spin.length() > 1.0));
+        ([first.position, first.velocity, first.angular_velocity], spheres.positions().to_vec())
+    };
+    let alone = {
+        let mut world = on_floor(Friction::sliding(0.2).with_rolling(0.01));
+        let id = world.add_sphere(ball(vec(1.0, 0.0, 0.5), vec(30.0, 40.0, 60.0))).unwrap();
+        after(&mut world, id, 2.0)
+    };
+    let [position, velocity, spin] = hash(8).0;
+    assert_vectors_close(position, alone.position, 1e-9);
+    assert_vectors_close(velocity, alone.velocity, 1e-9);
+    assert_vectors_close(spin, alone.angular_velocity, 1e-7);
+    assert!(hash(8) == hash(128));
+}
+
+#[test]
+fn a_contact_tells_its_friction() {
+    let mu = 0.2;
+    let mut world = on_floor(mu);
+    let id = world.add_sphere(ball(DVec3::X, DVec3::ZERO)).unwrap();
+    world.step(1e-3).unwrap();
+    let contact = world.contacts()[0];
+    assert!(contact.is_sliding);
+    assert_close(contact.normal_force, G, ROUNDING);
+    assert_vectors_close(contact.tangential_force, -mu * G * DVec3::X, ROUNDING);
+    after(&mut world, id, 1.0);
+    let contact = world.contacts()[0];
+    assert!(!contact.is_sliding && contact.tangential_force == DVec3::ZERO);
+}
+
+#[test]
+fn friction_in_a_group_of_impacts_takes_energy_and_keeps_momentum() {
+    let mut numbers = Numbers(11);
+    for _ in 0..100 {
+        let mut world = world(Exact::default());
+        let mu = numbers.between(0.0, 1.0);
+        let beta = numbers.next();
+        // A ball hits four that touch it at once, each spinning.
+        for place in [vec(1.0, 1.0, 0.0), vec(1.0, -1.0, 0.0), vec(1.0, 0.0, 1.0)] {
+            let sphere = Sphere::new(place.normalize() * 0.4, 0.2)
+                .with_angular_velocity(10.0 * numbers.vector())
+                .with_velocity(-0.2 * place)
+                .with_mass(numbers.between(0.5, 2.0))
+                .with_restitution(numbers.next())
+                .with_friction(Friction::sliding(mu).with_tangential_restitution(beta));
+            world.add_sphere(sphere).unwrap();
+        }
+        let hit = Sphere::new(DVec3::ZERO, 0.2).with_velocity(2.0 * DVec3::X);
+        world.add_sphere(hit.with_angular_velocity(20.0 * numbers.vector())).unwrap();
+        let (momentum, angular) = (world.momentum(), world.angular_momentum());
+        let energy = world.kinetic_energy();
+        let report = world.step(0.01).unwrap();
+        assert!(report.groups[0].count >= 3);
+        assert!(report.groups.iter().all(|group| group.energy_error() < 1e-12));
+        assert!(world.kinetic_energy() <= energy * (1.0 + 1e-13));
+        assert_vectors_close(world.momentum(), momentum, 1e-12);
+        assert_vectors_close(world.angular_momentum(), angular, 1e-12);
+    }
 }
