@@ -11,7 +11,8 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use carom::{
-    Collider, DQuat, DVec3, Gravity, Pose, Settings, Shape, Sides, Sphere, StopRequest, World,
+    Collider, DQuat, DVec3, Friction, Gravity, Pose, Settings, Shape, Sides, Sphere, StopRequest,
+    World,
 };
 use common::{Numbers, vec};
 
@@ -103,9 +104,26 @@ fn add_spheres(world: &mut World, numbers: &mut Numbers, restitution: f64, pose:
     }
 }
 
-/// Runs a scene; says what is wrong with it.
-fn fault(seed: u64) -> Option<String> {
+/// Gives the spheres of a world friction, and spin.
+fn roughen(world: &mut World, seed: u64) {
+    let mut numbers = Numbers(seed.wrapping_mul(104_729) + 7);
+    for id in world.spheres().ids().to_vec() {
+        let friction = Friction::sliding(scale(&mut numbers, -2.0, 0.5))
+            .with_rolling(0.1 * numbers.next())
+            .with_spinning(0.1 * numbers.next())
+            .with_tangential_restitution((2.0 * numbers.next() - 1.0).max(0.0));
+        let spin = 20.0 * numbers.vector();
+        let sphere = world.sphere(id).unwrap().with_friction(friction);
+        world.set_sphere(id, sphere.with_angular_velocity(spin)).unwrap();
+    }
+}
+
+/// Runs a scene, with friction or without; says what is wrong with it.
+fn fault(seed: u64, is_rough: bool) -> Option<String> {
     let Scene { mut world, is_closed, is_driven } = scene(seed);
+    if is_rough {
+        roughen(&mut world, seed);
+    }
     let (began, start) = (Instant::now(), world.total_energy());
     let (mut scale, mut energy) = (start.abs().max(world.kinetic_energy()), start);
     let mut in_zone = false;
@@ -143,19 +161,25 @@ fn fault(seed: u64) -> Option<String> {
     (took > Duration::from_secs(5)).then(|| format!("took {took:?}, zone {in_zone}"))
 }
 
-fn check(seeds: Range<u64>) {
-    let faults = seeds.filter_map(|seed| Some(format!("{seed}: {}", fault(seed)?)));
+fn check(seeds: Range<u64>, is_rough: bool) {
+    let faults = seeds.filter_map(|seed| Some(format!("{seed}: {}", fault(seed, is_rough)?)));
     let faults: Vec<String> = faults.collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 #[test]
 fn sixty_scenes_go_on() {
-    check(0..60);
+    check(0..60, false);
+}
+
+#[test]
+fn sixty_scenes_with_friction_go_on() {
+    check(0..60, true);
 }
 
 #[test]
 #[ignore = "takes minutes"]
 fn a_thousand_scenes_go_on() {
-    check(0..1000);
+    check(0..1000, false);
+    check(0..1000, true);
 }
