@@ -340,9 +340,10 @@ fn without_zones_what_has_no_closed_form_is_an_error() {
     world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
     let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_friction(0.5);
     world.add_collider(floor.with_restitution(0.0)).unwrap();
-    let bump = Collider::new(Shape::Sphere { radius: 1.0 }, Pose::at(vec(0.0, 1.0, 0.0)));
-    world.add_collider(bump.with_restitution(0.0).with_friction(0.5)).unwrap();
-    world.add_sphere(ball(DVec3::ZERO, DVec3::ZERO).with_position(vec(0.1, 2.2, 0.0))).unwrap();
+    let lower = ball(DVec3::ZERO, DVec3::ZERO);
+    world.add_sphere(lower.with_restitution(0.0)).unwrap();
+    let upper = lower.with_position(vec(0.001, 0.2, 0.0)).with_restitution(0.0);
+    world.add_sphere(upper.with_friction(0.5)).unwrap();
     let before = world.time();
     let refused = (0..100).find_map(|_| world.step(0.1).err());
     assert!(matches!(refused, Some(Error::NeedsZone { .. })), "{refused:?}");
@@ -435,4 +436,90 @@ fn friction_in_a_group_of_impacts_takes_energy_and_keeps_momentum() {
         assert_vectors_close(world.momentum(), momentum, 1e-12);
         assert_vectors_close(world.angular_momentum(), angular, 1e-12);
     }
+}
+
+/// A fixed sphere of this radius about the origin, and a ball on it, `angle` \[rad\] from its top.
+fn on_dome(radius: f64, angle: f64, friction: impl Into<Friction>) -> (World, SphereId) {
+    let mut world = world(Exact::default());
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    let dome = Collider::new(Shape::Sphere { radius }, Pose::at(DVec3::ZERO));
+    world.add_collider(dome.with_restitution(0.0).with_friction(friction)).unwrap();
+    let (sine, cosine) = libm::sincos(angle);
+    let place = (radius + RADIUS) * vec(sine, cosine, 0.0);
+    let id = world.add_sphere(Sphere::new(place, RADIUS)).unwrap();
+    (world, id)
+}
+
+#[test]
+fn a_ball_that_rolls_off_a_fixed_sphere_leaves_it_at_cos_ten_seventeenths() {
+    // With 7/10 v² = g R (1 - cos) and v² = g R cos where nothing presses any more.
+    let (radius, start) = (1.0, 0.05);
+    let (mut world, id) = on_dome(radius, start, 50.0);
+    let (distance, energy) = (radius + RADIUS, world.total_energy());
+    let mut last = f64::NAN;
+    while !world.contacts().is_empty() || world.time() == 0.0 {
+        world.step(1e-3).unwrap();
+        let ball = world.sphere(id).unwrap();
+        let (cosine, v) = (ball.position.normalize().y, ball.velocity);
+        if world.contacts().is_empty() {
+            break;
+        }
+        last = cosine;
+        assert_close(ball.position.length(), distance, 1e-8);
+        assert_close(world.total_energy(), energy, 1e-5 * energy);
+        // Last it slides, where next to nothing presses it on.
+        if cosine > 0.62 {
+            let fallen = libm::cos(start) - cosine;
+            assert_close(0.7 * v.dot(v), G * distance * fallen, 1e-6 * G);
+            let slip = v + ball.angular_velocity.cross(-RADIUS * ball.position.normalize());
+            // Within a piece of a thousandth.
+            assert_close(slip.length(), 0.0, 1e-6);
+        }
+    }
+    assert!(!world.was_stepped());
+    // It leaves within a frame of that.
+    assert_close(last, 10.0 / 17.0 * libm::cos(start), 5e-3);
+}
+
+#[test]
+fn a_spinning_ball_on_a_fixed_sphere_slides_before_it_rolls() {
+    let (mut world, id) = on_dome(1.0, 0.1, 0.3);
+    let ball = world.sphere(id).unwrap().with_angular_velocity(-40.0 * DVec3::Z);
+    world.set_sphere(id, ball).unwrap();
+    let slip = |ball: &Sphere| {
+        let v = ball.velocity;
+        (v + ball.angular_velocity.cross(-RADIUS * ball.position.normalize())).length()
+    };
+    let mut last = f64::INFINITY;
+    let mut energy = world.total_energy();
+    while world.time() < 0.3 {
+        world.step(1e-3).unwrap();
+        let now = slip(&world.sphere(id).unwrap());
+        assert!(now < last || now < 1e-6, "{now} after {last}");
+        let gained = world.total_energy() - energy;
+        assert!(gained <= 1e-6 * energy, "{gained}");
+        (last, energy) = (now, world.total_energy());
+    }
+    assert!(last < 1e-6 && !world.was_stepped(), "slip {last}");
+}
+
+#[test]
+fn a_ball_rolls_off_a_table_and_hardly_loses_energy() {
+    let mut world = world(Exact::default());
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    let table =
+        Collider::new(Shape::Box { size: vec(1.0, 0.2, 1.0) }, Pose::at(vec(0.0, -0.1, 0.0)));
+    world.add_collider(table.with_restitution(0.0).with_friction(20.0)).unwrap();
+    let id = world.add_sphere(ball(vec(0.1, 0.0, 0.02), vec(0.02, 0.0, -0.1) / RADIUS)).unwrap();
+    let (start, mut energy) = (world.total_energy(), world.total_energy());
+    while world.sphere(id).unwrap().position.y > -0.3 {
+        world.step(1.0 / 120.0).unwrap();
+        // It slides a little before it leaves, where next to nothing presses it on.
+        let gained = world.total_energy() - energy;
+        assert!(gained <= 1e-7 * start, "{gained}");
+        assert!(world.total_energy() > 0.99999 * start, "{} of {start}", world.total_energy());
+        assert!(world.time() < 20.0);
+        energy = world.total_energy();
+    }
+    assert!(!world.was_stepped());
 }

@@ -17,6 +17,7 @@ pub fn claims() -> Vec<Claim> {
     let mut claims = on_the_level();
     claims.extend(shots());
     claims.extend(inclines());
+    claims.extend(curves());
     claims.extend(bounces());
     claims.extend(billiards());
     claims.into_iter().map(|claim| claim.about(Exact::default().into())).collect()
@@ -148,6 +149,69 @@ fn inclines() -> Vec<Claim> {
         move |_| across(rolls_at)?.measure(|ball| (ball.velocity - rolls).length()),
     ));
     claims
+}
+
+/// A ball that rolls off a fixed sphere, and one that rolls over an edge.
+fn curves() -> [Claim; 2] {
+    let source = "conservation of energy; it leaves at cos = 10/17";
+    let reason = "pieces of path of a thousandth of a radian";
+    [
+        Claim::new(
+            "exact: a ball rolls off a fixed sphere: error of 7/10 v² = g R (1 - cos) [relative]",
+            Expected::no_error(source),
+            Tolerance::absolute(1e-6, reason),
+            |_| dome(),
+        ),
+        Claim::new(
+            "exact: a ball rolls over the edge of a table: energy lost or gained [relative]",
+            Expected::no_error("rolling does no work"),
+            Tolerance::absolute(1e-6, reason),
+            |_| table(),
+        ),
+    ]
+}
+
+/// The largest error of the speed of a ball that rolls off a fixed sphere, but for the last degrees, where
+/// it slides.
+fn dome() -> Outcome {
+    let mut world = world(Exact::default().into())?;
+    world.add_force(Gravity::new(-G * DVec3::Y))?;
+    let fixed = Collider::new(Shape::Sphere { radius: 1.0 }, Pose::at(DVec3::ZERO));
+    world.add_collider(fixed.with_restitution(0.0).with_friction(50.0))?;
+    let (sine, cosine) = libm::sincos(0.05);
+    let distance = 1.0 + RADIUS;
+    let id = world.add_sphere(Sphere::new(distance * DVec3::new(sine, cosine, 0.0), RADIUS))?;
+    let mut error = 0.0_f64;
+    loop {
+        world.step(FRAME / 8.0)?;
+        let ball = world.sphere(id)?;
+        let now = ball.position.y / distance;
+        if now < 0.62 {
+            return Ok(Measured::in_world(&world, error));
+        }
+        let kinetic = 0.7 * ball.velocity.dot(ball.velocity);
+        let fallen = G * distance * (cosine - now);
+        error = error.max((kinetic - fallen).abs() / (G * distance));
+    }
+}
+
+/// The largest change of energy of a ball that rolls over the edge of a table, as long as it does.
+fn table() -> Outcome {
+    let mut world = world(Exact::default().into())?;
+    world.add_force(Gravity::new(-G * DVec3::Y))?;
+    let size = DVec3::new(1.0, 0.2, 1.0);
+    let table = Collider::new(Shape::Box { size }, Pose::at(-0.1 * DVec3::Y));
+    world.add_collider(table.with_restitution(0.0).with_friction(50.0))?;
+    let (velocity, spin) = (DVec3::new(0.1, 0.0, 0.02), DVec3::new(0.02, 0.0, -0.1) / RADIUS);
+    let start = ball(velocity, spin).with_position(DVec3::new(0.48, RADIUS, 0.0));
+    let id = world.add_sphere(start)?;
+    let energy = world.total_energy();
+    let mut error = 0.0_f64;
+    while world.sphere(id)?.position.y > 0.0 {
+        world.step(FRAME / 8.0)?;
+        error = error.max((world.total_energy() / energy - 1.0).abs());
+    }
+    Ok(Measured::in_world(&world, error))
 }
 
 /// Balls that bounce with friction.

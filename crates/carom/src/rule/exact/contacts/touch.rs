@@ -49,6 +49,11 @@ impl Touch {
         self.first.into_iter().chain([self.second])
     }
 
+    /// Whether the sphere at a place is one of the bodies.
+    pub fn has(&self, place: usize) -> bool {
+        self.places().any(|it| it == place)
+    }
+
     /// The part of a vector across the normal.
     pub fn across(&self, vector: DVec3) -> DVec3 {
         vector - vector.dot(self.normal) * self.normal

@@ -4,13 +4,14 @@ mod accelerations;
 mod correction;
 pub(super) mod held_forces;
 mod listing;
-mod on_planes;
 mod piece;
 pub(super) mod piece_end;
 pub(super) mod planar;
 mod rolling;
+mod rolling_over;
 mod sliding;
 pub(super) mod solve;
+mod with_friction;
 
 pub(super) use accelerations::{free_acceleration, is_back_within};
 pub(super) use listing::list;

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::correction::correct;
 use crate::bodies::Motion;
 use crate::norm::Norm;
+use crate::respond;
 use crate::rule::exact::contacts::{self, Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::periodic;
@@ -50,7 +51,8 @@ pub(crate) fn settle(timeline: &Timeline, context: &StepContext, group: &mut Gro
                 // On the piece of path its normal was in the plane of the sliding.
                 cluster.hold_along(touch.sliding(members));
             }
-            cluster.gets_work |= touch.does_work();
+            let friction = respond::friction_of(touch.bodies, context.system);
+            cluster.gets_work |= touch.does_work() || friction.acts();
         }
     }
     let is_restored = |cluster: &&Cluster| cluster.is_curved && !cluster.gets_work;
@@ -95,7 +97,7 @@ struct Cluster {
     /// Directions in which surfaces hold it, at right angles to each other: there its momentum is not
     /// kept.
     held: Vec<DVec3>,
-    /// Whether a surface that moves does work on it.
+    /// Whether a surface that moves, or friction, does work on it.
     gets_work: bool,
 }
 

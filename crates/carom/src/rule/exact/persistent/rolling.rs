@@ -47,6 +47,11 @@ pub(super) struct Rolling {
 }
 
 impl Rolling {
+    /// Whether neither moves nor accelerates what is not spinning on the spot.
+    pub fn is_at_rest(&self) -> bool {
+        [self.velocity, self.acceleration] == [DVec3::ZERO; 2]
+    }
+
     pub const AT_REST: Self = Self {
         velocity: DVec3::ZERO,
         angular_velocity: DVec3::ZERO,
@@ -104,7 +109,35 @@ impl PressedSphere {
         (1.0 + 1.0 / self.inertia_factor) * self.friction.sliding * self.pressing
     }
 
-    fn slides(&self, contact_duration: f64) -> bool {
+    /// Sliding friction, or that which keeps it rolling, divided by the mass \[m/s²\].
+    pub fn friction_now(&self, slides: bool) -> DVec3 {
+        if slides {
+            let limit = self.friction.sliding * self.pressing;
+            return -limit * direction_of(self.slip(), self.pull);
+        }
+        let share = 1.0 / (1.0 + self.inertia_factor);
+        let loss = self.rolling_loss(self.velocity);
+        -share * (self.inertia_factor * self.pull + loss * direction_of(self.velocity, self.pull))
+    }
+
+    /// Angular acceleration \[rad/s²\] under friction \[m/s²\], and under the torques against rolling and
+    /// spinning.
+    pub fn angular_acceleration_under(&self, friction: DVec3, slides: bool) -> DVec3 {
+        let moment = 1.0 / self.inertia_factor;
+        let mut torque = -self.turning_with(friction);
+        if !slides {
+            let rolls = direction_of(self.velocity, self.pull);
+            torque -= self.rolling_loss(self.velocity) * self.turning_with(rolls);
+        }
+        let spin = self.angular_velocity.dot(self.normal);
+        if spin != 0.0 {
+            let loss = self.friction.spinning * self.pressing / self.radius;
+            torque -= spin.signum() * loss * self.normal;
+        }
+        moment * torque
+    }
+
+    pub fn slides(&self, contact_duration: f64) -> bool {
         let slip = self.slip().norm();
         slip > self.slip_loss() * contact_duration
             || self.pull.norm() > self.slip_loss() * (1.0 + IDLE)

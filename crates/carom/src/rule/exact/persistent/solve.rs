@@ -11,7 +11,7 @@ use super::accelerations::{
 use super::correction::correct;
 use super::piece::{TURN, TurnStart, through_the_middle, turning_time};
 use super::sliding::sliding_time;
-use super::{NoClosedForm, on_planes};
+use super::{NoClosedForm, with_friction};
 use crate::norm::Norm;
 use crate::respond::{friction_of, restitution_of};
 use crate::rule::exact::contact_scale::ContactScale;
@@ -28,7 +28,7 @@ pub(crate) const REST: f64 = 1e-12;
 /// velocities to zero.
 ///
 /// # Errors
-/// [`NoClosedForm`] where friction acts but on spheres that lie on one plane each.
+/// [`NoClosedForm`] where friction acts but on spheres that lie on one surface at rest each.
 pub(crate) fn find(context: &StepContext, group: &mut Group) -> Result<Vec<Support>, NoClosedForm> {
     let candidates = may_persist(context, group);
     let (persistent, known_forces) = pressing(context.work, &group.members, &candidates);
@@ -36,7 +36,7 @@ pub(crate) fn find(context: &StepContext, group: &mut Group) -> Result<Vec<Suppo
     let forces = persistent.iter().zip(&known_forces);
     let bearing: Vec<Touch> = forces.filter(|it| *it.1 > least).map(|it| *it.0).collect();
     if bearing.iter().any(|touch| friction_of(touch.bodies, context.system).acts()) {
-        return on_planes::find(context, group, &candidates, &bearing);
+        return with_friction::find(context, group, &candidates, &bearing);
     }
     Ok(find_smooth(context, group, candidates, persistent, known_forces))
 }

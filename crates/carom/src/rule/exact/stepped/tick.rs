@@ -8,7 +8,6 @@ use glam::DVec3;
 use crate::bodies::Motion;
 use crate::detect::sphere_surface;
 use crate::id::SphereId;
-use crate::rule::exact::contacts::Plane;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::events::{NextEvents, Prediction};
 use crate::rule::exact::neighbours::NeighbourBuffer;
@@ -53,7 +52,7 @@ pub(crate) fn tick(timeline: &mut Timeline, context: &mut StepContext) -> f64 {
 }
 
 /// Whether a sphere about `center` \[m\] that bears something would have to come back to its zone: friction
-/// acts, and it does not lie on one plane only.
+/// acts, and it does not lie on one surface at rest only.
 fn comes_back(
     timeline: &Timeline,
     context: &StepContext,
@@ -73,8 +72,8 @@ fn comes_back(
     };
     let mut touched = timeline.surfaces_near(slot).filter_map(touches);
     let Some(first) = touched.next() else { return false };
-    let is_plane = Plane::under(center, first, context.system.surfaces).is_some();
-    !is_plane || touched.next().is_some() || species.drag_rate > 0.0
+    let is_at_rest = context.system.surfaces[first as usize].motion.is_at_rest();
+    !is_at_rest || touched.next().is_some() || species.drag_rate > 0.0
 }
 
 /// Begins the straight flights of spheres in a zone from a tick at `now` \[s\] to the next one.

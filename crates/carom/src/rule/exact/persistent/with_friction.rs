@@ -1,19 +1,26 @@
-//! Persistent contacts of a group in which friction acts: of spheres that lie on planes, each by itself.
+//! Persistent contacts of a group in which friction acts: of spheres that lie on planes or curves, each by
+//! itself.
 
 use glam::DVec3;
 
 use super::NoClosedForm;
 use super::planar::{self, PlanarSupport};
+use super::rolling_over;
 use crate::detect::contact::Bodies;
+use crate::norm::Norm;
+use crate::respond::friction_of;
 use crate::rule::exact::contacts::{Corner, Group, Member, Plane, Touch};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::flights::Support;
+use crate::rule::exact::flights::{Support, Supported};
+
+/// Normals that differ by less are one \[rad\]: rounding.
+const SAME_NORMAL: f64 = 1e-9;
 
 /// Finds how each sphere goes on whose contacts press; of the `candidates`, those of two spheres that do not
 /// press let go.
 ///
 /// # Errors
-/// [`NoClosedForm`] if two spheres press on each other, or one on anything but planes at rest.
+/// [`NoClosedForm`] if two spheres press on each other, or one on several surfaces or on one that moves.
 pub(super) fn find(
     context: &StepContext,
     group: &mut Group,
@@ -22,12 +29,17 @@ pub(super) fn find(
 ) -> Result<Vec<Support>, NoClosedForm> {
     let mut supports = Vec::new();
     for place in 0..group.members.len() {
-        if !pressing.iter().any(|touch| touch.places().any(|it| it == place)) {
+        if !pressing.iter().any(|touch| touch.has(place)) {
             continue;
         }
         let member = group.members[place];
+        let own: Vec<Touch> = pressing.iter().filter(|it| it.has(place)).copied().collect();
+        if is_one_curve(&own) {
+            supports.push(over_curve(context, group, place, &own)?);
+            continue;
+        }
         let mut corner = Corner::default();
-        for touch in candidates.iter().filter(|touch| touch.places().any(|it| it == place)) {
+        for touch in candidates.iter().filter(|touch| touch.has(place)) {
             match plane_of(context, &member, touch) {
                 Some(plane) => corner.add(plane).ok_or(NoClosedForm)?,
                 None if is_pressing(touch, pressing) => return Err(NoClosedForm),
@@ -50,6 +62,36 @@ pub(super) fn find(
         (member.velocity, member.angular_velocity) = (velocity, angular_velocity);
     }
     Ok(supports)
+}
+
+/// Whether what bears a sphere is one curve: faces that share an edge have one normal.
+fn is_one_curve(own: &[Touch]) -> bool {
+    own.iter().all(|touch| {
+        let is_same = (touch.normal - own[0].normal).norm() <= SAME_NORMAL;
+        touch.first.is_none() && touch.is_curved() && is_same
+    })
+}
+
+/// How the sphere at a place goes on over a curve, of one surface or several.
+fn over_curve(
+    context: &StepContext,
+    group: &mut Group,
+    place: usize,
+    own: &[Touch],
+) -> Result<Support, NoClosedForm> {
+    let friction = friction_of(own[0].bodies, context.system);
+    let member = &mut group.members[place];
+    let piece = rolling_over::roll_over(context, member, &own[0], friction, group.time)?;
+    *member = piece.member;
+    Ok(Support {
+        members: vec![Supported {
+            slot: member.slot,
+            acceleration: piece.acceleration,
+            rotation: Some([member.angular_velocity, piece.angular_acceleration]),
+        }],
+        contacts: own.iter().map(|touch| touch.bodies).collect(),
+        renewal: group.time + piece.valid_for,
+    })
 }
 
 /// Whether a contact of two spheres, or with something else than a plane at rest, bears something.
