@@ -523,3 +523,20 @@ fn a_ball_rolls_off_a_table_and_hardly_loses_energy() {
     }
     assert!(!world.was_stepped());
 }
+
+#[test]
+fn what_friction_presses_together_is_stepped_at_once() {
+    let mut world = on_floor(0.3);
+    let shape = Shape::Box { size: vec(0.1, 1.0, 2.0) };
+    let pusher = Collider::new(shape, Pose::at(vec(-0.3, 0.5, 0.0))).with_restitution(0.0);
+    world.add_collider(pusher.moving(vec(0.5, 0.0, 0.0), DVec3::ZERO)).unwrap();
+    let id = world.add_sphere(ball(DVec3::ZERO, DVec3::ZERO)).unwrap();
+    let mut impacts = 0;
+    while world.time() < 3.0 {
+        impacts += world.step(1.0 / 60.0).unwrap().impacts.len();
+    }
+    assert!(impacts < 10, "{impacts} impacts");
+    let ball = world.sphere(id).unwrap();
+    assert_close(ball.velocity.x, 0.5, 1e-3);
+    assert_close(ball.angular_velocity.z, -0.5 / RADIUS, 1e-2 / RADIUS);
+}

@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use super::NoClosedForm;
+use super::accelerations::Accelerations;
 use super::planar::{self, PlanarSupport};
 use super::rolling_over;
 use crate::detect::contact::Bodies;
@@ -15,6 +16,10 @@ use crate::rule::exact::flights::{Support, Supported};
 
 /// Normals that differ by less are one \[rad\]: rounding.
 const SAME_NORMAL: f64 = 1e-9;
+
+/// A sphere closes on a surface if it accelerates towards it by more than this part of the accelerations at
+/// work: rounding.
+const CLOSES: f64 = 1e-9;
 
 /// Finds how each sphere goes on whose contacts press; of the `candidates`, those of two spheres that do not
 /// press let go.
@@ -61,7 +66,32 @@ pub(super) fn find(
         let member = &mut group.members[place];
         (member.velocity, member.angular_velocity) = (velocity, angular_velocity);
     }
+    // Two spheres that friction presses together meet again, as in a rack, until they part.
+    let is_other = |touch: &&Touch| {
+        let member = &group.members[touch.second];
+        touch.first.is_none() && plane_of(context, member, touch).is_none()
+    };
+    if candidates.iter().filter(is_other).any(|touch| closes(touch, group, &supports)) {
+        return Err(NoClosedForm);
+    }
     Ok(supports)
+}
+
+/// Whether friction presses a sphere to a surface that it touches, and nothing else does.
+fn closes(touch: &Touch, group: &Group, supports: &[Support]) -> bool {
+    if supports.iter().any(|support| support.contacts.contains(&touch.bodies)) {
+        return false;
+    }
+    let members = &group.members;
+    let mut accelerations: Vec<DVec3> =
+        members.iter().map(|member| member.species.acceleration).collect();
+    for supported in supports.iter().flat_map(|support| &support.members) {
+        if let Some(place) = members.iter().position(|member| member.slot == supported.slot) {
+            accelerations[place] = supported.acceleration;
+        }
+    }
+    let accelerations = Accelerations { each: accelerations, largest: 0.0 };
+    accelerations.along(touch, members) < -CLOSES * accelerations.scale_at(touch, members)
 }
 
 /// Whether what bears a sphere is one curve: faces that share an edge have one normal.
