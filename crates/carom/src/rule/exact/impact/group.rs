@@ -211,7 +211,9 @@ fn respond_to_impacts(
     let plastic: Vec<TouchingContact> = contacts.iter().map(plastic).collect();
     let all: Vec<usize> = (0..count).collect();
     let law = context.parameters.impact_law;
-    let mut resolve = |places: &[usize], contacts: &[TouchingContact], group: &mut Group| {
+    let mut resolve = |(places, contacts): (&[usize], &[TouchingContact]),
+                       group: &mut Group,
+                       impulses: &mut [f64]| {
         let mut after = velocities_of(group);
         let response = respond::resolve_within(context.work, law, contacts, &masses, &mut after);
         for (member, velocity) in group.members.iter_mut().zip(after) {
@@ -221,20 +223,19 @@ fn respond_to_impacts(
         for (&place, impulse) in places.iter().zip(response.impulses) {
             impulses[place] += impulse;
         }
-        impulses.clone()
     };
     let is_merged = |place: &usize| merged.contains(&group.touches[*place].bodies);
     let touching: Vec<usize> = (0..count).filter(|place| !is_merged(place)).collect();
     let given: Vec<_> = touching.iter().map(|&place| contacts[place]).collect();
-    let mut normal_impulses = resolve(&touching, &given, group);
+    resolve((&touching, &given), group, &mut impulses);
     if !merged.is_empty() {
-        normal_impulses = resolve(&all, &plastic, group);
+        resolve((&all, &plastic), group, &mut impulses);
     }
     let mut friction = FrictionImpulses::default();
     if timeline.has_friction() {
-        friction = friction::in_group(context, group, &normal_impulses);
+        friction = friction::in_group(context, group, &impulses);
         // Friction may have set bodies in motion towards others.
-        resolve(&all, &plastic, group);
+        resolve((&all, &plastic), group, &mut impulses);
     }
     let account = account_of([&before, &velocities_of(group)], &masses);
     let account = friction.add_to(ImpactGroup { energy_demanded, ..account });

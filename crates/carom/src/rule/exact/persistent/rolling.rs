@@ -47,11 +47,6 @@ pub(super) struct Rolling {
 }
 
 impl Rolling {
-    /// Whether neither moves nor accelerates what is not spinning on the spot.
-    pub fn is_at_rest(&self) -> bool {
-        [self.velocity, self.acceleration] == [DVec3::ZERO; 2]
-    }
-
     pub const AT_REST: Self = Self {
         velocity: DVec3::ZERO,
         angular_velocity: DVec3::ZERO,
@@ -59,6 +54,11 @@ impl Rolling {
         angular_acceleration: DVec3::ZERO,
         valid_for: f64::INFINITY,
     };
+
+    /// Whether it stays where it is, spinning on the spot or not.
+    pub fn is_at_rest(&self) -> bool {
+        [self.velocity, self.acceleration] == [DVec3::ZERO; 2]
+    }
 }
 
 /// How a sphere goes on: it slides while its surface moves along the plane, else rolls, or rests. What
@@ -137,6 +137,7 @@ impl PressedSphere {
         moment * torque
     }
 
+    /// Whether its surface slides along the plane, or begins to: for longer than a contact's duration \[s\].
     pub fn slides(&self, contact_duration: f64) -> bool {
         let slip = self.slip().norm();
         slip > self.slip_loss() * contact_duration
