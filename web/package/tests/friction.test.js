@@ -65,12 +65,17 @@ test("a ball that lies still falls asleep, and the account counts it", () => {
   assert.equal(step(world, 60).contactAccount.asleep, 1);
 });
 
-test("by other rules there is no account, and no tangential force", () => {
+test("by `exact` friction acts without an account, by `discrete` there is none", () => {
   const world = slidingBall();
   world.setSimulation({ rule: "exact" });
   step(world, 2);
   assert.ok(Object.values(world.contactAccount).every((value) => value === 0));
-  assert.deepEqual(world.contacts[0].tangentialForce, [0, 0, 0]);
+  const { tangentialForce, normalForce, isSliding } = world.contacts[0];
+  assert.ok(isSliding);
+  assert.ok(isNear(tangentialForce[0], -0.3 * normalForce, 1e-9));
+  world.setSimulation({ rule: "discrete" });
+  step(world, 2);
+  assert.deepEqual(world.contacts, []);
 });
 
 test("a world has spin where something turns, or friction can turn it", () => {
@@ -80,7 +85,8 @@ test("a world has spin where something turns, or friction can turn it", () => {
   assert.equal(world.hasSpin, true);
   world.removeSphere(id);
   world.addSphere({ radius: 1, friction: 0.5 });
-  assert.equal(world.hasSpin, false, "by `exact` friction does not act");
+  world.setSimulation({ rule: "discrete" });
+  assert.equal(world.hasSpin, false, "by `discrete` friction does not act");
   world.setSimulation({ rule: "contact" });
   assert.equal(world.hasSpin, true);
 });
