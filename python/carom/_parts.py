@@ -53,8 +53,9 @@ class Sphere(Part):
         mass: Mass [kg], > 0; 1 unless this or ``density`` is given.
         density: Density [kg/m³], > 0.
         restitution: Coefficient of restitution in [0, 1].
-        friction: Coulomb's coefficient of friction, >= 0, under the rules ``exact`` and ``contact``; where it is
-            missing, here and in the next three, the value of what is touched counts.
+        friction: Coulomb's coefficient of friction, >= 0, under the rules ``exact`` and
+            ``contact``; where it is missing, here and in the next three, the value of what is
+            touched counts.
         rolling_friction: Coefficient of rolling friction, >= 0.
         spinning_friction: Coefficient of spinning friction, >= 0.
         tangential_restitution: Coefficient of tangential restitution in [0, 1].
@@ -211,8 +212,9 @@ class Collider(Part):
         name: What it is called.
         visible: Whether it is drawn.
         color: Its colour; the scene's own for surfaces where it is missing.
-        friction: Coulomb's coefficient of friction, >= 0, under the rules ``exact`` and ``contact``; where it is
-            missing, here and in the next three, the value of what is touched counts.
+        friction: Coulomb's coefficient of friction, >= 0, under the rules ``exact`` and
+            ``contact``; where it is missing, here and in the next three, the value of what is
+            touched counts.
         rolling_friction: Coefficient of rolling friction, >= 0.
         spinning_friction: Coefficient of spinning friction, >= 0.
         tangential_restitution: Coefficient of tangential restitution in [0, 1].
