@@ -303,3 +303,15 @@ fn what_makes_no_sense_is_refused_and_changes_nothing() {
     assert_eq!(world.state_hash(), hash);
     assert_eq!(world.spheres().applied_forces(), forces);
 }
+
+#[test]
+fn what_a_force_has_given_stays_when_it_ends() {
+    let mut world = World::new(Settings::default()).unwrap();
+    world.add_sphere(Sphere::new(DVec3::ZERO, 1.0)).unwrap();
+    world.set_applied_forces(&[2.0 * DVec3::X]).unwrap();
+    world.step(0.5).unwrap();
+    world.set_applied_forces(&[DVec3::ZERO]).unwrap();
+    world.step(0.5).unwrap();
+    assert_eq!(world.spheres().velocities()[0], DVec3::X);
+    assert_eq!(world.spheres().positions()[0], 0.75 * DVec3::X);
+}

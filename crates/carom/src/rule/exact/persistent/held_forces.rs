@@ -42,8 +42,10 @@ fn begin_under(
     acceleration: DVec3,
     [start, end]: [f64; 2],
 ) {
-    timeline.flights.set_free_acceleration(slot, acceleration);
+    // Where the forces up to now have brought it.
     let member = Member::at(&timeline.flights, slot, start);
+    timeline.flights.set_free_acceleration(slot, acceleration);
+    let member = Member { species: *timeline.flights.free_species_of(slot), ..member };
     let Some((cluster, planar)) = planar_support(timeline, system, &member, end - start) else {
         timeline.set_free(slot, start);
         timeline.begin_flight(slot, member.position, member.velocity, start);
