@@ -18,6 +18,7 @@ IMPACT = np.dtype(
         ("approach_speed", "f8"),
         ("separation_speed", "f8"),
         ("impulse", "f8"),
+        ("tangential_impulse", "f8", (3,)),
     ]
 )
 """An impact, in the order of time.
@@ -32,6 +33,7 @@ IMPACT = np.dtype(
 ``approach_speed``           along the normal before the impact [m/s], > 0
 ``separation_speed``         along the normal after it and all others at the same instant [m/s]
 ``impulse``                  on body 2 along the normal, and against it on body 1 [N s]
+``tangential_impulse``       of friction on body 2, and against it on body 1 [N s]
 ============================ ===============================================================
 """
 

@@ -1,7 +1,7 @@
 """Friction and rotation: what the engine does reaches Python, and what Python says reaches it."""
 
 import math
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -28,6 +28,21 @@ def test_a_ball_that_slides_comes_to_roll() -> None:
     assert np.linalg.norm(world.orientations[0]) == pytest.approx(1.0)
     assert world.orientations[0, 3] != 1.0
     assert world.rotational_energy == pytest.approx(0.2 * 0.01 * (50 / 7) ** 2, rel=0.02)
+
+
+@pytest.mark.parametrize("rule", ["exact", "contact"])
+def test_an_impact_tells_its_impulse_of_friction(rule: Literal["exact", "contact"]) -> None:
+    world = carom.World()
+    world.simulation = carom.Simulation(rule=rule, frame_time=0.5)
+    world.add_collider(carom.Collider(carom.HalfSpace(), restitution=0.5, friction=0.25))
+    ball = carom.Sphere(position=(0, 0.8, 0), velocity=(4, -2, 0), radius=0.1, mass=2)
+    world.add_sphere(ball)
+    world.step()
+    [impact] = world.impacts
+    # It slides all the time: friction takes 0.25 of m (1 + e) v.
+    assert impact["impulse"] == pytest.approx(6.0, rel=1e-12)
+    np.testing.assert_allclose(impact["tangential_impulse"], (-1.5, 0, 0), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(world.velocities[0], (3.25, 1, 0), rtol=0, atol=1e-12)
 
 
 def test_contacts_and_the_account_tell_of_friction() -> None:

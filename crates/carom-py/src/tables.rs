@@ -59,6 +59,7 @@ impl Table {
         self.numbers(impact.point.to_array());
         self.numbers(impact.normal.to_array());
         self.numbers([impact.approach_speed, impact.separation_speed, impact.impulse]);
+        self.numbers(impact.tangential_impulse.to_array());
     }
 
     /// Appends the ids of two bodies: of a collider or a sphere, body 1, and of a sphere, body 2.

@@ -25,8 +25,8 @@ pub struct ListedImpact {
     /// On body 2, along the normal \[N s\].
     pub impulse: f64,
     /// Change of kinetic energy \[J\]: of the whole group of impacts at that instant where the rule
-    /// keeps account of them; otherwise [`energy_change_alone`]. `None` without account for a
-    /// sphere that has gone since.
+    /// keeps account of them; otherwise [`energy_change_alone`]. `None` without account where friction
+    /// acts, or for a sphere that has gone since.
     pub energy_change: Option<f64>,
     /// How many impacts that group is made of; 1 without account.
     pub group_size: usize,
@@ -66,6 +66,8 @@ impl LastImpacts {
             let group = report.groups.get(group).filter(|group| group.first <= i);
             let energy_change = match group {
                 Some(group) => Some(group.energy_after - group.energy_before),
+                // What friction takes depends on slip, too.
+                None if impact.tangential_impulse != DVec3::ZERO => None,
                 None => reduced_mass(impact.between, world)
                     .map(|reduced_mass| energy_change_alone(impact, reduced_mass)),
             };

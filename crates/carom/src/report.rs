@@ -263,6 +263,9 @@ pub struct Impact {
     pub separation_speed: f64,
     /// Impulse on body 2 along the normal, and against it on body 1 \[N s\].
     pub impulse: f64,
+    /// Impulse of friction on body 2, and against it on body 1, across the normal \[N s\]: zero without
+    /// friction. At the contact point it turns both bodies, too.
+    pub tangential_impulse: DVec3,
 }
 
 /// A sphere inside a trigger at the end of a step.

@@ -1,5 +1,6 @@
-//! Single impacts through the rule `bisect`, and the laws they must obey. Bisection is set to
-//! place the contacts on frames' halves, so nothing here depends on the error of a contact time.
+//! Single impacts, and the laws they must obey: through the rule `bisect` unless a test says otherwise.
+//! Bisection is set to place the contacts on frames' halves, so nothing there depends on the error of
+//! a contact time.
 
 // What is expected need not have the same bits everywhere.
 #![allow(clippy::disallowed_methods)]
@@ -7,7 +8,10 @@
 mod common;
 
 use carom::respond::{line_of_centres, reflection};
-use carom::{BodyPair, CombineRule, DVec3, Mass, Settings, Sphere, World};
+use carom::{
+    BodyPair, Collider, CombineRule, Contact, DQuat, DVec3, Exact, Friction, Mass, Pose, Rule,
+    Settings, Shape, Sphere, SphereId, World,
+};
 use common::{Numbers, assert_close, assert_close_vec, bisect, vec, world};
 
 /// Two unit-diameter spheres that touch halfway through a frame of 1/2 s, given 2 m/s of closing speed.
@@ -127,5 +131,96 @@ fn restitution_of_a_pair_follows_the_selected_rule() {
         world.step(0.5).unwrap();
         let parting = world.sphere(right).unwrap().velocity - world.sphere(left).unwrap().velocity;
         assert_close(parting.x, 2.0 * expected, 1e-15);
+    }
+}
+
+/// Momentum and angular momentum about its own centre \[kg m²/s\] that the impacts of the last step gave a
+/// sphere, by the impulses that they report.
+fn given(world: &World, sphere: &Sphere, id: SphereId) -> [DVec3; 2] {
+    let mut momentum = DVec3::ZERO;
+    let mut spin = DVec3::ZERO;
+    for impact in &world.report().impacts {
+        let (own, other) = match impact.between {
+            BodyPair::Spheres(first, second) => (second, Some(first)),
+            BodyPair::Collider { sphere, .. } => (sphere, None),
+        };
+        let (side, is_of) = if own == id { (1.0, true) } else { (-1.0, other == Some(id)) };
+        if is_of {
+            assert!(impact.tangential_impulse.dot(impact.normal).abs() < 1e-14);
+            let impulse = side * (impact.impulse * impact.normal + impact.tangential_impulse);
+            momentum += impulse;
+            spin += (-side * sphere.radius * impact.normal).cross(impulse);
+        }
+    }
+    [momentum, spin]
+}
+
+/// That what spheres got in a step is what the impulses of its impacts say, friction among them.
+fn assert_impulses_account_for(mut world: World, spheres: &[Sphere], impacts: usize) {
+    let ids: Vec<_> = spheres.iter().map(|it| world.add_sphere(*it).unwrap()).collect();
+    world.step(0.5).unwrap();
+    let reported = &world.report().impacts;
+    assert_eq!(reported.len(), impacts, "{reported:?}");
+    assert!(reported.iter().all(|it| it.tangential_impulse.length() > 0.01 * it.impulse));
+    for (before, id) in spheres.iter().zip(ids) {
+        let after = world.sphere(id).unwrap();
+        let mass = before.kilograms();
+        let inertia = 0.4 * mass * before.radius * before.radius;
+        let [momentum, spin] = given(&world, before, id);
+        // Roundings of one impact.
+        assert_close_vec(mass * (after.velocity - before.velocity), momentum, 1e-13);
+        let turned = inertia * (after.angular_velocity - before.angular_velocity);
+        assert_close_vec(turned, spin, 1e-13);
+    }
+}
+
+fn rough(position: DVec3, velocity: DVec3, spin: DVec3, mass: f64) -> Sphere {
+    let sphere = Sphere::new(position, 0.5).with_mass(mass).with_velocity(velocity);
+    sphere.with_angular_velocity(spin).with_friction(0.3).with_restitution(0.7)
+}
+
+#[test]
+fn impulses_of_friction_tell_how_two_spheres_part_and_turn() {
+    for rule in [Rule::from(Exact::default()), Contact::default().into()] {
+        let spheres = [
+            rough(vec(0.0, 0.0, 0.0), vec(1.0, 0.2, 0.0), vec(0.3, -2.0, 1.0), 2.0),
+            rough(vec(1.5, 0.1, 0.0), vec(-2.0, 0.0, 0.3), vec(1.0, 0.5, 4.0), 3.0),
+        ];
+        assert_impulses_account_for(world(rule), &spheres, 1);
+    }
+}
+
+#[test]
+fn impulses_of_friction_tell_how_a_sphere_leaves_a_wall_or_a_corner() {
+    let wall = |normal: DVec3| {
+        let pose = Pose::at(DVec3::ZERO).rotated(DQuat::from_rotation_arc(DVec3::Y, normal));
+        Collider::new(Shape::HalfSpace, pose)
+    };
+    for rule in [Rule::from(Exact::default()), Contact::default().into()] {
+        let mut one = world(rule);
+        one.add_collider(wall(DVec3::Y)).unwrap();
+        let falls = rough(vec(0.0, 1.0, 0.0), vec(1.0, -2.0, 0.4), vec(3.0, 2.0, 1.0), 2.0);
+        assert_impulses_account_for(one, &[falls], 1);
+    }
+    let mut corner = world(Exact::default());
+    corner.add_collider(wall(DVec3::Y)).unwrap();
+    corner.add_collider(wall(DVec3::X)).unwrap();
+    let both = rough(vec(1.0, 1.0, 0.0), vec(-2.0, -2.0, 0.4), vec(3.0, 2.0, 1.0), 2.0);
+    assert_impulses_account_for(corner, &[both], 2);
+}
+
+#[test]
+fn no_impulse_of_friction_without_friction() {
+    for rule in [Rule::from(Exact::default()), Contact::default().into(), bisect()] {
+        let mut world = world(rule);
+        for x in [0.0, 1.5] {
+            let spin = vec(1.0, 2.0, 3.0);
+            let sphere = rough(vec(x, 0.2 * x, 0.0), vec(2.0 - 1.5 * x, 0.0, 0.0), spin, 1.0);
+            world.add_sphere(sphere.with_friction(Friction::default())).unwrap();
+        }
+        world.step(0.5).unwrap();
+        let impacts = &world.report().impacts;
+        assert!(!impacts.is_empty());
+        assert!(impacts.iter().all(|it| it.tangential_impulse == DVec3::ZERO), "{impacts:?}");
     }
 }

@@ -13,7 +13,8 @@ export const IMPACT_COLUMNS = Object.freeze({
   approachSpeed: 10,
   separationSpeed: 11,
   impulse: 12,
-  count: 13,
+  tangentialImpulse: 13,
+  count: 16,
 });
 
 /** The impacts of a table, an object each. */
@@ -36,5 +37,6 @@ function impact(row) {
     approachSpeed: row[at.approachSpeed],
     separationSpeed: row[at.separationSpeed],
     impulse: row[at.impulse],
+    tangentialImpulse: vector(at.tangentialImpulse),
   };
 }

@@ -313,6 +313,8 @@ export interface Impact {
   separationSpeed: number;
   /** On body 2 along the normal, on body 1 against it [N s]. */
   impulse: number;
+  /** Of friction, across the normal: on body 2, and against it on body 1 [N s]. */
+  tangentialImpulse: [number, number, number];
 }
 
 /** Two bodies that stay in contact, and the force between them. */
@@ -404,8 +406,9 @@ export const IMPACT_COLUMNS: Readonly<{
   approachSpeed: 10;
   separationSpeed: 11;
   impulse: 12;
+  tangentialImpulse: 13;
   /** Numbers in a row. */
-  count: 13;
+  count: 16;
 }>;
 
 /** A world at one moment. Its memory is given back when it is collected as garbage, or by `free`. */

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { World } from "carom";
+import { IMPACT_COLUMNS, World } from "carom";
 
 const isNear = (value, expected, tolerance) =>
   Math.abs(value - expected) <= tolerance * Math.abs(expected);
@@ -21,6 +21,20 @@ const step = (world, frames) => {
   for (let frame = 0; frame < frames; frame++) world.step();
   return world;
 };
+
+test("an impact tells its impulse of friction", () => {
+  for (const rule of ["exact", "contact"]) {
+    const world = new World({ rule, frameTime: 0.5 });
+    world.addCollider({ shape: "half-space", restitution: 0.5, friction: 0.25 });
+    world.addSphere({ position: [0, 0.8, 0], velocity: [4, -2, 0], radius: 0.1, mass: 2 });
+    world.step();
+    const [{ impulse, tangentialImpulse }] = world.impacts;
+    // It slides all the time: friction takes 0.25 of m (1 + e) v.
+    assert.ok(isNear(impulse, 6, 1e-12));
+    assert.ok(isNear(tangentialImpulse[0], -1.5, 1e-12));
+    assert.equal(world.impactTable[IMPACT_COLUMNS.tangentialImpulse], tangentialImpulse[0]);
+  }
+});
 
 test("a ball that slides comes to roll", () => {
   const world = step(slidingBall(), 60);

@@ -10,9 +10,25 @@ use super::csv_file::{csv_file, digits};
 use super::error::{RecordingError, unwritable};
 
 /// Columns: time \[s\]; kind and number of body 1 (`sphere` or `collider`) and number of body 2, a
-/// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; impulse \[N s\].
-const HEADER: [&str; 12] =
-    ["t", "kind1", "body1", "ball2", "x", "y", "z", "nx", "ny", "nz", "approach_speed", "impulse"];
+/// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; impulse along the normal, and of friction
+/// across it, on body 2 \[N s\].
+const HEADER: [&str; 15] = [
+    "t",
+    "kind1",
+    "body1",
+    "ball2",
+    "x",
+    "y",
+    "z",
+    "nx",
+    "ny",
+    "nz",
+    "approach_speed",
+    "impulse",
+    "tangential_x",
+    "tangential_y",
+    "tangential_z",
+];
 
 /// Writes impacts to a CSV file.
 #[derive(Debug)]
@@ -42,8 +58,9 @@ impl ImpactTable {
 
     fn write_row(&mut self, start: f64, impact: &Impact) -> io::Result<()> {
         let fields = impact_fields(start, impact);
-        let speeds = [impact.approach_speed, impact.impulse].map(digits);
-        self.writer.write_record(fields.into_iter().chain(speeds))?;
+        let along_normal = [impact.approach_speed, impact.impulse];
+        let numbers = along_normal.into_iter().chain(impact.tangential_impulse.to_array());
+        self.writer.write_record(fields.into_iter().chain(numbers.map(digits)))?;
         Ok(())
     }
 

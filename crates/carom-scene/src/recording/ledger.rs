@@ -11,10 +11,10 @@ use super::error::{RecordingError, unwritable};
 use super::impacts::impact_fields;
 
 /// Columns: those of the impacts up to the normal; speeds of approach and separation \[m/s\] and
-/// impulse \[N s\]; the law, the number of the group in the run and how many impacts it has; momentum
+/// impulse \[N s\]; that of friction \[N s\]; the law, the number of the group in the run and how many impacts it has; momentum
 /// of the group before and after, less what colliders gave \[kg m/s\]; its kinetic energy before, after
 /// (less the work of moving colliders), and the change that restitution demands \[J\].
-const HEADER: [&str; 25] = [
+const HEADER: [&str; 28] = [
     "t",
     "kind1",
     "body1",
@@ -28,6 +28,9 @@ const HEADER: [&str; 25] = [
     "approach_speed",
     "separation_speed",
     "impulse",
+    "tangential_x",
+    "tangential_y",
+    "tangential_z",
     "law",
     "group",
     "group_size",
@@ -89,6 +92,7 @@ impl LedgerTable {
 fn fields(start: f64, LedgerEntry { impact, group }: LedgerEntry, number: usize) -> Vec<String> {
     let mut fields = impact_fields(start, impact);
     fields.extend([impact.approach_speed, impact.separation_speed, impact.impulse].map(digits));
+    fields.extend(impact.tangential_impulse.to_array().map(digits));
     fields.extend([group.law.to_string(), number.to_string(), group.count.to_string()]);
     let momenta = [group.momentum_before, group.momentum_after];
     fields.extend(momenta.iter().flat_map(|momentum| momentum.to_array()).map(digits));

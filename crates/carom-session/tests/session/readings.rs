@@ -14,6 +14,10 @@ fn view(session: &Session) -> View {
 
 /// Two spheres of 1 kg and 3 kg in a line, which meet with 2 m/s and restitution 0.5.
 fn two_that_meet(rule: Rule) -> Session {
+    Session::new(scene_of_two(rule)).unwrap()
+}
+
+fn scene_of_two(rule: Rule) -> Scene {
     let mut scene = Scene::new("two");
     let mut first = Sphere::at([-1.0, 0.0, 0.0], 0.5);
     (first.velocity, first.restitution) = ([2.0, 0.0, 0.0], 0.5);
@@ -21,7 +25,7 @@ fn two_that_meet(rule: Rule) -> Session {
     second.mass = Some(3.0);
     scene.spheres = vec![first, second];
     scene.simulation.rule = rule;
-    Session::new(scene).unwrap()
+    scene
 }
 
 #[test]
@@ -44,6 +48,20 @@ fn an_impact_is_listed_with_its_time_impulse_and_energy() {
         let [first, .., last] = view.readings[..] else { panic!("too few readings") };
         assert!((last.total_energy() - first.total_energy() + lost).abs() < 1e-12);
         assert!((last.momentum - DVec3::new(2.0, 0.0, 0.0)).length() < 1e-12);
+    }
+}
+
+#[test]
+fn the_energy_of_an_impact_with_friction_is_not_told_without_an_account() {
+    for (rule, is_told) in [(Rule::Exact, true), (Rule::Contact, false)] {
+        let mut scene = scene_of_two(rule);
+        let first = &mut scene.spheres[0];
+        (first.friction, first.angular_velocity) = (Some(0.3), [0.0, 0.0, 5.0]);
+        let mut session = Session::new(scene).unwrap();
+        hashes(&mut session, 60);
+        let view = view(&session);
+        let [impact] = view.impacts[..] else { panic!("{rule:?}: {:?}", view.impacts) };
+        assert_eq!(impact.energy_change.is_some(), is_told, "{rule:?}");
     }
 }
 

@@ -31,6 +31,8 @@ pub use resolve::resolve;
 pub(crate) use resolve::resolve_within;
 pub use touching::{GroupResponse, TouchingContact};
 
+use glam::DVec3;
+
 use crate::bodies::Motion;
 use crate::detect::Separation;
 use crate::detect::contact::{Bodies, Contact};
@@ -124,7 +126,16 @@ fn answer_with(
         }
     };
     let between = BodyPair::of(contact.bodies, system);
-    Some(Impact { time, between, point, normal, approach_speed, separation_speed, impulse })
+    Some(Impact {
+        time,
+        between,
+        point,
+        normal,
+        approach_speed,
+        separation_speed,
+        impulse,
+        tangential_impulse: DVec3::ZERO,
+    })
 }
 
 /// Puts a sphere that hit a flat surface onto it, in place of the normal force that would keep

@@ -286,10 +286,14 @@ impl Batches {
     /// The impulse on sphere 2, normal and tangential \[N s\].
     pub fn impulse(&self, number: usize, lane: usize) -> DVec3 {
         let batch = &self.pairs[number];
-        let tangential =
-            self.frictions.get(number).map_or([0.0; 3], |it| get(&it.tangential, lane));
         let normal = DVec3::from_array(get(&batch.normal, lane));
-        batch.impulse[lane] * normal + DVec3::from_array(tangential)
+        batch.impulse[lane] * normal + self.tangential_impulse(number, lane)
+    }
+
+    /// The impulse of friction on sphere 2 \[N s\].
+    pub fn tangential_impulse(&self, number: usize, lane: usize) -> DVec3 {
+        let friction = self.frictions.get(number);
+        friction.map_or(DVec3::ZERO, |it| DVec3::from_array(get(&it.tangential, lane)))
     }
 
     pub fn count(&self) -> usize {

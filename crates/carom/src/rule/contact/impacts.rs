@@ -82,10 +82,13 @@ fn bounce(
 fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) {
     for (number, lane, approach_speed) in slab.batches.impacts() {
         let pair = &slab.batches.pairs[number];
+        let mut tangential_impulse = slab.batches.tangential_impulse(number, lane);
         let mut normal = DVec3::from_array(batch::get(&pair.normal, lane));
         let [mut first, mut second] = slab.slots_of(number, lane);
         if solver.slots.id[first] > solver.slots.id[second] {
             (first, second, normal) = (second, first, -normal);
+            // From zero, for it not to become -0.
+            tangential_impulse = DVec3::ZERO - tangential_impulse;
         }
         let at = &solver.slots;
         let relative = at.velocity[second].vector() - at.velocity[first].vector();
@@ -98,6 +101,7 @@ fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) 
             approach_speed,
             separation_speed: relative.dot(normal),
             impulse: pair.impulse[lane],
+            tangential_impulse,
         });
     }
 }
@@ -127,6 +131,7 @@ fn of_surfaces(
             approach_speed: contact.approach,
             separation_speed: relative.dot(contact.normal),
             impulse: contact.impulses.normal,
+            tangential_impulse: DVec3::from_array(contact.impulses.tangential),
         });
     }
 }

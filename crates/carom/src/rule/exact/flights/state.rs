@@ -119,6 +119,13 @@ impl Flights {
         rotation.map_or(DVec3::ZERO, |rotation| rotation.angular_velocity_at(time))
     }
 
+    /// Has no torque act on a sphere from `time` \[s\] on, where friction acts.
+    pub fn let_go(&mut self, slot: u32, time: f64) {
+        if let Some(rotation) = self.rotations.get_mut(self.index_of[slot as usize] as usize) {
+            rotation.let_go(time);
+        }
+    }
+
     /// Has a sphere turn with an angular velocity \[rad/s\] and an angular acceleration \[rad/s²\] from
     /// `time` \[s\] on, where friction acts.
     pub fn rotate(&mut self, slot: u32, rotation: [DVec3; 2], time: f64) {
@@ -157,8 +164,7 @@ impl Flights {
         self.clusters.remove(cluster);
         self.spare_species.push(self.bodies[slot as usize].species);
         self.bodies[slot as usize].species = species.free;
-        let angular_velocity = self.angular_velocity_of(slot, time);
-        self.rotate(slot, [angular_velocity, DVec3::ZERO], time);
+        self.let_go(slot, time);
         true
     }
 

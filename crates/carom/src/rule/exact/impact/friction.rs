@@ -21,6 +21,11 @@ pub(super) struct FrictionImpulses {
 }
 
 impl FrictionImpulses {
+    /// All impulses together \[N s\].
+    pub fn total(&self) -> DVec3 {
+        self.impulses.iter().sum()
+    }
+
     /// An account of the group, with rotation and with what friction demands.
     pub fn add_to(&self, account: ImpactGroup) -> ImpactGroup {
         ImpactGroup {

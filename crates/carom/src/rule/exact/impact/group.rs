@@ -1,6 +1,8 @@
 //! Impacts of a group: all that touches at one instant is answered together, and contacts that would
 //! not part again become persistent.
 
+use std::iter::repeat;
+
 use glam::DVec3;
 
 use super::account::account_of;
@@ -208,8 +210,11 @@ fn respond_to_impacts(
     let before = velocities_of(group);
     let contacts = contacts_of(timeline, context, group);
     let plastic = |contact: &TouchingContact| TouchingContact { restitution: 0.0, ..*contact };
-    let plastic: Vec<TouchingContact> = contacts.iter().map(plastic).collect();
-    let all: Vec<usize> = (0..count).collect();
+    let has_friction = timeline.has_friction();
+    // Where nothing is answered a second time there are none.
+    let repeated = if merged.is_empty() && !has_friction { 0 } else { count };
+    let plastic: Vec<TouchingContact> = contacts[..repeated].iter().map(plastic).collect();
+    let all: Vec<usize> = (0..repeated).collect();
     let law = context.parameters.impact_law;
     let mut resolve = |(places, contacts): (&[usize], &[TouchingContact]),
                        group: &mut Group,
@@ -232,7 +237,7 @@ fn respond_to_impacts(
         resolve((&all, &plastic), group, &mut impulses);
     }
     let mut friction = FrictionImpulses::default();
-    if timeline.has_friction() {
+    if has_friction {
         friction = friction::in_group(context, group, &impulses);
         // Friction may have set bodies in motion towards others.
         resolve((&all, &plastic), group, &mut impulses);
@@ -257,8 +262,9 @@ fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
         }
     }
     let mut impacts: Vec<Impact> = Vec::new();
-    for ((touch, &impulse), &approach_speed) in
-        group.touches.iter().zip(impulses).zip(approach_speeds)
+    let frictions = friction.impulses.iter().copied().chain(repeat(DVec3::ZERO));
+    for (((touch, &impulse), &approach_speed), tangential_impulse) in
+        group.touches.iter().zip(impulses).zip(approach_speeds).zip(frictions)
     {
         if impulse <= 0.0 {
             continue;
@@ -273,6 +279,7 @@ fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
         let same = impacts.iter_mut().find(|it| it.between == between && it.point == point);
         if let Some(impact) = same {
             impact.impulse += impulse;
+            impact.tangential_impulse += tangential_impulse;
             continue;
         }
         impacts.push(Impact {
@@ -283,6 +290,7 @@ fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
             approach_speed,
             separation_speed: touch.normal_velocity(&group.members),
             impulse,
+            tangential_impulse,
         });
     }
     if !impacts.is_empty() {

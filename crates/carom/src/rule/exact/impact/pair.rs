@@ -166,6 +166,7 @@ impl PairImpact {
         let Some(impulse) = self.impulse else { return };
         let species = slots.map(|slot| timeline.flights.species_of(slot));
         let [first, second] = slots.map(|slot| context.id_of(timeline, slot));
+        let friction = self.friction.as_ref().map(|friction| &friction.0);
         let point = self.places[0] + species[0].radius * self.normal;
         let impact = Impact {
             time: context.since_start(self.time),
@@ -175,6 +176,7 @@ impl PairImpact {
             approach_speed: self.approach_speed,
             separation_speed: (self.velocities[1] - self.velocities[0]).dot(self.normal),
             impulse,
+            tangential_impulse: friction.map_or(DVec3::ZERO, FrictionImpulses::total),
         };
         let account = account_of_pair(
             self.velocities_before,
@@ -183,7 +185,6 @@ impl PairImpact {
             self.approach_speed,
             self.restitution,
         );
-        let with_rotation = self.friction.as_ref().map(|friction| friction.0.add_to(account));
-        context.record([impact], with_rotation.unwrap_or(account));
+        context.record([impact], friction.map_or(account, |friction| friction.add_to(account)));
     }
 }

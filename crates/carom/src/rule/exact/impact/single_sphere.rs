@@ -36,9 +36,8 @@ pub(crate) fn of_sphere(
         return group::answer(timeline, context, &[slot], surface, time);
     };
     // With friction, one contact feels the other; and drag leaves no closed form.
-    let has_friction = timeline.has_friction();
-    let is_one = touched.contacts(member.position).iter().flatten().count() == 1;
-    if has_friction && !(is_one && member.species.drag_rate == 0.0) {
+    let is_one = || touched.contacts(member.position).iter().flatten().count() == 1;
+    if timeline.has_friction() && !(is_one() && member.species.drag_rate == 0.0) {
         return group::answer(timeline, context, &[slot], surface, time);
     }
     let fastest = member.velocity.norm();
@@ -58,7 +57,7 @@ pub(crate) fn of_sphere(
     if struck.iter().any(Option::is_some) {
         timeline.flights.bodies[slot as usize].strike();
     }
-    let sphere = timeline.flights.index_of[slot as usize];
+    let sphere = member.index;
     if let Some(planar) = planar {
         let PlanarSupport { valid_for, persists, .. } = planar;
         let lasting = corner.planes().zip(persists).filter(|it| it.1).map(|it| it.0.surface);
@@ -122,6 +121,7 @@ fn strike(
             approach_speed,
             separation_speed: member.velocity.dot(contact.normal),
             impulse,
+            tangential_impulse: friction.total(),
         });
     }
     if struck.iter().any(Option::is_some) {
@@ -129,7 +129,7 @@ fn strike(
         for impact in impacts.iter().flatten() {
             account.momentum_after -= impact.impulse * impact.normal;
         }
-        account.momentum_after -= friction.impulses.iter().sum::<DVec3>();
+        account.momentum_after -= friction.total();
         let account = friction.add_to(ImpactGroup { energy_demanded, ..account });
         context.record(impacts.into_iter().flatten(), account);
     }

@@ -15,8 +15,8 @@ mod with_friction;
 
 pub(super) use accelerations::{free_acceleration, is_back_within};
 pub(super) use listing::list;
+pub(super) use solve::REST;
+
 /// Friction acts at contacts whose motion has no closed form.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NoClosedForm;
-
-pub(super) use solve::REST;

@@ -51,8 +51,8 @@ pub(crate) fn settle(timeline: &Timeline, context: &StepContext, group: &mut Gro
                 // On the piece of path its normal was in the plane of the sliding.
                 cluster.hold_along(touch.sliding(members));
             }
-            let friction = respond::friction_of(touch.bodies, context.system);
-            cluster.gets_work |= touch.does_work() || friction.acts();
+            let has_friction = || respond::friction_of(touch.bodies, context.system).acts();
+            cluster.gets_work |= touch.does_work() || (timeline.has_friction() && has_friction());
         }
     }
     let is_restored = |cluster: &&Cluster| cluster.is_curved && !cluster.gets_work;

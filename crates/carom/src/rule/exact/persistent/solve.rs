@@ -33,9 +33,9 @@ pub(crate) fn find(context: &StepContext, group: &mut Group) -> Result<Vec<Suppo
     let candidates = may_persist(context, group);
     let (persistent, known_forces) = pressing(context.work, &group.members, &candidates);
     let least = IDLE * known_forces.iter().copied().fold(0.0, f64::max);
-    let forces = persistent.iter().zip(&known_forces);
-    let bearing: Vec<Touch> = forces.filter(|it| *it.1 > least).map(|it| *it.0).collect();
-    if bearing.iter().any(|touch| friction_of(touch.bodies, context.system).acts()) {
+    let bearing = || persistent.iter().zip(&known_forces).filter(|it| *it.1 > least).map(|it| it.0);
+    if bearing().any(|touch| friction_of(touch.bodies, context.system).acts()) {
+        let bearing: Vec<Touch> = bearing().copied().collect();
         return with_friction::find(context, group, &candidates, &bearing);
     }
     Ok(find_smooth(context, group, candidates, persistent, known_forces))

@@ -166,8 +166,7 @@ fn leave(
         }
     }
     timeline.flights.leave_zone(slot, [position, velocity], now);
-    let angular_velocity = timeline.flights.angular_velocity_of(slot, now);
-    timeline.flights.rotate(slot, [angular_velocity, DVec3::ZERO], now);
+    timeline.flights.let_go(slot, now);
     predict::predict(timeline, context, slot, now);
     timeline.zone.near.push(slot);
     context.report.zone_account.left += 1;
