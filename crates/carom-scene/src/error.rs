@@ -34,7 +34,7 @@ pub enum SceneError {
     Unknown {
         /// The name requested.
         name: String,
-        /// The name most like it.
+        /// The name or title that it is a word of, or the one most like it.
         nearest: Option<String>,
     },
     /// An override is not of the form `path=value`.

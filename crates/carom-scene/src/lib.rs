@@ -35,6 +35,7 @@ mod requirement;
 pub mod scene;
 mod schema;
 mod settings;
+mod wording;
 mod world;
 
 pub use builtin::FILES as BUILT_IN_FILES;

@@ -131,10 +131,12 @@ impl Library {
     }
 
     /// The scene with a name or title (in any case), or in the file of this path, with some
-    /// values changed.
+    /// values changed. Where no scene has the name `drop`, it is that in the file `drop.toml` of the current
+    /// folder.
     ///
     /// # Errors
-    /// [`SceneError::Unknown`] with the nearest name, or what is wrong with the scene.
+    /// [`SceneError::Unknown`] with the name or title that it is a word of, or else the nearest one; or what
+    /// is wrong with the scene.
     pub fn find(&self, name: &str, overrides: &[Override]) -> Result<(Scene, Source), SceneError> {
         if is_path(name) {
             let path = Path::new(name);
@@ -171,7 +173,14 @@ impl Library {
             }
             known.extend([own.name, own.title]);
         }
-        let nearest = nearest(name, known.iter().map(String::as_str));
+        let file = PathBuf::from(format!("{name}.toml"));
+        if !name.is_empty() && file.is_file() {
+            return Ok((Scene::from_file(&file, overrides)?, Source::File(file)));
+        }
+        let is_word = |word: &str| !word.is_empty() && word.to_lowercase() == wanted;
+        let holds = |own: &&String| own.split(|it: char| !it.is_alphanumeric()).any(is_word);
+        let nearest = || nearest(name, known.iter().map(String::as_str));
+        let nearest = known.iter().find(holds).cloned().or_else(nearest);
         Err(SceneError::Unknown { name: name.to_owned(), nearest })
     }
 }

@@ -6,9 +6,10 @@ use serde::Deserialize;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
-use crate::error::{Fault, Problem, SceneError, nearest, segments};
+use crate::error::{Fault, Problem, SceneError, segments};
 use crate::overrides::Override;
 use crate::scene::Scene;
+use crate::wording::{in_plain_words, suggestion};
 use crate::world;
 
 impl Scene {
@@ -104,7 +105,7 @@ fn read(table: Table) -> Result<Scene, Problem> {
     let scene: Scene = serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
         let path = error.path().to_string();
         let path = if path == "." { String::new() } else { path };
-        Problem::new(path, error.into_inner().message().trim())
+        Problem::new(path, in_plain_words(error.into_inner().message().trim()))
     })?;
     world::build(&scene)?;
     Ok(scene)
@@ -139,16 +140,6 @@ fn fault(source_name: &str, line: Option<usize>, field: &str, problem: &str) -> 
         problem: problem.lines().next().unwrap_or_default().to_owned(),
         nearest: suggestion(problem),
     }
-}
-
-/// For "unknown field `x`, expected one of `y`, `z`": which of the expected is meant.
-fn suggestion(message: &str) -> Option<String> {
-    if !message.starts_with("unknown ") {
-        return None;
-    }
-    let mut quoted = message.split('`').skip(1).step_by(2);
-    let name = quoted.next()?;
-    nearest(name, quoted)
 }
 
 /// Line of what a problem is about: the field itself, or the nearest thing around it that is

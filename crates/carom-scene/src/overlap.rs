@@ -30,7 +30,8 @@ pub(crate) fn refuse(
             let number = collider.number();
             let colliders = scene.all_colliders();
             let name = colliders.get(number as usize).map_or("", |collider| &collider.name);
-            (sphere, format!("colliders[{number}] \"{name}\""))
+            let name = if name.is_empty() { String::new() } else { format!(" \"{name}\"") };
+            (sphere, format!("colliders[{number}]{name}"))
         }
     };
     let text = format!(

@@ -29,19 +29,21 @@ fn settings(simulation: &Simulation) -> Settings {
     };
     Settings::default()
         .with_rule(rule)
-        .with_combine_rule(combine_rule(simulation.combine_rule))
-        .with_friction_combine_rule(combine_rule(simulation.friction_combine_rule))
+        .with_combine_rule(simulation.combine_rule.into())
+        .with_friction_combine_rule(simulation.friction_combine_rule.into())
         .with_spheres_collide(simulation.spheres_collide)
         .with_boundary(boundary)
 }
 
-fn combine_rule(rule: CombineRule) -> carom::CombineRule {
-    match rule {
-        CombineRule::Product => carom::CombineRule::Product,
-        CombineRule::Minimum => carom::CombineRule::Minimum,
-        CombineRule::Maximum => carom::CombineRule::Maximum,
-        CombineRule::Average => carom::CombineRule::Average,
-        CombineRule::GeometricMean => carom::CombineRule::GeometricMean,
+impl From<CombineRule> for carom::CombineRule {
+    fn from(rule: CombineRule) -> Self {
+        match rule {
+            CombineRule::Product => Self::Product,
+            CombineRule::Minimum => Self::Minimum,
+            CombineRule::Maximum => Self::Maximum,
+            CombineRule::Average => Self::Average,
+            CombineRule::GeometricMean => Self::GeometricMean,
+        }
     }
 }
 

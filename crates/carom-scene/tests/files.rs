@@ -68,14 +68,33 @@ fn every_mistake_is_told_with_its_line_and_field() {
         ("radius = 0.5", "", "6: spheres[0]: needs `radius` or `diameter`"),
         ("radius = 0.5", "radius = 1\ndiameter = 2", "9: spheres[0].diameter: `radius` says"),
         ("radius = 0.5", "diameter = inf", "8: spheres[0].diameter: must be positive"),
-        ("radius = 0.5", "radius = \"big\"", "8: spheres[0].radius: invalid type"),
+        (
+            "radius = 0.5",
+            "radius = \"big\"",
+            "8: spheres[0].radius: invalid type: string \"big\", expected a number",
+        ),
+        (
+            "count = 3",
+            "count = 3.5",
+            "12: generators[0].row.count: invalid type: floating point `3.5`, expected a whole number",
+        ),
         ("radius = 0.5", "radius = 1\nmass = 0", "9: spheres[0].mass: must be positive"),
         ("radius = 0.5", "radius = 1\nmass = 1\ndensity = 1", "10: spheres[0].density: `mass`"),
         ("radius = 0.5", "radius = 0.5 m", "8"),
-        ("position = [0, 2, 0]", "position = [0, 2]", "7: spheres[0].position: invalid length"),
+        (
+            "position = [0, 2, 0]",
+            "position = [0, 2]",
+            "7: spheres[0].position: has 2 values, not 3",
+        ),
+        (
+            "[0, -9.81, 0]",
+            "[0, -9,81, 0]",
+            "4: forces[0].gravity.acceleration: 4 values are too many",
+        ),
         ("[0, 2, 0]", "[0, inf, 0]", "7: spheres[0].position: must be finite"),
         ("[0, -9.81, 0]", "[0, nan, 0]", "4: forces[0].gravity.acceleration: must be finite"),
         ("[0, -9.81, 0]", "\"down\"", "4: forces[0].gravity.acceleration: invalid type"),
+        ("[[spheres]]", "[spheres]", "6: spheres: is one table, not a list"),
         ("count = 3", "count = 0", "12: generators[0].row.count: must make 1 to"),
         ("count = 3", "count = -3", "12: generators[0].row.count: invalid value"),
         ("[0, 5, 0]", "[nan, 5, 0]", "13: generators[0].row.start: must be finite"),
@@ -203,6 +222,10 @@ fn unknown_names_bring_the_nearest_known_one() {
         ("generators.row", "generators.rows", 11, "row"),
         ("[[emitters]]", "[[emiters]]", 25, "emitters"),
         ("mass = 2", "mas = 2", 28, "mass"),
+        ("[colliders.shape.rectangle]", "shape = \"plane\"\n[other]", 21, "half-space"),
+        ("restitution = 0.5", "bounciness = 0.5", 19, "restitution"),
+        ("radius = 0.5", "radius = 0.5\nspin = [0, 1, 0]", 9, "angular_velocity"),
+        ("[[spheres]]", "[[balls]]", 6, "spheres"),
         (
             "[camera]",
             "[simulation.bisect]\nintegrator = \"runge-kuta-4\"\n[camera]",
@@ -393,6 +416,8 @@ fn scenes_are_found_in_folders_and_among_registered_ones() {
     assert_eq!(library.find(file.to_str().unwrap(), &[]).unwrap().0.name, "mine");
     let missing = library.find("simtst3", &[]).unwrap_err().to_string();
     assert!(missing.contains("did you mean \"simtest3\"?"), "{missing}");
+    let missing = library.find("sphere", &[]).unwrap_err().to_string();
+    assert!(missing.contains("did you mean \"Rain on a sphere\"?"), "{missing}");
     let missing = library.find("nosuch.toml", &[]).unwrap_err().to_string();
     assert!(missing.starts_with("cannot read nosuch.toml"), "{missing}");
     assert!(Library::new().add_folder(&folder.path().join("none")).is_err());

@@ -1,0 +1,84 @@
+//! What is wrong with a value, in words of those that write scenes: the reader of TOML speaks of types.
+
+use crate::error::nearest;
+
+/// Words that others use for what a scene calls otherwise.
+const SYNONYMS: [(&str, &str); 22] = [
+    ("ball", "sphere"),
+    ("balls", "spheres"),
+    ("bounce", "restitution"),
+    ("bounciness", "restitution"),
+    ("colour", "color"),
+    ("cube", "box"),
+    ("cuboid", "box"),
+    ("elasticity", "restitution"),
+    ("floor", "half-space"),
+    ("ground", "half-space"),
+    ("halfspace", "half-space"),
+    ("mu", "friction"),
+    ("obstacles", "colliders"),
+    ("omega", "angular_velocity"),
+    ("planes", "colliders"),
+    ("plane", "half-space"),
+    ("quad", "rectangle"),
+    ("size", "radius"),
+    ("speed", "velocity"),
+    ("spin", "angular_velocity"),
+    ("wall", "half-space"),
+    ("walls", "colliders"),
+];
+
+/// A message of the reader in plain words.
+pub(crate) fn in_plain_words(message: &str) -> String {
+    let message = message.lines().next().unwrap_or_default();
+    if let Some((count, expected)) =
+        message.strip_prefix("invalid length ").and_then(|rest| rest.split_once(", expected "))
+    {
+        return match expected.strip_prefix("an array of length ") {
+            Some(wanted) => format!("has {count} values, not {wanted}"),
+            None => format!("{count} values are too many; decimals have a point, not a comma"),
+        };
+    }
+    if message == "invalid type: map, expected a sequence" {
+        return "is one table, not a list: a list has double brackets, like [[spheres]]".to_owned();
+    }
+    let Some((found, expected)) = message.split_once(", expected ") else {
+        return message.to_owned();
+    };
+    let found = match found {
+        "invalid type: map" => "invalid type: a table",
+        "invalid type: sequence" => "invalid type: an array",
+        other => other,
+    };
+    format!("{found}, expected {}", name_of_type(expected))
+}
+
+/// What a type of Rust is to those that write scenes.
+fn name_of_type(expected: &str) -> &str {
+    match expected {
+        "f32" | "f64" => "a number",
+        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number from 0 on",
+        "i32" | "i64" => "a whole number",
+        "a sequence" => "a list",
+        "a map" => "a table",
+        _ if expected.starts_with("struct ") => "a table",
+        _ if expected.starts_with("an array of length 3") => "an array of 3 numbers",
+        _ if expected.starts_with("an array of length 4") => "an array of 4 numbers",
+        other => other,
+    }
+}
+
+/// For "unknown field `x`, expected one of `y`, `z`": which of the expected is meant.
+pub(crate) fn suggestion(message: &str) -> Option<String> {
+    if !message.starts_with("unknown ") {
+        return None;
+    }
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    let name = quoted.next()?;
+    let known: Vec<&str> = quoted.collect();
+    let synonym = SYNONYMS.iter().find(|(word, _)| *word == name.to_lowercase());
+    match synonym.filter(|(_, meant)| known.contains(meant)) {
+        Some((_, meant)) => Some((*meant).to_owned()),
+        None => nearest(name, known),
+    }
+}
