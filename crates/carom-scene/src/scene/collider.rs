@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::rotation;
 use super::values::{Color, Quaternion, Vector, is_default, one, unturned};
 
 /// A fixed shape that spheres bounce off.
@@ -18,7 +19,8 @@ pub struct Collider {
     #[serde(default)]
     pub position: Vector,
     /// How it is turned.
-    #[serde(default = "unturned")]
+    #[schemars(with = "rotation::Rotation")]
+    #[serde(default = "unturned", deserialize_with = "rotation::read")]
     pub rotation: Quaternion,
     /// How fast its centre moves, in m/s.
     #[serde(default, skip_serializing_if = "is_default")]

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::rotation;
 use super::sphere::Sphere;
 use super::values::{Quaternion, Vector, unturned};
 
@@ -17,7 +18,8 @@ pub struct Emitter {
     #[serde(default)]
     pub position: Vector,
     /// How the emitter, and with it the velocity of its spheres, is turned.
-    #[serde(default = "unturned")]
+    #[schemars(with = "rotation::Rotation")]
+    #[serde(default = "unturned", deserialize_with = "rotation::read")]
     pub rotation: Quaternion,
     /// Time between two spheres, in s, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]

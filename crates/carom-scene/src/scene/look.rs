@@ -3,32 +3,70 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::rotation;
 use super::values::{Color, Quaternion, Vector, one, unturned};
 
 /// Where to look from. The camera looks along its local -z.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(try_from = "WrittenCamera")]
+#[schemars(with = "WrittenCamera")]
 pub struct Camera {
     /// In m.
     pub position: Vector,
     /// Rotation of the camera.
-    #[serde(default = "unturned")]
     pub rotation: Quaternion,
     /// Vertical field of view, in degrees, in (0, 180).
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 180.0))]
-    #[serde(default = "sixty")]
     pub vertical_fov_degrees: f64,
     /// Nearest distance drawn, in m, > 0.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    #[serde(default = "near")]
     pub near: f64,
     /// Farthest distance drawn, in m, > near.
-    #[serde(default = "far")]
     pub far: f64,
 }
 
-fn sixty() -> f64 {
-    60.0
+/// Where to look from. The camera looks along its local -z.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Camera")]
+struct WrittenCamera {
+    /// In m.
+    position: Vector,
+    /// Rotation of the camera; unturned where neither it nor `look_at` is given.
+    #[schemars(with = "rotation::Rotation")]
+    #[serde(default, deserialize_with = "rotation::read_some")]
+    rotation: Option<Quaternion>,
+    /// A point to look at instead of a rotation, in m; +y is upward in the picture.
+    look_at: Option<Vector>,
+    /// Vertical field of view, in degrees, in (0, 180).
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 180.0))]
+    #[serde(default = "thirty_five")]
+    vertical_fov_degrees: f64,
+    /// Nearest distance drawn, in m, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[serde(default = "near")]
+    near: f64,
+    /// Farthest distance drawn, in m, > near.
+    #[serde(default = "far")]
+    far: f64,
+}
+
+impl TryFrom<WrittenCamera> for Camera {
+    type Error = String;
+
+    fn try_from(written: WrittenCamera) -> Result<Self, String> {
+        let WrittenCamera { position, rotation, look_at, vertical_fov_degrees, near, far } =
+            written;
+        let rotation = match (rotation, look_at) {
+            (Some(_), Some(_)) => return Err("takes `rotation` or `look_at`, not both".to_owned()),
+            (Some(rotation), None) => rotation,
+            (None, Some(target)) => rotation::looking_at(position, target)?,
+            (None, None) => unturned(),
+        };
+        Ok(Self { position, rotation, vertical_fov_degrees, near, far })
+    }
+}
+
+fn thirty_five() -> f64 {
+    35.0
 }
 
 fn near() -> f64 {
@@ -44,6 +82,8 @@ fn far() -> f64 {
 #[serde(deny_unknown_fields)]
 pub struct Sun {
     /// Rotation of the light.
+    #[schemars(with = "rotation::Rotation")]
+    #[serde(deserialize_with = "rotation::read")]
     pub rotation: Quaternion,
     /// Colour of the light.
     pub color: Color,

@@ -7,6 +7,7 @@ mod emitter;
 mod force;
 mod generator;
 mod look;
+mod rotation;
 mod simulation;
 mod sphere;
 pub(crate) mod values;

@@ -4,6 +4,7 @@ use carom::SOLID_BALL;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::rotation;
 use super::values::{Color, Quaternion, Vector, is_default, is_unturned, one, unturned};
 
 /// A sphere, or what the spheres of a generator or an emitter have in common.
@@ -59,7 +60,9 @@ pub struct Sphere {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_restitution: Option<f64>,
     /// How it is turned at the start.
-    #[serde(default = "unturned", skip_serializing_if = "is_unturned")]
+    #[schemars(with = "rotation::Rotation")]
+    #[serde(default = "unturned", deserialize_with = "rotation::read")]
+    #[serde(skip_serializing_if = "is_unturned")]
     pub orientation: Quaternion,
     /// How fast it turns, along the axis, in rad/s; in an emitter in the emitter's frame.
     #[serde(default, skip_serializing_if = "is_default")]
