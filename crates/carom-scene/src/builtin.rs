@@ -1,4 +1,5 @@
-//! The scenes that are part of Carom: the files of `scenes/`, embedded.
+//! The scenes that are part of Carom: the files of `scenes/`, embedded, in the order in which they are
+//! listed.
 
 macro_rules! embed {
     ($($file:literal),* $(,)?) => {
@@ -9,24 +10,26 @@ macro_rules! embed {
 }
 
 embed!(
+    "billiards.toml",
+    "pour.toml",
+    "cradle.toml",
+    "galton.toml",
+    "gas.toml",
+    "chain-reaction.toml",
+    "hourglass.toml",
+    "avalanche.toml",
+    "granular-column.toml",
+    "draw-shot.toml",
+    "masse.toml",
+    "maze.toml",
     "simtest1.toml",
     "simtest2.toml",
     "simtest3.toml",
     "simtest4.toml",
     "simtest5.toml",
     "simtest6.toml",
-    "maze.toml",
     "tutorial1.toml",
     "tutorial2.toml",
     "tutorial3.toml",
     "tutorial4.toml",
-    "pour.toml",
-    "billiards.toml",
-    "draw-shot.toml",
-    "masse.toml",
-    "galton.toml",
-    "granular-column.toml",
-    "hourglass.toml",
-    "avalanche.toml",
-    "chain-reaction.toml",
 );
