@@ -6,8 +6,9 @@ use carom_scene::scene::{Rule, Scene};
 use crate::edit::Edit;
 use crate::link::Link;
 
-/// A command to a driver. The driver obeys commands in the order in which they arrive; one that
-/// fails says why in the next view, and changes nothing.
+/// A command to a driver. The driver obeys commands in the order in which they arrive, but does not
+/// let those wait on the way elsewhere that can be obeyed at any time; one that fails says why in the
+/// next view, and changes nothing.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Command {
@@ -22,9 +23,9 @@ pub enum Command {
     /// Go back to the beginning; time goes on from there, if it did.
     Restart,
     /// Go to the frame nearest to this time \[s\]; time goes on from there, if it did. Another
-    /// command that goes elsewhere takes its place; every other one waits until it is there.
+    /// command that goes elsewhere takes its place; changes and steps wait until it is there.
     Seek(f64),
-    /// Give up going elsewhere: stay where it has come to.
+    /// Give up going elsewhere: stay where it has come to. What waits is done there.
     StopSeeking,
     /// Simulated seconds per second, between [`SLOWEST`](crate::SLOWEST) and
     /// [`FASTEST`](crate::FASTEST).
@@ -56,6 +57,13 @@ impl Command {
             Self::Edit(_) | Self::Pick(_) => false,
             Self::ShowStateHash(_) | Self::ShowContacts(_) => false,
         }
+    }
+
+    /// Whether it is about the way things are shown and played, whatever the time: it need not wait
+    /// until a way elsewhere has come to its end.
+    pub(crate) fn is_of_any_time(&self) -> bool {
+        matches!(self, Self::Play | Self::Pause | Self::Speed(_) | Self::Pick(_))
+            || matches!(self, Self::ShowStateHash(_) | Self::ShowContacts(_))
     }
 
     /// Whether a frame at work is given up for it.

@@ -34,8 +34,8 @@ pub enum SessionError {
         /// The time requested \[s\].
         seconds: f64,
     },
-    /// The frame at this time cannot be named.
-    #[error("cannot go to {seconds} s: so many frames cannot be counted")]
+    /// The frame at this time is too far from the start.
+    #[error("cannot go to {seconds} s: that is more than 100,000,000 frames after the start")]
     TooFar {
         /// The time requested \[s\].
         seconds: f64,

@@ -65,8 +65,7 @@ impl Player {
     fn obey(&mut self, time_is_up: &mut dyn FnMut() -> bool) -> bool {
         loop {
             let is_on_the_way = self.watched.seeking().is_some();
-            let next = self.queue.pop_if(|it| !is_on_the_way || it.goes_elsewhere());
-            match next {
+            match self.next_command(is_on_the_way) {
                 Some(command) => self.execute(command),
                 None if is_on_the_way => {
                     self.has_news = true;
@@ -80,6 +79,17 @@ impl Player {
                 return self.queue.is_empty() && self.watched.seeking().is_none();
             }
         }
+    }
+
+    /// The next command to obey. On the way elsewhere what depends on the time waits until the end of
+    /// the way, or until it is given up.
+    fn next_command(&mut self, is_on_the_way: bool) -> Option<Command> {
+        if !is_on_the_way {
+            return self.queue.pop_if(|_| true);
+        }
+        let gives_up = |it: &Command| *it == Command::StopSeeking || it.is_of_any_time();
+        let at_once = self.queue.take_first(gives_up);
+        at_once.or_else(|| self.queue.pop_if(Command::goes_elsewhere))
     }
 
     fn execute(&mut self, command: Command) {

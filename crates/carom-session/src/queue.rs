@@ -38,6 +38,12 @@ impl Queue {
         if self.0.front().is_some_and(is_wanted) { self.0.pop_front() } else { None }
     }
 
+    /// Takes the first of the commands that are wanted, whatever waits before it.
+    pub fn take_first(&mut self, is_wanted: impl Fn(&Command) -> bool) -> Option<Command> {
+        let found = self.0.iter().position(is_wanted)?;
+        self.0.remove(found)
+    }
+
     /// Takes over what waits in another queue, as far as there is place.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn take_from(&mut self, other: &mut Self) {

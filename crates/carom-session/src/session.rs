@@ -138,7 +138,7 @@ impl Session {
     ///
     /// # Errors
     /// [`SessionError::Time`] for a time that is negative or not finite, [`SessionError::TooFar`]
-    /// for one that is so far away that its frames cannot be counted.
+    /// for one more than 100,000,000 frames after the start.
     pub fn frame_at(&self, time: f64) -> Result<u64, SessionError> {
         self.history.frame_at(time)
     }

@@ -3,8 +3,9 @@
 use crate::change::PastChange;
 use crate::error::SessionError;
 
-/// More frames than this are not counted one by one \[1\]: the next numbers are not all doubles.
-const MOST_FRAMES: f64 = (1_u64 << 53) as f64;
+/// More frames than this \[1\] are not gone to: they would take too long, and a number in a link
+/// that has too many digits is a mistake.
+const MOST_FRAMES: f64 = 1e8;
 
 /// A stretch of frames of one length.
 #[derive(Debug, Clone, Copy)]
@@ -58,7 +59,7 @@ impl Timetable {
     ///
     /// # Errors
     /// [`SessionError::Time`] for a time that is negative or not finite, [`SessionError::TooFar`]
-    /// for one that is so far away that its frames cannot be counted.
+    /// for one more than 100,000,000 frames after the start.
     pub fn frame_at(&self, time: f64) -> Result<u64, SessionError> {
         if !(time >= 0.0 && time.is_finite()) {
             return Err(SessionError::Time { seconds: time });

@@ -210,20 +210,49 @@ fn edits_of_a_dragged_slider_do_not_pile_up() {
 #[test]
 fn another_seek_takes_the_place_of_one_under_way() {
     let mut driver = Driver::inline(busy());
-    send(&mut driver, [Command::Seek(1e9)]);
+    send(&mut driver, [Command::Seek(1e6)]);
     driver.update(0.0, || true);
     driver.update(0.0, || true);
     assert!(driver.view().seeking.is_some());
     send(&mut driver, [Command::Seek(0.1)]);
     driver.update(0.0, || false);
     assert_eq!((driver.view().frame, driver.view().seeking), (6, None));
-    send(&mut driver, [Command::Seek(1e9), Command::Pick(None), Command::StopSeeking]);
-    let mut looks = 0;
-    // A command in between that has to wait keeps the one after it waiting.
-    driver.update(0.0, || {
-        looks += 1;
-        looks > 20
-    });
+}
+
+#[test]
+fn a_way_elsewhere_is_given_up_at_once_whatever_waits() {
+    let mut driver = Driver::inline(busy());
+    send(&mut driver, [Command::ShowStateHash(true), Command::Seek(1e6)]);
+    send(&mut driver, [Command::Pick(None), Command::Step, Command::Play, Command::Pause]);
+    let mut budget = 20;
+    let mut update = |driver: &mut Driver| {
+        driver.update(0.0, || {
+            budget -= 1;
+            budget % 10 == 0
+        });
+    };
+    update(&mut driver);
+    let on_the_way = driver.view().frame;
+    assert!(driver.view().seeking.is_some() && on_the_way > 0);
+    send(&mut driver, [Command::ShowStateHash(false), Command::StopSeeking]);
+    update(&mut driver);
+    // The step that waited is taken where it has come to.
+    assert_eq!((driver.view().frame, driver.view().seeking), (on_the_way + 1, None));
+    assert_eq!(driver.view().playback.state_hash, None);
+}
+
+#[test]
+fn on_the_way_elsewhere_time_can_be_stopped_and_made_faster() {
+    let mut driver = Driver::inline(busy());
+    send(&mut driver, [Command::Play, Command::Seek(1e6)]);
+    driver.update(0.0, || true);
+    driver.update(0.0, || true);
+    assert!(driver.view().playback.playing && driver.view().seeking.is_some());
+    send(&mut driver, [Command::Pause, Command::Speed(2.0)]);
+    driver.update(0.0, || true);
+    driver.update(0.0, || true);
+    let playback = &driver.view().playback;
+    assert_eq!((playback.playing, playback.speed), (false, 2.0));
     assert!(driver.view().seeking.is_some());
 }
 
