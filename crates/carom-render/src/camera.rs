@@ -20,6 +20,10 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// Vertical field of view of cameras that do not say \[°\]: narrow enough that a sphere at the
+    /// rim of the picture looks round.
+    pub const VERTICAL_FOV_DEGREES: f64 = 35.0;
+
     /// The camera that a scene gives, if it gives one.
     pub fn of_scene(scene: &Scene) -> Option<Self> {
         let camera = scene.camera.as_ref()?;
@@ -46,10 +50,9 @@ impl Camera {
     /// Seen from the direction `from`, far enough away that all of `bounds` is in a picture of
     /// this width to height.
     pub fn fitted(bounds: &Bounds, from: DVec3, aspect: f64) -> Self {
-        const VERTICAL_FOV: f64 = 45.0;
         // Part of the picture left free around what is shown.
         const MARGIN: f64 = 1.04;
-        let vertical_fov = VERTICAL_FOV.to_radians();
+        let vertical_fov = Self::VERTICAL_FOV_DEGREES.to_radians();
         let direction = from.try_normalize().unwrap_or(DVec3::Z);
         let view = Self::looking_at(bounds.center() + direction, bounds.center(), vertical_fov);
         let to_camera = view.rotation.inverse();

@@ -4,6 +4,7 @@ use carom::{DQuat, DVec3, Pose, Shape};
 use carom_scene::scene::{Color, Sun};
 
 use crate::bounds::Bounds;
+use crate::framing::Framing;
 
 /// How much triggers hide of what is behind them: they let spheres through.
 const TRIGGER_OPACITY: f64 = 0.45;
@@ -19,6 +20,11 @@ pub struct Drawing {
     pub arrows: Vec<Arrow>,
     /// What lights them, and what is behind them.
     pub light: Light,
+    /// Where surfaces without end are cut off, and where balls have to be seen: by what is drawn
+    /// ([`Framing::of_drawing`]), unless given.
+    pub framing: Option<Framing>,
+    /// Whether there is a grid below it all where no floor goes on to the horizon.
+    pub has_grid: bool,
 }
 
 /// What a ball is made of.
@@ -158,23 +164,19 @@ pub(crate) fn linear(color: Color) -> [f32; 3] {
 }
 
 impl Panel {
+    /// The way its front faces, unit vector.
+    pub(crate) fn normal(&self) -> DVec3 {
+        self.pose.rotation.normalize() * DVec3::Y
+    }
+
     /// How far a point is in front of its plane \[m\].
     pub(crate) fn height_of(&self, point: DVec3) -> f64 {
-        (self.pose.rotation.normalize().inverse() * (point - self.pose.position)).y
+        self.normal().dot(point - self.pose.position)
     }
 
     /// The box around it; `None` for a half-space, which has none.
     pub fn bounds(&self) -> Option<Bounds> {
-        let half = match self.shape {
-            Shape::Rectangle { size_x, size_z } => 0.5 * DVec3::new(size_x, 0.0, size_z),
-            Shape::Box { size } | Shape::Container { size, .. } => 0.5 * size,
-            _ => return None,
-        };
-        let rotation = self.pose.rotation.normalize();
-        let reach = (rotation * (DVec3::X * half.x)).abs()
-            + (rotation * (DVec3::Y * half.y)).abs()
-            + (rotation * (DVec3::Z * half.z)).abs();
-        Some(Bounds { min: self.pose.position - reach, max: self.pose.position + reach })
+        Bounds::of_shape(self.shape, self.pose)
     }
 }
 
@@ -185,7 +187,7 @@ impl Drawing {
         Bounds::around(balls.chain(self.panels.iter().filter_map(Panel::bounds)))
     }
 
-    /// Takes out all there is; the light stays.
+    /// Takes out all there is; light and framing stay.
     pub fn clear(&mut self) {
         self.balls.clear();
         self.panels.clear();

@@ -4,12 +4,16 @@
 use carom::{DVec3, Shape};
 
 use crate::container::{self, Seen};
+use crate::cutaway;
 use crate::drawing::{Arrow, Ball, Drawing, Material, Panel, linear};
+use crate::framing::Framing;
 
 /// Numbers of a ball: centre and radius, colour and material, rotation.
 pub(crate) type PackedBall = [f32; 12];
 /// Numbers of a panel: centre and kind, rotation, half lengths and grid, colour and opacity.
 pub(crate) type PackedPanel = [f32; 16];
+/// Numbers of a grid: centre, distance of its lines and how far it reaches.
+pub(crate) type PackedGrid = [f32; 8];
 /// Numbers of an arrow: start and width, end and head, colour.
 pub(crate) type PackedArrow = [f32; 12];
 
@@ -19,8 +23,17 @@ const HORIZON: f64 = 60.0;
 /// Kinds of panels in the shader.
 const RECTANGLE: f64 = 0.0;
 const BOX: f64 = 1.0;
-const HALF_SPACE: f64 = 2.0;
-const RIM: f64 = 3.0;
+const GROUND: f64 = 2.0;
+const WALL: f64 = 3.0;
+const INCLINE: f64 = 4.0;
+
+/// In place of an opacity: only the rims of faces are seen.
+const RIM: f64 = -1.0;
+
+/// Least vertical part of the normal of a half-space that is the ground, and goes on to the horizon,
+/// and of one on which balls roll down.
+const LEVEL: f64 = 0.999_9;
+const INCLINED: f64 = 0.05;
 
 /// All instances of a drawing, and how many panels of each kind there are.
 #[derive(Debug, Default)]
@@ -30,15 +43,16 @@ pub(crate) struct Instances {
     pub faces: Vec<PackedPanel>,
     pub boxes: Vec<PackedPanel>,
     pub arrows: Vec<PackedArrow>,
+    /// Below a scene without ground.
+    pub grid: Option<PackedGrid>,
     /// How many of the balls, faces and boxes cast shadows: the first ones.
     pub casting: [usize; 3],
 }
 
 impl Instances {
-    /// Packs a drawing seen from `eye`; half-spaces reach to a horizon that suits a scene of this
-    /// `radius` \[m\].
-    pub fn pack(&mut self, drawing: &Drawing, eye: DVec3, radius: f64) {
-        let Self { balls, faces, boxes, arrows, casting } = self;
+    /// Packs a drawing seen from `eye`; half-spaces reach as far as suits what is to be seen.
+    pub fn pack(&mut self, drawing: &Drawing, eye: DVec3, framing: &Framing) {
+        let Self { balls, faces, boxes, arrows, grid, casting } = self;
         balls.clear();
         faces.clear();
         boxes.clear();
@@ -49,25 +63,33 @@ impl Instances {
         balls.extend(drawing.balls.iter().filter(|ball| !is_mark(ball)).map(packed));
         casting[0] = balls.len();
         balls.extend(drawing.balls.iter().filter(is_mark).map(packed));
-        let is_clear = |panel: &&Panel| panel.opacity < 1.0;
-        for panel in drawing.panels.iter().filter(|panel| !is_clear(panel)) {
-            add_panel(panel, eye, radius, faces, boxes);
-        }
+        let is_hiding = |it: &&Panel| it.opacity == 1.0 && cutaway::hides(it, eye, &framing.balls);
+        let is_solid = |it: &&Panel| it.opacity == 1.0 && !is_hiding(it);
+        let solid = drawing.panels.iter().filter(is_solid);
+        solid.for_each(|panel| add_panel(panel, eye, faces, boxes));
         casting[1..].copy_from_slice(&[faces.len(), boxes.len()]);
-        for panel in drawing.panels.iter().filter(is_clear) {
-            add_panel(panel, eye, radius, faces, boxes);
-        }
-        for panel in drawing.panels.iter().filter(|panel| !is_clear(panel)) {
+        let clear = drawing.panels.iter().filter(|it| it.opacity < 1.0).copied();
+        let hiding = drawing.panels.iter().filter(is_hiding);
+        let rims = hiding.map(|panel| Panel { opacity: RIM, ..*panel });
+        clear.chain(rims).for_each(|panel| add_panel(&panel, eye, faces, boxes));
+        for panel in &drawing.panels {
             add_walls(panel, eye, faces);
+            add_half_space(panel, eye, framing, faces);
         }
         arrows.extend(drawing.arrows.iter().map(|arrow| packed_arrow(arrow, eye)));
+        let has_ground = drawing.panels.iter().any(bears_balls);
+        *grid = (drawing.has_grid && !has_ground).then(|| packed_grid(eye, framing));
     }
+}
+
+/// Whether a panel is a floor or an incline without end.
+fn bears_balls(panel: &Panel) -> bool {
+    panel.shape == Shape::HalfSpace && panel.normal().y > INCLINED
 }
 
 fn add_panel(
     panel: &Panel,
     eye: DVec3,
-    radius: f64,
     faces: &mut Vec<PackedPanel>,
     boxes: &mut Vec<PackedPanel>,
 ) {
@@ -78,12 +100,9 @@ fn add_panel(
             boxes.push(packed_box(panel, size, eye));
         }
         Shape::Rectangle { size_x, size_z } => {
-            faces.push(packed_rectangle(panel, [size_x, size_z], RECTANGLE, eye));
+            faces.push(packed_rectangle(panel, [size_x, size_z], eye));
         }
-        // From within, a half-space would hide all there is: a box of walls is open towards the eye.
-        Shape::HalfSpace if panel.height_of(eye) < 0.0 => {}
-        Shape::HalfSpace => faces.push(packed_half_space(panel, eye, radius)),
-        // Spheres are balls.
+        // Spheres are balls; half-spaces and walls of containers cast no shadows, and come later.
         _ => {}
     }
 }
@@ -91,14 +110,30 @@ fn add_panel(
 /// Adds the walls of a container. They cast no shadows: those would change with the place of the eye.
 fn add_walls(panel: &Panel, eye: DVec3, faces: &mut Vec<PackedPanel>) {
     let Shape::Container { size, open } = panel.shape else { return };
+    if panel.opacity < 1.0 {
+        return;
+    }
     for (wall, seen) in container::walls(panel, size, open, eye) {
         let Shape::Rectangle { size_x, size_z } = wall.shape else { continue };
-        let kind = match seen {
-            Seen::Whole => RECTANGLE,
+        let opacity = match seen {
+            Seen::Whole => wall.opacity,
             Seen::Rim => RIM,
         };
-        faces.push(packed_rectangle(&wall, [size_x, size_z], kind, eye));
+        faces.push(packed_rectangle(&Panel { opacity, ..wall }, [size_x, size_z], eye));
     }
+}
+
+/// Adds a half-space, unless it is seen from within, from where it would hide all there is.
+fn add_half_space(panel: &Panel, eye: DVec3, framing: &Framing, faces: &mut Vec<PackedPanel>) {
+    if panel.shape != Shape::HalfSpace || panel.height_of(eye) < 0.0 {
+        return;
+    }
+    let kind = match panel.normal().y {
+        up if up > LEVEL => GROUND,
+        up if up > INCLINED => INCLINE,
+        _ => WALL,
+    };
+    faces.push(packed_half_space(panel, kind, eye, framing.whole.radius()));
 }
 
 fn four(vector: DVec3, last: f64) -> [f32; 4] {
@@ -152,15 +187,10 @@ fn packed_panel(
     ])
 }
 
-fn packed_rectangle(
-    panel: &Panel,
-    [size_x, size_z]: [f64; 2],
-    kind: f64,
-    eye: DVec3,
-) -> PackedPanel {
+fn packed_rectangle(panel: &Panel, [size_x, size_z]: [f64; 2], eye: DVec3) -> PackedPanel {
     let half = 0.5 * DVec3::new(size_x, 0.0, size_z);
     let size = (half, grid_distance(2.0 * half.max_element()));
-    packed_panel(panel, panel.pose.position - eye, kind, size)
+    packed_panel(panel, panel.pose.position - eye, RECTANGLE, size)
 }
 
 fn packed_box(panel: &Panel, size: DVec3, eye: DVec3) -> PackedPanel {
@@ -170,7 +200,7 @@ fn packed_box(panel: &Panel, size: DVec3, eye: DVec3) -> PackedPanel {
 
 /// A half-space as a large square, moved along with the eye in steps of its grid, so that neither
 /// its edge nor a jump of its lines is ever seen.
-fn packed_half_space(panel: &Panel, eye: DVec3, radius: f64) -> PackedPanel {
+fn packed_half_space(panel: &Panel, kind: f64, eye: DVec3, radius: f64) -> PackedPanel {
     let rotation = panel.pose.rotation.normalize();
     let seen = rotation.inverse() * (eye - panel.pose.position);
     let reach = HORIZON * radius.max(seen.y.abs()).max(1e-6);
@@ -179,7 +209,21 @@ fn packed_half_space(panel: &Panel, eye: DVec3, radius: f64) -> PackedPanel {
     let below = (DVec3::new(seen.x, 0.0, seen.z) / grid).round() * grid;
     let center = panel.pose.position + rotation * below;
     let half = DVec3::new(reach, 0.0, reach);
-    packed_panel(panel, center - eye, HALF_SPACE, (half, grid))
+    packed_panel(panel, center - eye, kind, (half, grid))
+}
+
+/// The grid below a scene: just off what stands on a floor of its own.
+fn packed_grid(eye: DVec3, framing: &Framing) -> PackedGrid {
+    // In radii of the scene.
+    const BELOW: f64 = 0.01;
+    const REACH: f64 = 8.0;
+    let (radius, center) = (framing.whole.radius(), framing.whole.center());
+    let distance = grid_distance(4.0 * radius);
+    // Lines go through the origin, as coordinates do.
+    let round = |along: f64| (along / (5.0 * distance)).round() * 5.0 * distance;
+    let y = framing.whole.min.y - BELOW * radius;
+    let center = DVec3::new(round(center.x), y, round(center.z));
+    joined(&[four(center - eye, 0.0), [distance as f32, (REACH * radius) as f32, 0.0, 0.0]])
 }
 
 /// A round distance of grid lines, of which some ten are on a `length` \[m\].

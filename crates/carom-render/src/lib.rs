@@ -9,9 +9,12 @@
 mod bounds;
 mod camera;
 mod container;
+mod crowd;
+mod cutaway;
 mod drawing;
 #[cfg(feature = "film")]
 mod film;
+mod framing;
 mod gpu;
 mod instances;
 mod look;
@@ -35,6 +38,7 @@ pub use camera::Camera;
 pub use drawing::{Arrow, Ball, Drawing, Light, Material, Panel};
 #[cfg(feature = "film")]
 pub use film::{Film, FilmError, FilmSummary};
+pub use framing::Framing;
 pub use gpu::{Gpu, GpuError};
 pub use look::{Roll, draw_world};
 pub use offscreen::Offscreen;

@@ -17,6 +17,7 @@ pub fn draw_world(
 ) {
     drawing.clear();
     drawing.light = Light::of_scene(scene);
+    drawing.has_grid = true;
     let all = scene.all_colliders();
     for (i, (collider, (_, now))) in all.iter().zip(world.colliders()).enumerate() {
         if collider.visible {

@@ -1,12 +1,13 @@
 //! Programs of the device, one for each kind of thing drawn.
 
+use crate::cutaway::MOST_CUTS;
 use crate::target::{COLOR_FORMAT, DEPTH_FORMAT};
 
 const LIGHT: &str = include_str!("shaders/light.wgsl");
 const PLACES: &str = include_str!("shaders/places.wgsl");
 
 /// Numbers in the uniforms of a picture.
-pub(crate) const GLOBALS: usize = 3 * 16 + 9 * 4;
+pub(crate) const GLOBALS: usize = 3 * 16 + (11 + MOST_CUTS) * 4;
 
 /// Programs, and what they read.
 #[derive(Debug)]
@@ -15,6 +16,7 @@ pub(crate) struct Pipelines {
     pub surfaces: wgpu::RenderPipeline,
     pub arrows: wgpu::RenderPipeline,
     pub sky: wgpu::RenderPipeline,
+    pub grid: wgpu::RenderPipeline,
     pub sphere_shadows: wgpu::RenderPipeline,
     pub surface_shadows: wgpu::RenderPipeline,
     pub picture_layout: wgpu::BindGroupLayout,
@@ -31,6 +33,8 @@ struct Parts<'a> {
     stride: u32,
     topology: wgpu::PrimitiveTopology,
     depth: wgpu::DepthStencilState,
+    /// How it is laid over what is there; `None` covers it.
+    blend: Option<wgpu::BlendState>,
 }
 
 impl Pipelines {
@@ -38,7 +42,8 @@ impl Pipelines {
         let picture_layout = picture_layout(device);
         let light_layout = layout(device, "light", &[uniform(0)]);
         let lit = |label, source: &str, attributes, topology| {
-            let writes = label != "sky";
+            // Sky and grid are behind all there is.
+            let is_solid = !matches!(label, "sky" | "grid");
             Parts {
                 label,
                 source: format!("{LIGHT}{PLACES}{source}"),
@@ -46,7 +51,8 @@ impl Pipelines {
                 attributes,
                 stride: attributes,
                 topology,
-                depth: depth_state(wgpu::CompareFunction::GreaterEqual, writes),
+                depth: depth_state(wgpu::CompareFunction::GreaterEqual, is_solid),
+                blend: (label == "grid").then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
             }
         };
         let (strip, list) =
@@ -61,6 +67,7 @@ impl Pipelines {
                 stride,
                 topology,
                 depth: depth_state(wgpu::CompareFunction::Less, true),
+                blend: None,
             };
             shadow_pipeline(device, &light_layout, &parts)
         };
@@ -69,6 +76,7 @@ impl Pipelines {
             surfaces: picture(lit("surfaces", include_str!("shaders/surface.wgsl"), 4, list)),
             arrows: picture(lit("arrows", include_str!("shaders/arrow.wgsl"), 3, list)),
             sky: picture(lit("sky", include_str!("shaders/sky.wgsl"), 0, list)),
+            grid: picture(lit("grid", include_str!("shaders/grid.wgsl"), 2, strip)),
             sphere_shadows: shadow(
                 "shadows of spheres",
                 ["sphere_vertex", "sphere_fragment"],
@@ -142,11 +150,11 @@ fn picture_pipeline(
         mask: !0,
         // What writes its own depth has one for all samples of a pixel: its outline is smoothed
         // by covering some of them only.
-        alpha_to_coverage_enabled: samples > 1,
+        alpha_to_coverage_enabled: samples > 1 && parts.blend.is_none(),
     };
     let colors = [Some(wgpu::ColorTargetState {
         format: COLOR_FORMAT,
-        blend: None,
+        blend: parts.blend,
         // Pictures are opaque; what is written beside a colour says what it covers.
         write_mask: wgpu::ColorWrites::COLOR,
     })];

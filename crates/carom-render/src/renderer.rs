@@ -5,7 +5,9 @@ use glam::Vec3;
 
 use crate::bounds::Bounds;
 use crate::camera::Camera;
-use crate::drawing::{Ball, Drawing};
+use crate::cutaway;
+use crate::drawing::{Drawing, Material};
+use crate::framing::Framing;
 use crate::instances::Instances;
 use crate::pipelines::{GLOBALS, Pipelines};
 use crate::quality::Quality;
@@ -39,6 +41,7 @@ struct Buffers {
     faces: Option<wgpu::Buffer>,
     boxes: Option<wgpu::Buffer>,
     arrows: Option<wgpu::Buffer>,
+    grid: Option<wgpu::Buffer>,
 }
 
 impl Renderer {
@@ -92,33 +95,36 @@ impl Renderer {
         camera: &Camera,
         target: &Target,
     ) {
-        let bounds = drawing.bounds().unwrap_or(Bounds::UNIT);
-        let seen = shadowed(drawing, camera, &bounds);
-        let [sun, sky] = [drawing.light.to_sun, DVec3::Y].map(|to_light| {
-            let (center, radius) = seen;
-            LightView::around(center, radius, to_light, camera.position, self.quality.shadow_texels)
-        });
-        self.instances.pack(drawing, camera.position, bounds.radius());
+        let framing = drawing.framing.or_else(|| Framing::of_drawing(drawing));
+        let framing = framing.unwrap_or(Framing::UNIT);
+        let seen = shadowed(drawing, camera, &framing);
+        let whole_map = self.quality.shadow_texels;
+        let texels = map_texels(drawing, seen.1).map(|texels| texels.min(whole_map));
+        let [sun, sky] = [(drawing.light.to_sun, texels[0]), (DVec3::Y, texels[1])]
+            .map(|(to_light, texels)| LightView::around(seen, to_light, camera.position, texels));
+        self.instances.pack(drawing, camera.position, &framing);
         self.buffers.fill(device, queue, &self.instances);
-        let globals = globals(drawing, camera, target, self.quality, [&sun, &sky]);
+        let globals = globals(drawing, &framing, camera, target, self.quality, [&sun, &sky]);
         queue.write_buffer(&self.globals, 0, bytemuck::cast_slice(&globals));
         for (light, view) in self.lights.iter().zip([&sun, &sky]) {
             queue.write_buffer(&light.uniforms, 0, bytemuck::cast_slice(&view.packed()));
         }
         let mut encoder = device.create_command_encoder(&Default::default());
-        for light in &self.lights {
-            self.draw_shadows(&mut encoder, light);
+        for (light, texels) in self.lights.iter().zip(texels) {
+            self.draw_shadows(&mut encoder, light, texels);
         }
         self.draw_picture(&mut encoder, target);
         queue.submit([encoder.finish()]);
     }
 
-    fn draw_shadows(&self, encoder: &mut wgpu::CommandEncoder, light: &Light) {
+    /// Draws the shadow map of a light, into so many texels along each edge of it.
+    fn draw_shadows(&self, encoder: &mut wgpu::CommandEncoder, light: &Light, texels: u32) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadows"),
             depth_stencil_attachment: Some(depth_attachment(&light.map, 1.0, true)),
             ..Default::default()
         });
+        pass.set_viewport(0.0, 0.0, texels as f32, texels as f32, 0.0, 1.0);
         pass.set_bind_group(0, &light.group, &[]);
         let Self { pipelines, instances, buffers, .. } = self;
         let [balls, faces, boxes] = instances.casting;
@@ -153,6 +159,8 @@ impl Renderer {
         draw(&mut pass, &pipelines.arrows, 9, &buffers.arrows, instances.arrows.len());
         pass.set_pipeline(&pipelines.sky);
         pass.draw(0..3, 0..1);
+        let grids = usize::from(instances.grid.is_some());
+        draw(&mut pass, &pipelines.grid, 4, &buffers.grid, grids);
     }
 }
 
@@ -176,11 +184,12 @@ impl Light {
 
 impl Buffers {
     fn fill(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, instances: &Instances) {
-        let Instances { balls, faces, boxes, arrows, .. } = instances;
+        let Instances { balls, faces, boxes, arrows, grid, .. } = instances;
         fill(&mut self.balls, device, queue, bytemuck::cast_slice(balls));
         fill(&mut self.faces, device, queue, bytemuck::cast_slice(faces));
         fill(&mut self.boxes, device, queue, bytemuck::cast_slice(boxes));
         fill(&mut self.arrows, device, queue, bytemuck::cast_slice(arrows));
+        fill(&mut self.grid, device, queue, bytemuck::cast_slice(grid.as_slice()));
     }
 }
 
@@ -276,37 +285,45 @@ fn draw(
 
 /// Centre and radius \[m\] of what casts shadows worth seeing: balls that have flown far away would
 /// leave few texels for the others.
-fn shadowed(drawing: &Drawing, camera: &Camera, bounds: &Bounds) -> (DVec3, f64) {
-    // In distances of the eye from the middle of the surfaces, or of everything without any.
+fn shadowed(drawing: &Drawing, camera: &Camera, framing: &Framing) -> (DVec3, f64) {
+    // In distances of the eye from the middle of the scene.
     const REACH: f64 = 1.5;
-    let panels = drawing.panels.iter().filter_map(|panel| panel.bounds());
-    let stage = Bounds::around(panels).or_else(|| crowd(drawing, camera)).unwrap_or(*bounds);
-    let focus = stage.center();
-    let reach = REACH * (focus - camera.position).length().max(stage.radius());
+    let focus = framing.whole.center();
+    let reach = REACH * (focus - camera.position).length().max(framing.whole.radius());
     let near = drawing.balls.iter().filter(|ball| ball.center.distance(focus) < reach);
     let near = near.map(|ball| Bounds::of_sphere(ball.center, ball.radius));
-    let seen = Bounds::around(near.chain([stage])).unwrap_or(stage);
+    let seen = Bounds::around(near.chain([framing.whole])).unwrap_or(framing.whole);
     (seen.center(), seen.radius().min(2.0 * reach))
 }
 
-/// The box around the balls that are not much farther from the eye than half of them are.
-fn crowd(drawing: &Drawing, camera: &Camera) -> Option<Bounds> {
-    // In distances of the middle one.
-    const NEAR: f64 = 3.0;
-    let distance = |ball: &Ball| ball.center.distance(camera.position);
-    let mut distances: Vec<f64> = drawing.balls.iter().map(distance).collect();
-    if distances.is_empty() {
-        return None;
-    }
-    let middle = distances.len() / 2;
-    let reach = *distances.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let near = drawing.balls.iter().filter(|ball| distance(ball) <= NEAR * reach);
-    Bounds::around(near.map(|ball| Bounds::of_sphere(ball.center, ball.radius)))
+/// Texels along an edge of the maps of sun and sky that show a ball of this radius \[m\]. No more
+/// than it takes for shadows whose edges are soft over a part of the radius of what casts them: a small
+/// part for the sun, a large one for the sky.
+fn map_texels(drawing: &Drawing, radius: f64) -> [u32; 2] {
+    const TEXELS_OF_BALL: [f64; 2] = [24.0, 4.0];
+    const FEWEST: f64 = 64.0;
+    // Steps in which they grow as balls come and go.
+    const STEP: f64 = 32.0;
+    let casting = drawing.balls.iter().filter(|ball| ball.material != Material::Glowing);
+    let (count, sum) = casting.fold((0.0, 0.0), |(count, sum), it| (count + 1.0, sum + it.radius));
+    TEXELS_OF_BALL.map(|of_ball| {
+        let texels = of_ball * 2.0 * radius * count / f64::max(sum, f64::MIN_POSITIVE);
+        ((texels.max(FEWEST) / STEP).ceil() * STEP) as u32
+    })
+}
+
+/// The box relative to the eye in which half-spaces but the ground are seen \[m\]: a little wider
+/// than the scene, so that walls that bound it are not cut off themselves.
+fn room(framing: &Framing, camera: &Camera) -> [Vec3; 2] {
+    const MARGIN: f64 = 0.04;
+    let Bounds { min, max } = framing.whole.grown(MARGIN * framing.whole.radius());
+    [min, max].map(|corner| (corner - camera.position).as_vec3())
 }
 
 /// The uniforms of a picture, in the order of the shader's `Globals`.
 fn globals(
     drawing: &Drawing,
+    framing: &Framing,
     camera: &Camera,
     target: &Target,
     quality: Quality,
@@ -318,21 +335,28 @@ fn globals(
     let light = &drawing.light;
     let of = |vector: Vec3, last: f32| vector.extend(last).to_array();
     let yes = |is: bool| if is { 1.0 } else { 0.0 };
+    let room = room(framing, camera);
     let matrices = [camera.clip_from_eye(aspect), sun.map_from_eye, sky.map_from_eye];
     let vectors = [
         of(light.to_sun.as_vec3(), sun.texel),
         of(light.sun.into(), yes(quality.soft_shadows)),
         of(light.zenith.into(), sky.texel),
         of(light.horizon.into(), yes(quality.samples > 1)),
-        of(light.ground.into(), 0.0),
-        of(camera.ahead().as_vec3(), 0.0),
+        of(light.ground.into(), sky.part_of(quality.shadow_texels)),
+        of(camera.ahead().as_vec3(), sun.part_of(quality.shadow_texels)),
         of(right, 0.0),
         of(up, 0.0),
         [width, height, 1.0 / quality.shadow_texels as f32, 0.0],
+        // Inclines go on: balls that roll down them do.
+        of(room[0], framing.whole.radius() as f32),
+        of(room[1], 0.0),
     ];
+    let cuts = cutaway::cuts(drawing, camera.position);
     let mut numbers = [0.0; GLOBALS];
     let parts = matrices.iter().flat_map(|matrix| matrix.to_cols_array());
-    for (place, number) in numbers.iter_mut().zip(parts.chain(vectors.into_iter().flatten())) {
+    for (place, number) in
+        numbers.iter_mut().zip(parts.chain(vectors.into_iter().chain(cuts).flatten()))
+    {
         *place = number;
     }
     numbers

@@ -12,12 +12,20 @@ pub(crate) struct LightView {
     pub axes: [Vec3; 3],
     /// Size of a texel \[m\].
     pub texel: f32,
+    /// Texels along an edge.
+    texels: u32,
 }
 
 impl LightView {
-    /// The view from the direction `to_light` (unit vector) that holds a ball around `center` \[m\].
+    /// The view from the direction `to_light` (unit vector) that holds a ball of this centre and radius
+    /// \[m\], on so many texels along an edge.
     /// It moves with the ball in whole texels and grows in steps, so that edges of shadows keep still.
-    pub fn around(center: DVec3, radius: f64, to_light: DVec3, eye: DVec3, texels: u32) -> Self {
+    pub fn around(
+        (center, radius): (DVec3, f64),
+        to_light: DVec3,
+        eye: DVec3,
+        texels: u32,
+    ) -> Self {
         let side = if to_light.y.abs() > 0.99 { DVec3::X } else { DVec3::Y };
         let right = side.cross(to_light).normalize();
         let up = to_light.cross(right);
@@ -44,7 +52,13 @@ impl LightView {
             map_from_eye: rows.transpose(),
             axes: [-axes[2], axes[0], axes[1]],
             texel: texel as f32,
+            texels,
         }
+    }
+
+    /// Which part of the edge of a map of so many texels it takes.
+    pub fn part_of(&self, map_texels: u32) -> f32 {
+        self.texels as f32 / map_texels as f32
     }
 
     /// As the shader reads it.

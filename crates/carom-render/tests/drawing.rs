@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use carom::{DQuat, DVec3, Pose, Shape, Sides};
 use carom_render::{
-    Ball, Bounds, Camera, Drawing, GpuError, Light, Material, Offscreen, Picture, Quality,
+    Ball, Bounds, Camera, Drawing, Framing, GpuError, Light, Material, Offscreen, Picture, Quality,
 };
 
 const SIZE: [u32; 2] = [400, 300];
@@ -110,6 +110,92 @@ fn a_wall_seen_from_within_hides_nothing() {
     drawing.add_collider(Shape::HalfSpace, wall(DVec3::NEG_Z), [0.9, 0.9, 0.9], false);
     let picture = drawn(&drawing, &camera_in_front(6.0), Quality::DRAFT);
     assert_eq!(pixel(&picture, 200, 150), [255, 0, 0]);
+}
+
+/// Half-spaces with these inward normals, 2 m from the origin, and a red ball there.
+fn room(normals: &[DVec3]) -> Drawing {
+    let mut drawing = in_the_dark();
+    drawing.balls.push(ball(DVec3::ZERO, 0.5, [1.0, 0.0, 0.0]));
+    for normal in normals {
+        let rotation = DQuat::from_rotation_arc(DVec3::Y, *normal);
+        let pose = Pose { position: -2.0 * *normal, rotation };
+        drawing.add_collider(Shape::HalfSpace, pose, [0.9, 0.9, 0.9], false);
+    }
+    let bounds = Bounds { min: DVec3::splat(-2.0), max: DVec3::splat(2.0) };
+    drawing.framing = Some(Framing { whole: bounds, balls: bounds });
+    drawing
+}
+
+#[test]
+fn walls_of_half_spaces_make_a_room_that_ends() {
+    let walls = [DVec3::Y, DVec3::X, DVec3::NEG_X, DVec3::Z, DVec3::NEG_Z];
+    let camera = Camera::looking_at(DVec3::new(0.0, 3.0, 14.0), DVec3::ZERO, 0.6);
+    for quality in [Quality::DRAFT, Quality::FINE] {
+        let picture = drawn(&room(&walls), &camera, quality);
+        let at = |point: DVec3| {
+            let place = camera.place(point, ASPECT).expect("before the eye");
+            let x = (0.5 + 0.5 * f64::from(place.x)) * f64::from(SIZE[0]);
+            let y = (0.5 - 0.5 * f64::from(place.y)) * f64::from(SIZE[1]);
+            pixel(&picture, x as u32, y as u32)
+        };
+        assert_eq!(at(DVec3::ZERO), [255, 0, 0]);
+        let is_wall = |point| at(point)[1] > 20;
+        assert!(is_wall(DVec3::new(1.0, 1.5, -2.0)), "the wall behind");
+        assert!(is_wall(DVec3::new(-1.0, -2.0, 1.0)), "the floor");
+        assert!(is_wall(DVec3::new(-2.0, 1.5, -1.0)), "the wall at the left");
+        // Beyond the walls there is nothing of floor and walls.
+        for beyond in [DVec3::new(-3.0, -2.0, -1.0), DVec3::new(3.0, -2.0, 1.0), DVec3::Y * 3.0] {
+            assert_eq!(at(beyond), [0; 3], "{beyond}");
+        }
+    }
+}
+
+#[test]
+fn a_wall_between_the_eye_and_the_balls_is_glass() {
+    for shape in [
+        Shape::Rectangle { size_x: 4.0, size_z: 4.0 },
+        Shape::Box { size: DVec3::new(4.0, 0.1, 4.0) },
+    ] {
+        let mut drawing = room(&[]);
+        let front = DQuat::from_rotation_arc(DVec3::Y, DVec3::Z);
+        let pose = Pose { position: DVec3::Z * 2.2, rotation: front };
+        drawing.add_collider(shape, pose, [0.9, 0.9, 0.9], false);
+        for quality in [Quality::DRAFT, Quality::FINE] {
+            let picture = drawn(&drawing, &camera_in_front(9.0), quality);
+            assert_eq!(pixel(&picture, 200, 150), [255, 0, 0], "{shape:?}");
+            let edge = (150..400).map(|x| pixel(&picture, x, 150)).find(|it| it[1] > 20);
+            assert!(edge.is_some(), "nothing is seen of {shape:?}");
+        }
+        // Behind the balls it is a wall.
+        let back = Pose { position: DVec3::Z * -2.2, rotation: front };
+        let mut drawing = room(&[]);
+        drawing.add_collider(shape, back, [0.9, 0.9, 0.9], false);
+        let picture = drawn(&drawing, &camera_in_front(9.0), Quality::DRAFT);
+        assert_ne!(pixel(&picture, 240, 150), [0; 3], "{shape:?}");
+    }
+}
+
+#[test]
+fn a_scene_without_floor_has_a_grid_on_which_balls_cast_shadows() {
+    let mut drawing = Drawing { has_grid: true, ..Drawing::default() };
+    let above = Ball { material: Material::Plain, ..ball(DVec3::ZERO, 0.5, [1.0, 0.0, 0.0]) };
+    drawing.balls.push(above);
+    let bounds = Bounds { min: DVec3::splat(-2.0), max: DVec3::splat(2.0) };
+    drawing.framing = Some(Framing { whole: bounds, balls: bounds });
+    let camera = Camera::looking_at(DVec3::new(0.0, 6.0, 9.0), DVec3::Y * -1.5, 0.8);
+    let tones = |drawing: &Drawing, y: u32| {
+        let picture = drawn(drawing, &camera, Quality::FINE);
+        let row: Vec<u8> = (0..SIZE[0]).map(|x| pixel(&picture, x, y)[1]).collect();
+        (row.iter().copied().min().expect("pixels"), row.iter().copied().max().expect("pixels"))
+    };
+    let place = camera.place(DVec3::Y * -2.0, ASPECT).expect("before the eye");
+    let row = ((0.5 - 0.5 * f64::from(place.y)) * f64::from(SIZE[1])) as u32;
+    let (shaded, lit) = tones(&drawing, row);
+    assert!(u32::from(shaded) + 40 < u32::from(lit), "{shaded} {lit}");
+    // Without the ball, its lines are left: one of them goes along that row.
+    drawing.balls.clear();
+    let (line, between) = tones(&drawing, row + 8);
+    assert!(u32::from(line) + 10 < u32::from(between), "{line} {between}");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 // Sun, sky and shadows: how what is drawn is lit. Positions are relative to the eye.
 
+const MOST_CUTS: i32 = 8;
+
 struct Globals {
     clip_from_eye: mat4x4<f32>,
     // Shadow maps: of the sun, and of the sky straight above.
@@ -13,14 +15,20 @@ struct Globals {
     zenith: vec4<f32>,
     // Sky above the horizon, w: 1 where coverage is by several samples a pixel.
     horizon: vec4<f32>,
-    // What the ground sends back from below.
+    // What the ground sends back from below, w: part of the edge of its map that the sky takes.
     ground: vec4<f32>,
-    // The view: ahead, and to the right and upper edge of the picture at distance 1.
+    // The view: ahead (w: part of the edge of its map that the sun takes), and to the right and upper
+    // edge of the picture at distance 1.
     ahead: vec4<f32>,
     right: vec4<f32>,
     up: vec4<f32>,
     // Width and height of the picture in pixels, length of a texel of shadow maps.
     picture: vec4<f32>,
+    // The box in which half-spaces but the ground are seen; w: how much farther inclines are.
+    room_min: vec4<f32>,
+    room_max: vec4<f32>,
+    // Half-spaces that others are cut off at: normal, distance from the eye along it.
+    cuts: array<vec4<f32>, MOST_CUTS>,
 }
 
 @group(0) @binding(0) var<uniform> globals: Globals;
@@ -31,12 +39,14 @@ fn tap(place: vec2<f32>, layer: i32, depth: f32) -> f32 {
     return textureSampleCompareLevel(shadow_maps, shadow_sampler, place, layer, depth);
 }
 
-// How much of the light of a map arrives, from 0 to 1. `spread`: distance of taps, in texels.
-fn light_through(map: vec4<f32>, layer: i32, spread: f32) -> f32 {
-    let place = map.xy * vec2<f32>(0.5, -0.5) + 0.5;
-    if any(place < vec2<f32>(0.0)) || any(place > vec2<f32>(1.0)) || map.z > 1.0 {
+// How much of the light of a map arrives, from 0 to 1. `part`: of the edge of the map that is used;
+// `spread`: distance of taps, in texels.
+fn light_through(map: vec4<f32>, layer: i32, part: f32, spread: f32) -> f32 {
+    let of_whole = map.xy * vec2<f32>(0.5, -0.5) + 0.5;
+    if any(of_whole < vec2<f32>(0.0)) || any(of_whole > vec2<f32>(1.0)) || map.z > 1.0 {
         return 1.0;
     }
+    let place = of_whole * part;
     if globals.sun.w < 0.5 {
         return tap(place, layer, map.z);
     }
@@ -75,26 +85,49 @@ struct Surface {
     gloss: f32,
 }
 
+// How much of the sun arrives at a point of a surface with this normal, shadows of others counted.
+fn sunlight(point: vec3<f32>, normal: vec3<f32>) -> f32 {
+    let off = off_surface(point, normal, globals.to_sun.xyz, globals.to_sun.w, 0.6, 2.4);
+    return light_through(globals.sun_from_eye * vec4<f32>(off, 1.0), 0, globals.ahead.w, 1.2);
+}
+
+// How much of the sky straight above arrives there.
+fn skylight(point: vec3<f32>, normal: vec3<f32>) -> f32 {
+    let off = off_surface(point, normal, vec3<f32>(0.0, 1.0, 0.0), globals.zenith.w, 1.0, 3.5);
+    return light_through(globals.sky_from_eye * vec4<f32>(off, 1.0), 1, globals.ground.w, 1.5);
+}
+
+// A point off a surface, so that it does not shade itself: by these many texels where light falls
+// straight, and so many more where it grazes, where a tap aside lies as deep below the surface.
+fn off_surface(
+    point: vec3<f32>,
+    normal: vec3<f32>,
+    to_light: vec3<f32>,
+    texel: f32,
+    straight: f32,
+    grazing: f32,
+) -> vec3<f32> {
+    let facing = dot(normal, to_light);
+    let slope = sqrt(max(1.0 - facing * facing, 0.0));
+    return point + normal * texel * (straight + grazing * slope);
+}
+
 fn lit(surface: Surface) -> vec3<f32> {
     let n = surface.normal;
     let facing = dot(n, globals.to_sun.xyz);
-    // Off the surface by more than a texel where light grazes, so that it does not shade itself.
-    let slope = sqrt(max(1.0 - facing * facing, 0.0));
-    let off_sun = surface.point + n * globals.to_sun.w * (0.6 + 2.4 * slope);
-    let off_sky = surface.point + n * globals.zenith.w * 2.5;
-    let sunlight = light_through(globals.sun_from_eye * vec4<f32>(off_sun, 1.0), 0, 1.2);
-    let skylight = light_through(globals.sky_from_eye * vec4<f32>(off_sky, 1.0), 1, 5.0);
+    let sunlit = sunlight(surface.point, n);
 
     let upward = 0.5 + 0.5 * n.y;
-    let from_sky = mix(globals.horizon.rgb, globals.zenith.rgb, 0.5) * (0.68 + 0.32 * skylight);
+    let open = 0.58 + 0.42 * skylight(surface.point, n);
+    let from_sky = mix(globals.horizon.rgb, globals.zenith.rgb, 0.5) * open;
     let ambient = mix(globals.ground.rgb * 0.55, from_sky, upward);
-    let direct = globals.sun.rgb * max(facing, 0.0) * sunlight;
+    let direct = globals.sun.rgb * max(facing, 0.0) * sunlit;
     var color = surface.color * (0.66 * ambient + 0.95 * direct);
 
     if surface.gloss > 0.0 {
         let to_eye = -normalize(surface.point);
         let half_way = normalize(to_eye + globals.to_sun.xyz);
-        let highlight = pow(max(dot(n, half_way), 0.0), 60.0) * sunlight * step(0.0, facing);
+        let highlight = pow(max(dot(n, half_way), 0.0), 60.0) * sunlit * step(0.0, facing);
         let grazing = pow(1.0 - max(dot(n, to_eye), 0.0), 4.0);
         let mirrored = sky(reflect(-to_eye, n));
         color += surface.gloss * (0.35 * highlight * globals.sun.rgb + 0.28 * grazing * mirrored);

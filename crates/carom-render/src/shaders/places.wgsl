@@ -1,4 +1,5 @@
-// Where things are: rotations, and corners of the triangles of a rectangle or box by their number.
+// Where things are: rotations, corners of the triangles of a rectangle or box by their number, and
+// the lines of grids.
 
 fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
     return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
@@ -33,4 +34,12 @@ fn corner_of(index: u32, kind: f32) -> Corner {
         corner.normal = vec3<f32>(0.0, 0.0, side);
     }
     return corner;
+}
+
+// How much of a pixel lies on the lines of a square grid; none where they come too close.
+fn grid(place: vec2<f32>, distance: f32, pixel: vec2<f32>) -> f32 {
+    let cell = abs(fract(place / distance + 0.5) - 0.5) * distance;
+    let line = 1.0 - smoothstep(0.5 * pixel, 1.5 * pixel, cell);
+    let fade = 1.0 - smoothstep(0.1, 0.4, max(pixel.x, pixel.y) / distance);
+    return max(line.x, line.y) * fade;
 }

@@ -6,7 +6,7 @@ struct Instance {
     @location(1) rotation: vec4<f32>,
     // Half of the lengths along the local axes; w: distance of the lines of its grid.
     @location(2) extent: vec4<f32>,
-    // Linear; w: opacity.
+    // Linear; w: opacity, below 0 where only the rims of faces are seen.
     @location(3) color: vec4<f32>,
 }
 
@@ -23,9 +23,10 @@ struct Varying {
 }
 
 const BOX: f32 = 1.0;
-const HALF_SPACE: f32 = 2.0;
-// A rectangle of which nothing but the rim is seen.
-const RIM: f32 = 3.0;
+// Half-spaces: the ground goes on to the horizon, inclines farther than walls.
+const GROUND: f32 = 2.0;
+const WALL: f32 = 3.0;
+const INCLINE: f32 = 4.0;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
@@ -48,7 +49,7 @@ fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
     // Where a pixel has one sample, every other one shows what can be seen through.
     let odd = (i32(in.clip.x) + i32(in.clip.y)) % 2 != 0;
-    if in.color.w < 1.0 && globals.horizon.w < 0.5 && odd {
+    if in.color.w >= 0.0 && in.color.w < 1.0 && globals.horizon.w < 0.5 && odd {
         discard;
     }
     let is_front = dot(in.normal, in.point) < 0.0;
@@ -75,14 +76,22 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
         color *= 1.0 + 0.5 * stripes(place.x + place.y, in.extent.w * 0.5, pixel.x + pixel.y);
     }
     var opacity = in.color.w;
-    if in.kind == RIM {
+    let is_half_space = in.kind >= GROUND;
+    let inside = inside_room(in.point, in.kind);
+    let inside_width = max(fwidth(inside), 1e-6 * distance);
+    if is_half_space {
+        opacity *= clamp(inside / inside_width + 0.5, 0.0, 1.0);
+        if opacity < select(0.5, 0.1, globals.horizon.w > 0.5) * in.color.w {
+            discard;
+        }
+    } else if in.color.w < 0.0 {
         let to_edge = (reach - abs(place)) / pixel;
         opacity = 1.0 - smoothstep(1.4, 2.4, min(to_edge.x, to_edge.y));
         if opacity < 0.1 {
             discard;
         }
         color = in.color.rgb * 0.55;
-    } else if in.kind != HALF_SPACE {
+    } else {
         let to_edge = (reach - abs(place)) / pixel;
         let edge = 1.0 - smoothstep(0.4, 1.6, min(to_edge.x, to_edge.y));
         color *= 1.0 - 0.35 * edge;
@@ -94,7 +103,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     surface.color = color;
     surface.gloss = 0.0;
     var shown = lit(surface);
-    if in.kind == HALF_SPACE {
+    if in.kind == GROUND {
         // Fades into the haze before its edge.
         let haze = smoothstep(0.12, 0.75, distance / in.extent.x);
         shown = mix(shown, sky(in.point / max(distance, 1e-12)), haze);
@@ -102,12 +111,21 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     return vec4<f32>(encoded(shown), opacity);
 }
 
-// How much of a pixel lies on the lines of a square grid; none where they come too close.
-fn grid(place: vec2<f32>, distance: f32, pixel: vec2<f32>) -> f32 {
-    let cell = abs(fract(place / distance + 0.5) - 0.5) * distance;
-    let line = 1.0 - smoothstep(0.5 * pixel, 1.5 * pixel, cell);
-    let fade = 1.0 - smoothstep(0.1, 0.4, max(pixel.x, pixel.y) / distance);
-    return max(line.x, line.y) * fade;
+// How far a point of a half-space is from where others, or the room, cut it off: negative beyond.
+fn inside_room(point: vec3<f32>, kind: f32) -> f32 {
+    // Half-spaces do not cut themselves off.
+    let slack = 1e-3 * length(point);
+    var inside = 1e30;
+    for (var i = 0; i < MOST_CUTS; i++) {
+        let cut = globals.cuts[i];
+        inside = min(inside, dot(cut.xyz, point) - cut.w + slack);
+    }
+    if kind != GROUND {
+        let farther = select(0.0, globals.room_min.w, kind == INCLINE);
+        let room = min(point - globals.room_min.xyz, globals.room_max.xyz - point) + farther;
+        inside = min(inside, min(room.x, min(room.y, room.z)));
+    }
+    return inside;
 }
 
 fn stripes(along: f32, distance: f32, pixel: f32) -> f32 {

@@ -1,0 +1,50 @@
+//! What of a drawing a picture has to show: not balls that are far from the others.
+
+use carom::DVec3;
+
+use crate::bounds::Bounds;
+use crate::drawing::{Drawing, Panel};
+use crate::framing::Framing;
+
+/// Room around balls without any surface, in their radii.
+const ALONE: f64 = 0.8;
+
+impl Framing {
+    /// What there is to see in a drawing: its surfaces, and its balls but those that are far from the
+    /// others; `None` without any.
+    pub fn of_drawing(drawing: &Drawing) -> Option<Self> {
+        let surfaces = Bounds::around(drawing.panels.iter().filter_map(Panel::bounds));
+        let balls = crowd(drawing).or(surfaces)?;
+        let radii = drawing.balls.iter().map(|ball| ball.radius);
+        let radius = radii.sum::<f64>() / drawing.balls.len().max(1) as f64;
+        let alone = surfaces.is_none().then(|| balls.grown(ALONE * radius));
+        let whole = Bounds::around([Some(balls), surfaces, alone].into_iter().flatten());
+        Some(Self { whole: whole.unwrap_or(balls), balls })
+    }
+
+    /// What the first seconds of a scene sweep, unless what is drawn of it now has left that.
+    pub fn of_run(first: Option<Self>, drawing: &Drawing) -> Self {
+        let now = Self::of_drawing(drawing);
+        let has_left = |first: &Self| {
+            now.is_some_and(|now| !first.whole.holds(&Bounds::at(now.balls.center())))
+        };
+        first.filter(|first| !has_left(first)).or(now).unwrap_or(Self::UNIT)
+    }
+}
+
+/// The box around the balls that are not much farther from the middle of all than half of them are.
+fn crowd(drawing: &Drawing) -> Option<Bounds> {
+    // In distances of the middle one.
+    const NEAR: f64 = 3.0;
+    let balls = &drawing.balls;
+    let median = |mut values: Vec<f64>| {
+        let middle = values.len() / 2;
+        (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+    };
+    let along = |axis: usize| median(balls.iter().map(|ball| ball.center[axis]).collect());
+    let middle = DVec3::new(along(0)?, along(1)?, along(2)?);
+    let reach =
+        median(balls.iter().map(|ball| ball.center.distance(middle) + ball.radius).collect())?;
+    let near = balls.iter().filter(|ball| ball.center.distance(middle) <= NEAR * reach);
+    Bounds::around(near.map(|ball| Bounds::of_sphere(ball.center, ball.radius)))
+}

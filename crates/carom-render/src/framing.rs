@@ -1,0 +1,143 @@
+//! What a picture of a scene has to show: where its balls are and go in its first seconds.
+
+use std::collections::BTreeMap;
+
+use carom::{Collider, DVec3, Shape, World};
+use carom_scene::Scene;
+
+use crate::bounds::Bounds;
+
+/// The part of space that a camera is fitted to, and at which surfaces without end are cut off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Framing {
+    /// Around the balls and all surfaces that end somewhere.
+    pub whole: Bounds,
+    /// Around the balls alone, without those that fly away.
+    pub balls: Bounds,
+}
+
+/// Simulated time that is looked at \[s\].
+const FIRST_SECONDS: f64 = 3.0;
+
+/// Frames times balls that are stepped to see where balls go: some tenths of a second at worst.
+const MOST_WORK: usize = 20_000;
+
+/// Distance of a plane without end that still belongs to a scene, in radii of its balls and in
+/// radii of the box around them.
+const NEAR_PLANE: [f64; 2] = [100.0, 4.0];
+
+/// How far outside the scene at its start balls stay in the picture that come no farther, in radii
+/// of the box around it and in radii of the balls.
+const STAYING: [f64; 2] = [1.0, 40.0];
+
+/// The same of balls that fly farther than that.
+const LEAVING: [f64; 2] = [0.25, 12.0];
+
+impl Framing {
+    /// Where there is nothing to see.
+    pub const UNIT: Self = Self { whole: Bounds::UNIT, balls: Bounds::UNIT };
+
+    /// What the first seconds of a scene sweep; `None` for a scene without balls and surfaces that
+    /// end. Balls that fly away are left out once they have left, and scenes of very many balls are
+    /// taken as they stand at the start.
+    pub fn of_scene(scene: &Scene) -> Option<Self> {
+        let mut world = scene.world().ok()?;
+        let visible: Vec<_> = scene.all_colliders().iter().map(|it| it.visible).collect();
+        let colliders =
+            || world.colliders().zip(&visible).filter(|it| *it.1).map(|((_, it), _)| it);
+        let surfaces =
+            Bounds::around(colliders().filter_map(|it| Bounds::of_shape(it.shape, it.pose)));
+        let balls = Bounds::around(spheres(&world).map(|it| it.1).chain(emitters(scene)));
+        let balls = balls.or(surfaces)?;
+        let radius = mean_radius(&world).unwrap_or(0.1 * balls.radius());
+        let reach = |[of_balls, of_box]: [f64; 2]| (of_balls * radius).max(of_box * balls.radius());
+        let feet = feet(colliders(), &balls, reach(NEAR_PLANE));
+        let start = [surfaces, feet].into_iter().flatten().fold(balls, Bounds::with);
+        let around = |[of_box, of_balls]: [f64; 2]| {
+            start.grown((of_box * start.radius()).max(of_balls * radius))
+        };
+        let limits = [STAYING, LEAVING].map(around);
+        let [staying, leaving] = sweep(&mut world, scene.simulation.frame_time, limits);
+        let balls = staying.map_or(balls, |swept| balls.with(swept));
+        let whole = leaving.map_or(start, |swept| start.with(swept)).with(balls);
+        Some(Self { whole, balls })
+    }
+}
+
+/// Numbers of spheres, and boxes around them.
+fn spheres(world: &World) -> impl Iterator<Item = (u64, Bounds)> {
+    let spheres = world.spheres();
+    let places = spheres.positions().iter().zip(spheres.radii());
+    let boxes = places.map(|(center, radius)| Bounds::of_sphere(*center, *radius));
+    spheres.ids().iter().map(|id| id.number()).zip(boxes)
+}
+
+/// Boxes around the places where balls will come from.
+fn emitters(scene: &Scene) -> impl Iterator<Item = Bounds> {
+    scene.emitters.iter().map(|emitter| {
+        let sphere = &emitter.sphere;
+        let radius = sphere.radius.or(sphere.diameter.map(|it| 0.5 * it)).unwrap_or(0.5);
+        Bounds::of_sphere(emitter.position.into(), radius)
+    })
+}
+
+fn mean_radius(world: &World) -> Option<f64> {
+    let radii = world.spheres().radii();
+    (!radii.is_empty()).then(|| radii.iter().sum::<f64>() / radii.len() as f64)
+}
+
+/// The box around the points of planes without end that are nearest to a box, where these are not
+/// farther away than `reach` \[m\].
+fn feet<'a>(
+    colliders: impl Iterator<Item = &'a Collider>,
+    of: &Bounds,
+    reach: f64,
+) -> Option<Bounds> {
+    let planes = colliders.filter(|it| it.shape == Shape::HalfSpace && !it.trigger);
+    let feet = planes.flat_map(|plane| {
+        let normal = plane.pose.rotation.normalize() * DVec3::Y;
+        let feet = of.corners().map(|corner| {
+            let height = normal.dot(corner - plane.pose.position);
+            (height, corner - height * normal)
+        });
+        let nearest = feet.iter().map(|it| it.0).fold(f64::INFINITY, f64::min);
+        feet.into_iter().filter(move |_| nearest <= reach).map(|(_, foot)| foot)
+    });
+    Bounds::around(feet.map(Bounds::at))
+}
+
+/// The boxes around what balls sweep in the first seconds: those that stay within `far`, and the others
+/// as long as they are within `near`.
+fn sweep(world: &mut World, frame_time: f64, [far, near]: [Bounds; 2]) -> [Option<Bounds>; 2] {
+    #[derive(Clone, Copy, Default)]
+    struct Swept {
+        far: Option<Bounds>,
+        near: Option<Bounds>,
+        left: bool,
+    }
+    let add =
+        |to: &mut Option<Bounds>, more: Bounds| *to = Some(to.map_or(more, |it| it.with(more)));
+    let mut of_balls = BTreeMap::<u64, Swept>::new();
+    let frames = (FIRST_SECONDS / frame_time).ceil() as usize;
+    let mut work = 0;
+    for _ in 0..frames {
+        work += world.spheres().len().max(1);
+        if work > MOST_WORK || world.step(frame_time).is_err() {
+            break;
+        }
+        for (number, sphere) in spheres(world) {
+            let swept = of_balls.entry(number).or_default();
+            swept.left |= !far.holds(&sphere);
+            if !swept.left {
+                add(&mut swept.far, sphere);
+            }
+            if near.holds(&sphere) {
+                add(&mut swept.near, sphere);
+            }
+        }
+    }
+    let around = |left: bool, which: fn(&Swept) -> Option<Bounds>| {
+        Bounds::around(of_balls.values().filter(|it| it.left == left).filter_map(which))
+    };
+    [around(false, |it| it.far), around(true, |it| it.near)]
+}

@@ -1,0 +1,86 @@
+//! What a camera is fitted to: where the balls of a scene are and go in its first seconds.
+
+use carom::DVec3;
+use carom_render::{Bounds, Drawing, Framing};
+use carom_scene::{Library, Scene};
+
+fn scene(text: &str) -> Scene {
+    Scene::from_toml(&format!("name = \"test\"\n{text}"), "test.toml").expect("a scene")
+}
+
+fn framing(text: &str) -> Framing {
+    Framing::of_scene(&scene(text)).expect("something to see")
+}
+
+const GRAVITY: &str = "forces = [{ gravity = { acceleration = [0.0, -9.81, 0.0] } }]\n";
+
+#[test]
+fn the_floor_under_a_ball_is_in_the_picture() {
+    let ball = "spheres = [{ position = [0.0, 2.0, 0.0], radius = 0.5 }]\n";
+    let floor = "colliders = [{ shape = \"half-space\" }]";
+    let Framing { whole, balls } = framing(&format!("{GRAVITY}{ball}{floor}"));
+    let tiny = 1e-9;
+    assert!(whole.min.y.abs() < tiny && (whole.max.y - 2.5).abs() < tiny, "{whole:?}");
+    // Between two frames it touches the floor.
+    assert!((0.0..0.1).contains(&balls.min.y), "{balls:?}");
+    // A floor that is very far away would make a dot of the ball.
+    let far = "spheres = [{ position = [0.0, 2000.0, 0.0], radius = 0.5 }]\n";
+    let whole = framing(&format!("{GRAVITY}{far}{floor}")).whole;
+    assert!(whole.min.y > 1900.0, "{whole:?}");
+}
+
+#[test]
+fn a_ball_that_flies_away_does_not_make_dots_of_the_others() {
+    let others = "spheres = \
+        [{ position = [0.0, 0.0, 0.0], radius = 0.5 }, { position = [3.0, 0.0, 0.0], radius = 0.5 }";
+    let alone = framing(&format!("{others}]")).whole;
+    let fast = ", { position = [1.5, 3.0, 0.0], velocity = [500.0, 0.0, 0.0], radius = 0.5 }]";
+    let with = framing(&format!("{others}{fast}"));
+    assert!(with.whole.radius() < 4.0 * alone.radius(), "{with:?}");
+    assert!(with.whole.holds(&alone), "{with:?}");
+    // One that stays near is in the picture all the time.
+    let slow = ", { position = [1.5, 3.0, 0.0], velocity = [1.0, 0.0, 0.0], radius = 0.5 }]";
+    let with = framing(&format!("{others}{slow}"));
+    assert!((with.whole.max.x - 5.0).abs() < 0.05, "{with:?}");
+}
+
+#[test]
+fn what_emitters_throw_is_in_the_picture_before_it_is_there() {
+    let emitter = "[[emitters]]\nposition = [0.0, 5.0, 0.0]\nperiod = 0.5\n\
+                   sphere = { radius = 0.5, velocity = [0.0, -2.0, 0.0] }\n";
+    let whole = framing(emitter).whole;
+    assert!(whole.max.y >= 5.5 && whole.min.y < 2.0, "{whole:?}");
+}
+
+#[test]
+fn every_built_in_scene_has_all_of_its_balls_in_its_framing() {
+    for entry in Library::new().entries().expect("the built-in scenes") {
+        let scene = entry.scene.expect("a built-in scene");
+        let framing = Framing::of_scene(&scene).expect("something to see");
+        let world = scene.world().expect("a world");
+        let spheres = world.spheres();
+        for (center, radius) in spheres.positions().iter().zip(spheres.radii()) {
+            let ball = Bounds::of_sphere(*center, *radius);
+            assert!(framing.whole.holds(&ball), "{}: {ball:?} in {framing:?}", scene.name);
+        }
+        assert!(framing.whole.radius() < 1e3, "{}: {framing:?}", scene.name);
+    }
+}
+
+#[test]
+fn a_scene_without_anything_has_no_framing() {
+    assert_eq!(Framing::of_scene(&scene("")), None);
+    assert_eq!(Framing::of_drawing(&Drawing::default()), None);
+    assert_eq!(Framing::of_run(None, &Drawing::default()), Framing::UNIT);
+}
+
+#[test]
+fn what_has_left_the_first_framing_is_framed_where_it_is() {
+    let first = framing("spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.5 }]");
+    let mut drawing = Drawing::default();
+    let sphere = carom::Shape::Sphere { radius: 0.5 };
+    let place = carom::Pose::at(DVec3::X * 100.0);
+    drawing.add_collider(sphere, place, [1.0; 3], false);
+    let now = Framing::of_run(Some(first), &drawing);
+    assert!(now.whole.holds(&Bounds::at(DVec3::X * 100.0)), "{now:?}");
+}
