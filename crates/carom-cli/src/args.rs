@@ -70,6 +70,8 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Write a scene file to start from: balls fall into a box, with a comment on every part.
+    New(New),
     /// Check scene files; says what is wrong, and in which line.
     Check {
         /// Scene files.
@@ -89,6 +91,13 @@ pub enum Command {
     Compare(Box<Compare>),
     /// Measure how fast gases of spheres and the built-in scenes run on one core.
     Bench(Bench),
+    /// Print what a shell reads to complete words of this command line.
+    Completions(Completions),
+    /// Write manual pages, one for each command, into a folder.
+    Man {
+        /// The folder; it is made where it is missing.
+        folder: PathBuf,
+    },
     /// Draw a scene into a PNG file.
     #[cfg(feature = "pictures")]
     Picture(Box<Picture>),
@@ -106,6 +115,23 @@ pub enum Command {
     /// Watch and change a scene in a window; without a scene, choose one there.
     #[cfg(feature = "view")]
     View(View),
+}
+
+/// Write a scene file to start from.
+#[derive(Debug, clap::Args)]
+pub struct New {
+    /// What the scene is called; the file is NAME.toml.
+    pub name: PathBuf,
+    /// Replace a file that is there already.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Write what shells read to complete words of the command line.
+#[derive(Debug, clap::Args)]
+pub struct Completions {
+    /// Which shell.
+    pub shell: clap_complete::Shell,
 }
 
 /// Print a scene.
@@ -162,7 +188,7 @@ pub struct Run {
 /// Check this build against physics.
 #[derive(Debug, clap::Args)]
 pub struct Verify {
-    /// Only claims whose names hold this text.
+    /// Only claims whose names hold this text, or of this topic, like `fluid`.
     #[arg(long, value_name = "TEXT")]
     pub filter: Option<String>,
     /// The rule to hold to the claims; those about a rule or scheme of their own keep it.

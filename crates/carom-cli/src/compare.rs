@@ -216,19 +216,19 @@ impl Comparison {
         let seconds = frame_time * *frames as f64;
         writeln!(
             out,
-            "{scene}, {seconds:.3} s in {frames} frames of {frame_time:.6} s; distances [m] of \
-             spheres alive in both worlds, and energy errors [J], from {reference}"
+            "{scene}, {seconds:.3} s in {frames} frames of {frame_time:.6} s; distances of \
+             spheres alive in both worlds, and energy errors, from {reference}"
         )?;
         let right = Side::Right;
         let mut table = Table::new(&[
             ("rule", Side::Left),
             ("spheres", right),
             ("impacts", right),
-            ("energy", right),
-            ("error", right),
-            ("rms at end", right),
-            ("rms largest", right),
-            ("max largest", right),
+            ("energy, J", right),
+            ("error, J", right),
+            ("rms at end, m", right),
+            ("rms largest, m", right),
+            ("max largest, m", right),
             ("physics", right),
             ("state hash", Side::Left),
         ]);

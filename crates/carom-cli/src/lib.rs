@@ -15,6 +15,8 @@ mod interruption;
 mod length;
 mod link;
 mod machine;
+mod manual;
+mod new;
 mod numbers;
 #[cfg(feature = "pictures")]
 pub mod pictures;
@@ -63,6 +65,7 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
     };
     match &command {
         Command::Scenes { json } => scenes::list(&library()?, *json),
+        Command::New(new) => new::new(new),
         Command::Check { files } => scenes::check(files),
         Command::Show(show) => scenes::show(&library()?, show),
         Command::Run(run) => run::run(&library()?, run),
@@ -70,6 +73,8 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
         Command::Verify(verify) => verify::verify(verify),
         Command::Compare(compare) => compare::compare(&library()?, compare),
         Command::Bench(bench) => bench::bench(bench),
+        Command::Completions(completions) => manual::completions(completions),
+        Command::Man { folder } => manual::pages(folder),
         #[cfg(feature = "pictures")]
         Command::Picture(picture) => pictures::picture(&library()?, picture),
         #[cfg(feature = "pictures")]

@@ -190,7 +190,7 @@ fn scenes_are_listed_with_name_description_and_origin() {
         assert!(list.contains(part), "{part}: {list}");
     }
     let json: Value = serde_json::from_str(&good(&["scenes", "--json"])).unwrap();
-    assert_eq!(json[0]["name"], "simtest1");
+    assert_eq!(json[0]["name"], "billiards");
 }
 
 #[test]
@@ -223,6 +223,9 @@ fn scenes_of_a_users_own_are_found_in_folders() {
         .unwrap();
     assert!(output.status.success());
     assert!(bad_line(&["run", "own"], 2).contains("there is no scene \"own\""));
+    // The file of that name in the folder where one is.
+    let output = carom().args(["run", "own", "--frames", "3"]).current_dir(directory).output();
+    assert!(output.unwrap().status.success());
 }
 
 #[test]
@@ -485,4 +488,39 @@ fn a_reader_that_has_heard_enough_is_no_error() {
     let output = Command::new("bash").args(["-c", &script]).output().unwrap();
     assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(stdout(&output).lines().last(), Some("0"));
+}
+
+#[test]
+fn a_new_scene_runs_and_replaces_nothing_unless_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "balls \"mine\".toml");
+    let told = good(&["new", file.strip_suffix(".toml").unwrap()]);
+    assert!(told.contains(&format!("carom view {file}")), "{told}");
+    assert!(good(&["check", &file]).contains("balls \"mine\""));
+    let json = summary(&["run", &file]);
+    assert_eq!(json["spheres"], 61);
+    // None falls through a wall: the box gives back what comes in from above.
+    assert!(json["impacts"].as_u64().unwrap() > 500, "{json}");
+
+    std::fs::write(&file, "mine").unwrap();
+    let error = bad_line(&["new", &file], 2);
+    assert!(error.contains("is there already; --force replaces it"), "{error}");
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), "mine");
+    good(&["new", &file, "--force"]);
+    assert!(good(&["check", &file]).contains("ok"));
+    bad_line(&["new", &path(&folder, "missing/scene")], 1);
+}
+
+#[test]
+fn shells_and_man_can_read_the_command_line() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = good(&["completions", shell]);
+        assert!(script.contains("carom") && script.contains("compare"), "{shell}: {script}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let pages = folder.path().join("man");
+    good(&["man", pages.to_str().unwrap()]);
+    let run = std::fs::read_to_string(pages.join("carom-run.1")).unwrap();
+    assert!(run.starts_with(".ie") && run.contains("impacts"), "{run}");
+    assert!(pages.join("carom.1").exists());
 }

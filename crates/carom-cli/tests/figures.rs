@@ -41,7 +41,17 @@ fn the_filter_of_verify_keeps_claims_whose_name_holds_it_in_order() {
         .collect();
     assert_eq!(names.len(), 4);
     assert!(names.iter().zip(1..).all(|(name, k)| name.contains(&format!("{k} in: {k} out"))));
-    assert!(bad(&["verify", "--filter", "perpetuum"], 2).contains("no claim has"));
+    let refusal = bad(&["verify", "--filter", "perpetuum"], 2);
+    assert!(refusal.contains("no claim has") && refusal.contains("silo"), "{refusal}");
+}
+
+#[test]
+fn the_filter_of_verify_takes_a_topic() {
+    let report = json(&["verify", "--filter", "motion"], 0);
+    let claims = report["claims"].as_array().unwrap();
+    assert!(!claims.is_empty());
+    let other = json(&["verify", "--filter", "impacts"], 0);
+    assert!(other["claims"].as_array().unwrap().iter().all(|claim| !claims.contains(claim)));
 }
 
 #[test]

@@ -166,7 +166,7 @@ fn what_is_no_link_ends_with_code_2_and_one_line() {
         ("#t=1", "the link names no scene"),
         ("#scene=simtest1&seed=3", "the link has a part \"seed\""),
         ("#scene=simtest1&t=-1", "the link says t=-1.0"),
-        ("#scene=simtest1&t=1e300", "so many frames cannot be counted"),
+        ("#scene=simtest1&t=1e300", "more than 100,000,000 frames after the start"),
         ("#scene=simtest1&rule=magic", "the rules are exact, contact, bisect, discrete"),
         ("#scene=simtest1&set=emitters.9.period=1", "no element 9"),
         ("#scene=simtest1&edits=AAAA", "edits of the link is cut short or garbled"),

@@ -16,6 +16,7 @@ pub fn draw(
 ) {
     drawing.clear();
     drawing.light = Light::of_scene(scene);
+    drawing.has_grid = true;
     let all = scene.all_colliders();
     let colliders = all.iter().zip(running.world().colliders());
     for (i, ((written, (_, now)), pose)) in colliders.zip(running.poses(time)).enumerate() {

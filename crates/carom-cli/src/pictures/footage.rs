@@ -1,7 +1,7 @@
 //! What can be filmed.
 
 use carom::StopRequest;
-use carom_render::{Bounds, Drawing};
+use carom_render::Drawing;
 use carom_scene::Scene;
 
 use super::error::ShootError;
@@ -44,17 +44,4 @@ impl Words {
 /// What a scene is called for people.
 pub fn title(scene: &Scene) -> &str {
     if scene.title.is_empty() { &scene.name } else { &scene.title }
-}
-
-/// The box around what is drawn, and around the places where more balls will come from.
-pub fn bounds(scene: &Scene, drawing: &Drawing) -> Bounds {
-    // What a scene of planes without end is shown as: anything will do.
-    const NOTHING: f64 = 5.0;
-    let emitters = scene.emitters.iter().map(|emitter| {
-        let sphere = &emitter.sphere;
-        let radius = sphere.radius.or(sphere.diameter.map(|it| 0.5 * it)).unwrap_or(0.5);
-        Bounds::of_sphere(emitter.position.into(), radius)
-    });
-    Bounds::around(emitters.chain(drawing.bounds()))
-        .unwrap_or(Bounds::of_sphere(carom::DVec3::ZERO, NOTHING))
 }

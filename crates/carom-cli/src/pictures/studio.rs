@@ -1,10 +1,10 @@
 //! Where pictures are made.
 
-use carom_render::{Camera, Drawing, GpuError, Offscreen, Picture, caption, stamp};
+use carom_render::{Camera, Drawing, Framing, GpuError, Offscreen, Picture, caption, stamp};
 
 use super::args::Look;
 use super::error::ShootError;
-use super::footage::{Footage, Words, bounds};
+use super::footage::{Footage, Words};
 
 /// Draws footage as the user wants to see it.
 #[derive(Debug)]
@@ -29,17 +29,18 @@ impl Studio {
         self.look.size
     }
 
-    /// A camera for footage, by what is to be seen at this time \[s\].
+    /// A camera for footage, by what is to be seen from this time \[s\] on.
     ///
     /// # Errors
     /// As [`Footage::draw`].
     pub fn camera(&mut self, footage: &mut dyn Footage, time: f64) -> Result<Camera, ShootError> {
         footage.draw(time, &mut self.drawing)?;
         let [width, height] = self.look.size.map(f64::from);
-        let bounds = bounds(footage.scene(), &self.drawing);
+        let framing = Framing::of_run(Framing::of_scene(footage.scene()), &self.drawing);
+        self.drawing.framing = Some(framing);
         let aspect = width / height;
         let of_scene = Camera::of_scene(footage.scene()).map(|camera| camera.in_picture(aspect));
-        Ok(self.look.camera.camera(of_scene, &bounds, aspect))
+        Ok(self.look.camera.camera(of_scene, &framing.whole, aspect))
     }
 
     /// Footage at a time \[s\].

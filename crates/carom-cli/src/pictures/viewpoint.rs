@@ -19,16 +19,13 @@ pub enum Viewpoint {
     },
 }
 
-/// Vertical field of view of cameras that do not say \[°\]: that of the presets.
-const VERTICAL_FOV_DEGREES: f64 = 45.0;
-
 impl Viewpoint {
     /// The camera there, in a picture of this width to height.
     pub fn camera(&self, of_scene: Option<Camera>, bounds: &Bounds, aspect: f64) -> Camera {
         match *self {
             Self::Preset(preset) => preset.camera(of_scene, bounds, aspect),
             Self::Between { position, target } => {
-                Camera::looking_at(position, target, VERTICAL_FOV_DEGREES.to_radians())
+                Camera::looking_at(position, target, Camera::VERTICAL_FOV_DEGREES.to_radians())
             }
         }
     }

@@ -30,7 +30,7 @@ pub fn claims() -> Vec<Claim> {
             "a superball turns its slip round, and keeps its energy [relative]",
             Expected::no_error("Garwin, Am. J. Phys. 37, 88 (1969)"),
             Tolerance::absolute(1e-11, ROUNDING),
-            |_| superball(),
+            superball,
         ),
         Claim::new(
             "rolling friction stops a ball after v²/(2 5/7 mu g) [m]",
@@ -56,13 +56,13 @@ pub fn claims() -> Vec<Claim> {
             format!("oblique bounce at {degrees} degrees: tangential restitution"),
             Expected::value(tangential, source),
             Tolerance::absolute(5e-5, reason),
-            move |_| oblique(degrees).map(|(tangential, _)| tangential),
+            move |rule| oblique(rule, degrees).map(|(tangential, _)| tangential),
         ));
         claims.push(Claim::new(
             format!("oblique bounce at {degrees} degrees: spin [rad/s]"),
             Expected::value(spin, source),
             Tolerance::absolute(0.05, reason),
-            move |_| oblique(degrees).map(|(_, spin)| spin),
+            move |rule| oblique(rule, degrees).map(|(_, spin)| spin),
         ));
     }
     for (balls, floor, stands) in [(0.33, 0.083, 1.0), (0.3, 0.083, 0.0), (0.33, 0.076, 0.0)] {
@@ -142,8 +142,8 @@ fn incline(mu: f64) -> Outcome {
 }
 
 /// How far the slip after a bounce is from that before, turned round, and the energy from what it was.
-fn superball() -> Outcome {
-    let mut world = world(Contact::default().into())?;
+pub fn superball(rule: Rule) -> Outcome {
+    let mut world = world(rule)?;
     let friction = Friction::sliding(100.0).with_tangential_restitution(1.0);
     let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_friction(friction);
     world.add_collider(floor)?;
@@ -170,8 +170,8 @@ fn rolling_friction() -> Outcome {
 
 /// Tangential coefficient of restitution, and spin afterwards, of a ball that hits a plate at this angle
 /// to its normal.
-fn oblique(degrees: f64) -> Result<(Measured, Measured), super::claim::Fault> {
-    let mut world = world(Contact::default().into())?;
+pub fn oblique(rule: Rule, degrees: f64) -> Result<(Measured, Measured), super::claim::Fault> {
+    let mut world = world(rule)?;
     let plate = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(0.98);
     world.add_collider(plate.with_friction(0.092))?;
     let (sine, cosine) = libm::sincos(degrees.to_radians());

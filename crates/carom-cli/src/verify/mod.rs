@@ -38,14 +38,13 @@ use report::{Finding, Report};
 
 /// Checks claims and prints what came out.
 pub fn verify(args: &Verify) -> Result<(), Failure> {
-    let is_wanted = |claim: &Claim| {
-        (args.full || claim.effort == Effort::Quick)
-            && args.filter.as_ref().is_none_or(|text| claim.name.contains(text))
-    };
-    let claims: Vec<Claim> = claims().into_iter().filter(is_wanted).collect();
+    let claims = claims(args);
     if claims.is_empty() {
         let text = args.filter.as_deref().unwrap_or_default();
-        return Err(Failure::Usage(format!("no claim has \"{text}\" in its name")));
+        let topics = TOPICS.map(|topic| topic.0).join(", ");
+        return Err(Failure::Usage(format!(
+            "no claim has \"{text}\" in its name; topics are {topics}"
+        )));
     }
     let findings = check_all(&claims, rule_named(&args.rule));
     let report = Report::new(args, &findings);
@@ -56,27 +55,42 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
     }
 }
 
-/// All claims, in the order in which they are printed.
-fn claims() -> Vec<Claim> {
-    let topics = [
-        motion::claims,
-        single_impacts::claims,
-        tunnelling::claims,
-        simultaneous::claims,
-        billiard::claims,
-        fluid::claims,
-        granular::claims,
-        conservation::claims,
-        resting::claims,
-        friction::claims,
-        rolling::claims,
-        convergence::claims,
-        packing::claims,
-        silo::claims,
-        collapse::claims,
-        course::claims,
-    ];
-    topics.iter().flat_map(|claims| claims()).collect()
+/// Names of topics, and the claims about each.
+type Topic = (&'static str, fn() -> Vec<Claim>);
+
+/// All topics, in the order in which their claims are printed.
+const TOPICS: [Topic; 16] = [
+    ("motion", motion::claims),
+    ("impacts", single_impacts::claims),
+    ("tunnelling", tunnelling::claims),
+    ("simultaneous", simultaneous::claims),
+    ("billiard", billiard::claims),
+    ("fluid", fluid::claims),
+    ("granular", granular::claims),
+    ("conservation", conservation::claims),
+    ("resting", resting::claims),
+    ("friction", friction::claims),
+    ("rolling", rolling::claims),
+    ("convergence", convergence::claims),
+    ("packing", packing::claims),
+    ("silo", silo::claims),
+    ("collapse", collapse::claims),
+    ("course", course::claims),
+];
+
+/// The claims that the arguments name.
+fn claims(args: &Verify) -> Vec<Claim> {
+    let of_topic = |(topic, claims): &Topic| {
+        let is_wanted = |claim: &Claim| {
+            (args.full || claim.effort == Effort::Quick)
+                && args
+                    .filter
+                    .as_ref()
+                    .is_none_or(|text| text == topic || claim.name.contains(text))
+        };
+        claims().into_iter().filter(is_wanted).collect::<Vec<_>>()
+    };
+    TOPICS.iter().flat_map(of_topic).collect()
 }
 
 /// A rule with its default parameters.

@@ -6,6 +6,7 @@ use carom::{
 };
 
 use super::claim::{Claim, Expected, Fault, Measured, Outcome, Tolerance};
+use super::friction;
 use super::setup::{FRAME, G, world};
 
 const RADIUS: f64 = 0.03;
@@ -220,7 +221,7 @@ fn bounces() -> Vec<Claim> {
         "exact: a superball turns its slip round, and keeps its energy [relative]",
         Expected::no_error("Garwin, Am. J. Phys. 37, 88 (1969)"),
         Tolerance::absolute(1e-14, ROUNDING),
-        |_| superball(),
+        friction::superball,
     )];
     for (degrees, tangential) in [(45.0, 0.8178), (60.0, 0.8948), (75.0, 0.9512)] {
         claims.push(Claim::new(
@@ -230,7 +231,7 @@ fn bounces() -> Vec<Claim> {
                 "Chung and Ooi, Granular Matter 13, 643 (2011), test 4; rigid balls",
             ),
             Tolerance::absolute(5e-5, "the published figure has four digits"),
-            move |_| oblique(degrees),
+            move |rule| friction::oblique(rule, degrees).map(|(tangential, _)| tangential),
         ));
     }
     claims
@@ -315,36 +316,6 @@ impl Rolled {
         let value = quantity(&self.world.sphere(self.id)?);
         Ok(Measured::in_world(&self.world, value))
     }
-}
-
-/// How far the slip after a bounce is from that before, turned round, and the energy from what it was.
-fn superball() -> Outcome {
-    let friction = Friction::sliding(100.0).with_tangential_restitution(1.0);
-    let mut world = world(Exact::default().into())?;
-    let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO));
-    world.add_collider(floor.with_friction(friction))?;
-    let shot = ball(DVec3::new(2.0, -3.0, 1.0), DVec3::new(4.0, 7.0, -20.0));
-    let id = world.add_sphere(shot.with_position(0.3 * DVec3::Y))?;
-    let (before, energy) = (slip(&shot), world.kinetic_energy());
-    go_to(&mut world, 0.5)?;
-    let turned = (slip(&world.sphere(id)?) + before).length() / before.length();
-    let gain = (world.kinetic_energy() / energy - 1.0).abs();
-    Ok(Measured::in_world(&world, turned.max(gain)))
-}
-
-/// Tangential coefficient of restitution of a ball that hits a plate at this angle to its normal.
-fn oblique(degrees: f64) -> Outcome {
-    let mut world = world(Exact::default().into())?;
-    let plate = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(0.98);
-    world.add_collider(plate.with_friction(0.092))?;
-    let (sine, cosine) = libm::sincos(degrees.to_radians());
-    let ball = Sphere::new(DVec3::new(0.0, 0.01, 0.0), 0.0025)
-        .with_density(4000.0)
-        .with_velocity(3.9 * DVec3::new(sine, -cosine, 0.0));
-    let id = world.add_sphere(ball)?;
-    go_to(&mut world, 0.1)?;
-    let tangential = world.sphere(id)?.velocity.x / ball.velocity.x;
-    Ok(Measured::in_world(&world, tangential))
 }
 
 /// How a draw shot is at one of its events, of two balls on a cloth.

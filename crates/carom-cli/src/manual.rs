@@ -1,0 +1,23 @@
+//! What others read of the command line: shells its words, `man` its pages.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use clap::CommandFactory;
+
+use crate::args::{Args, Completions};
+use crate::failure::Failure;
+
+/// Prints what a shell reads to complete words.
+pub fn completions(completions: &Completions) -> Result<(), Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(completions.shell, &mut Args::command(), "carom", &mut script);
+    Ok(io::stdout().lock().write_all(&script)?)
+}
+
+/// Writes manual pages into a folder.
+pub fn pages(folder: &Path) -> Result<(), Failure> {
+    let failed = |error| Failure::Fault(format!("cannot write {}: {error}", folder.display()));
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    clap_mangen::generate_to(Args::command(), folder).map_err(failed)
+}

@@ -1,0 +1,54 @@
+//! A scene file to start from.
+
+use std::fs::OpenOptions;
+use std::io::{self, ErrorKind, Write};
+use std::path::Path;
+
+use crate::args::New;
+use crate::failure::Failure;
+
+/// The scene, called `NAME`.
+const TEMPLATE: &str = include_str!("new.toml");
+
+/// Writes a scene file to start from.
+pub fn new(new: &New) -> Result<(), Failure> {
+    let file = if new.name.extension().is_some_and(|it| it == "toml") {
+        new.name.clone()
+    } else {
+        let mut name = new.name.clone().into_os_string();
+        name.push(".toml");
+        name.into()
+    };
+    let name = file.file_stem().unwrap_or_default().to_string_lossy();
+    // A name may hold what ends a text in TOML.
+    let name = toml_text(&name);
+    write(&file, &TEMPLATE.replace("\"NAME\"", &name), new.force)?;
+    let mut out = io::stdout().lock();
+    writeln!(out, "{file} is there: change it, and run it with", file = file.display())?;
+    writeln!(out, "    carom view {}", file.display())?;
+    Ok(())
+}
+
+/// A text as TOML has it.
+fn toml_text(text: &str) -> String {
+    // Texts of TOML escape what those of JSON do.
+    serde_json::Value::from(text).to_string()
+}
+
+fn write(file: &Path, content: &str, replaces: bool) -> Result<(), Failure> {
+    let mut options = OpenOptions::new();
+    options.write(true);
+    if replaces {
+        options.create(true).truncate(true);
+    } else {
+        options.create_new(true);
+    }
+    let mut writing = options.open(file).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => {
+            Failure::Usage(format!("{} is there already; --force replaces it", file.display()))
+        }
+        _ => Failure::Fault(format!("cannot write {}: {error}", file.display())),
+    })?;
+    let written = writing.write_all(content.as_bytes());
+    written.map_err(|error| Failure::Fault(format!("cannot write {}: {error}", file.display())))
+}
