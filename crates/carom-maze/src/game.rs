@@ -17,7 +17,7 @@ const MOST_IMPACTS: u32 = 2_000;
 /// A ball that is deeper in the maze than that \[m\] has sunk in: it is put out again. Far more than
 /// what the rule `exact` leaves uncertain where surfaces turn, far less than one can see.
 const SUNK: f64 = 1e-6;
-/// The same for a ball with friction, as a part of its radius: sub-steps leave more.
+/// [`SUNK`] of a ball with friction, as a part of its radius: sub-steps leave more.
 const STEPPED_SUNK: f64 = 0.02;
 
 /// Where a game stands.
@@ -261,7 +261,8 @@ impl Game {
             BodyPair::Spheres(..) => false,
         };
         // What rolls up to a wall slowly is in contact with it, without an impact.
-        let contacts = self.world.contacts();
+        let rolls = self.options.friction > 0.0;
+        let contacts = if rolls { self.world.contacts() } else { Vec::new() };
         let in_contact = contacts.iter().map(|contact| contact.between);
         let impacts = self.world.report().impacts.iter().map(|impact| impact.between);
         if impacts.chain(in_contact).any(touches) {

@@ -20,8 +20,7 @@ pub(super) struct Rescue {
 #[derive(Debug, Clone, Copy)]
 struct Parked {
     id: SphereId,
-    place: DVec3,
-    velocity: DVec3,
+    ball: Sphere,
     weight: DVec3,
 }
 
@@ -52,8 +51,7 @@ impl Rescue {
         arena: &Arena,
     ) -> Result<(), EpisodeError> {
         let ball = world.sphere(id)?;
-        let (place, velocity) = (ball.position, ball.velocity);
-        self.parked.push(Parked { id, place, velocity, weight: *weight });
+        self.parked.push(Parked { id, ball, weight: *weight });
         *weight = arena.weight() * DVec3::NEG_Y;
         Ok(world.set_motions(&[(id, arena.maze().start(), DVec3::ZERO)])?)
     }
@@ -65,11 +63,10 @@ impl Rescue {
         balls: &mut [Ball],
         arena: &Arena,
     ) -> Result<(), EpisodeError> {
-        for parked in &self.parked {
+        for &Parked { id, ball, weight } in &self.parked {
             self.frames += 1;
-            let before = Sphere::new(parked.place, 1.0).with_velocity(parked.velocity);
-            let after = self.alone.take_frame(parked.id, before, parked.weight, balls, arena)?;
-            world.set_motions(&[(parked.id, after.position, after.velocity)])?;
+            let after = self.alone.take_frame(id, ball, weight, balls, arena)?;
+            world.set_motions(&[(id, after.position, after.velocity)])?;
         }
         Ok(())
     }
