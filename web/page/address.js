@@ -13,7 +13,8 @@ export function address() {
 }
 
 /**
- * Puts this behind `#`, soon, without a step in the browser's history.
+ * Puts this behind `#`, soon: a step in the browser's history where it leads to another scene than
+ * what stands there.
  *
  * @param {string} fragment
  */
@@ -28,9 +29,24 @@ export function showFragment(fragment) {
 function write() {
   const { pathname, search } = location;
   const url = waiting ? `#${waiting}` : pathname + search;
+  const isAnotherScene = address() !== "" && sceneOf(waiting ?? "") !== sceneOf(address());
   waiting = null;
   last = performance.now();
-  history.replaceState(null, "", url);
+  if (isAnotherScene) {
+    history.pushState(null, "", url);
+  } else {
+    history.replaceState(null, "", url);
+  }
+}
+
+/**
+ * What a fragment says of the scene: its name, or the whole file.
+ *
+ * @param {string} fragment
+ */
+function sceneOf(fragment) {
+  const fields = new URLSearchParams(fragment);
+  return fields.get("scene") ?? fields.get("file");
 }
 
 /**

@@ -84,6 +84,40 @@ test("an address that changes is followed", async () => {
   await viewer.close();
 });
 
+test("a way that takes minutes is stopped by Escape, and other keys work on it", async () => {
+  const viewer = await desk.open("#scene=tutorial4&t=100000");
+  await viewer.until(({ watching }) => watching?.seeking && watching.frame > 10);
+  await viewer.page.keyboard.press("Escape");
+  const { watching } = await viewer.until(({ watching }) => !watching.seeking);
+  assert.ok(watching.time < 90000, `${watching.time}`);
+  await viewer.page.keyboard.press("Home");
+  await viewer.until(({ watching }) => watching.frame === 0 && !watching.seeking);
+  await viewer.close();
+});
+
+test("a time that is too far is refused in the chooser", async () => {
+  const viewer = await desk.open("#scene=tutorial4&t=1e9");
+  const { choosing, notices } = await viewer.status();
+  assert.equal(choosing, true);
+  assert.match(notices.join(), /100,000,000 frames/);
+  await viewer.close();
+});
+
+test("Back leads to the scene before", async () => {
+  const viewer = await desk.watch("simtest1");
+  await viewer.page.waitForFunction(() => location.hash.includes("simtest1"));
+  await viewer.page.keyboard.press("Enter");
+  await viewer.until(({ choosing }) => choosing);
+  await viewer.page.keyboard.type("masse");
+  await viewer.pause(500);
+  await viewer.page.keyboard.press("Enter");
+  await viewer.until(({ watching }) => watching?.scene === "masse");
+  await viewer.page.waitForFunction(() => location.hash.includes("masse"));
+  await viewer.page.goBack();
+  await viewer.until(({ watching }) => watching?.scene === "simtest1" && !watching.seeking);
+  await viewer.close();
+});
+
 test("a link that makes no sense is said to, and the chooser opens", async () => {
   const viewer = await desk.open("#scene=nowhere");
   const { choosing, notices } = await viewer.status();

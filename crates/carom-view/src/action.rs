@@ -16,6 +16,7 @@ pub enum Action {
     SceneCamera,
     FrontCamera,
     TopCamera,
+    Fit,
     Follow,
     Screenshot,
     Record,
@@ -34,10 +35,19 @@ pub enum Action {
 }
 
 impl Action {
-    /// What it does, for people.
-    pub fn text(self) -> &'static str {
-        let shortcut = SHORTCUTS.iter().find(|shortcut| shortcut.action == self);
-        shortcut.map_or("", |shortcut| shortcut.text)
+    fn shortcut(self) -> Option<&'static Shortcut> {
+        SHORTCUTS.iter().find(|shortcut| shortcut.action == self)
+    }
+
+    /// What it does and its keys, for people.
+    pub fn hint(self) -> String {
+        let said = |it: &Shortcut| format!("{} ({})", it.text, it.keys_text());
+        self.shortcut().map(said).unwrap_or_default()
+    }
+
+    /// Its keys, for people.
+    pub fn keys(self) -> String {
+        self.shortcut().map(Shortcut::keys_text).unwrap_or_default()
     }
 
     /// Whether it is done again and again while its key is held.
@@ -55,6 +65,18 @@ pub struct Shortcut {
     pub keys: &'static [KeyboardShortcut],
     /// For people.
     pub text: &'static str,
+}
+
+impl Shortcut {
+    /// Its keys, for people.
+    pub fn keys_text(&self) -> String {
+        let name = |key: &KeyboardShortcut| {
+            let control = if key.modifiers.command { "Ctrl + " } else { "" };
+            format!("{control}{}", key.logical_key.symbol_or_name())
+        };
+        let keys: Vec<String> = self.keys.iter().map(name).collect();
+        keys.join("  or  ")
+    }
 }
 
 const fn key(key: Key) -> KeyboardShortcut {
@@ -89,6 +111,7 @@ shortcuts! {
     SceneCamera: [key(Key::Num1)], "the scene's camera";
     FrontCamera: [key(Key::Num2)], "camera in front";
     TopCamera: [key(Key::Num3)], "camera above";
+    Fit: [key(Key::Num0)], "keep all there is in the picture, or stop doing so";
     Follow: [key(Key::F)], "follow the picked ball, or stop following";
     Inspector: [key(Key::I)], "show or hide the inspector";
     Plots: [key(Key::G)], "show or hide the plots";

@@ -1,6 +1,6 @@
 //! The dialog in which a scene is chosen.
 
-use carom_render::{Bounds, Camera, Drawing};
+use carom_render::{Camera, Drawing, Framing};
 use carom_scene::scene::Scene;
 use carom_scene::{Entry, Library, Source};
 use carom_session::{Session, View};
@@ -108,7 +108,14 @@ impl Chooser {
                 if found.is_empty() {
                     ui.weak("No scene has this in its name or description.");
                 }
+                let mut group = String::new();
                 for (place, &index) in found.iter().enumerate() {
+                    let next = group_of(&self.cards[index].entry);
+                    if next != group {
+                        ui.add_space(6.0);
+                        ui.strong(&next);
+                        group = next;
+                    }
                     if self.card(ui, index, place == self.selected) {
                         chosen = Some(index);
                     }
@@ -226,6 +233,15 @@ impl Chooser {
     }
 }
 
+/// What a scene is listed under: where built-in ones come from.
+fn group_of(entry: &Entry) -> String {
+    let origin = entry.scene.as_ref().map_or("", |scene| &scene.origin);
+    match (&entry.source, origin.split(',').next()) {
+        (Source::BuiltIn, Some(origin)) if !origin.is_empty() => origin.to_owned(),
+        _ => "Your scenes".to_owned(),
+    }
+}
+
 fn picture(ui: &mut Ui, thumbnail: &Thumbnail) {
     match thumbnail {
         Thumbnail::Drawn(canvas) if canvas.texture().is_some() => {
@@ -246,6 +262,10 @@ fn about(ui: &mut Ui, scene: &Scene, source: &Source) {
         if *title != scene.name {
             ui.weak(&scene.name);
         }
+        let rule = RichText::new(format!(" {} ", scene.simulation.rule));
+        let background = ui.visuals().widgets.inactive.bg_fill;
+        ui.label(rule.monospace().size(11.0).background_color(background))
+            .on_hover_text("the rule by which it is stepped");
     });
     ui.label(&scene.description);
     if let Source::File(path) = source {
@@ -267,8 +287,9 @@ fn drawing_of(scene: &Scene) -> Option<(Drawing, Camera)> {
     let mut drawing = Drawing::default();
     let look = Look { marks: Marks::default(), dark: false, blend: 1.0 };
     look::draw(&view, &look, &mut drawing);
-    let bounds = drawing.bounds().unwrap_or(Bounds::UNIT);
+    let framing = Framing::of_run(Framing::of_scene(scene), &drawing);
+    drawing.framing = Some(framing);
     let aspect = f64::from(THUMBNAIL.x / THUMBNAIL.y);
-    let orbit = Orbit::preset(Preset::Scene, Camera::of_scene(scene), &bounds, aspect);
+    let orbit = Orbit::preset(Preset::Scene, Camera::of_scene(scene), &framing.whole, aspect);
     Some((drawing, orbit.camera))
 }

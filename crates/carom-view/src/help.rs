@@ -1,6 +1,6 @@
 //! The list of shortcuts.
 
-use egui::{Align2, Context, Grid, KeyboardShortcut, RichText, Window};
+use egui::{Align2, Context, Grid, RichText, ScrollArea, Ui, Window};
 
 use crate::action::{MOUSE, SHORTCUTS};
 
@@ -12,22 +12,20 @@ pub fn show(context: &Context, open: &mut bool) {
         .collapsible(false)
         .resizable(false)
         .show(context, |ui| {
-            Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).striped(true).show(ui, |ui| {
-                for shortcut in SHORTCUTS {
-                    let name = |key: &KeyboardShortcut| {
-                        let control = if key.modifiers.command { "Ctrl + " } else { "" };
-                        format!("{control}{}", key.logical_key.symbol_or_name())
-                    };
-                    let keys: Vec<String> = shortcut.keys.iter().map(name).collect();
-                    ui.label(RichText::new(keys.join("  or  ")).strong());
-                    ui.label(shortcut.text);
-                    ui.end_row();
-                }
-                for (gesture, text) in MOUSE {
-                    ui.label(RichText::new(*gesture).strong());
-                    ui.label(*text);
-                    ui.end_row();
-                }
-            });
+            // A small window shows a part of it.
+            let room = ui.ctx().content_rect().height() - 90.0;
+            ScrollArea::vertical().max_height(room.max(120.0)).show(ui, list);
         });
+}
+
+fn list(ui: &mut Ui) {
+    Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).striped(true).show(ui, |ui| {
+        let keys = SHORTCUTS.iter().map(|it| (it.keys_text(), it.text));
+        let gestures = MOUSE.iter().map(|(gesture, text)| ((*gesture).to_owned(), *text));
+        for (how, text) in keys.chain(gestures) {
+            ui.label(RichText::new(how).strong());
+            ui.label(text);
+            ui.end_row();
+        }
+    });
 }

@@ -51,6 +51,7 @@ const NORMAL_LENGTH: f64 = 1.5;
 pub fn draw(view: &View, look: &Look, drawing: &mut Drawing) {
     drawing.clear();
     let light = Light::of_scene(&view.scene);
+    drawing.has_grid = true;
     drawing.light = if look.dark { light.at_dusk() } else { light };
     add_colliders(view, drawing);
     add_spheres(view, look, drawing);

@@ -15,6 +15,9 @@ use crate::studio::{Canvas, Studio};
 /// it.
 const FRICTION: f64 = 0.15;
 
+/// What the player is to do.
+const GOAL: &str = "Collect everything, then touch the red wall.";
+
 /// A game being played.
 pub struct MazeScreen {
     game: Game,
@@ -216,8 +219,7 @@ impl MazeScreen {
 
     fn preset(&mut self, preset: Preset, aspect: f64) -> Orbit {
         self.draw();
-        let sphere = carom_render::Bounds::of_sphere(DVec3::ZERO, 5.0);
-        let bounds = self.drawing.bounds().unwrap_or(sphere);
+        let bounds = self.drawing.bounds().unwrap_or(carom_render::Bounds::UNIT);
         Orbit::preset(preset, Camera::of_scene(self.game.scene()), &bounds, aspect)
     }
 
@@ -239,6 +241,7 @@ impl MazeScreen {
     /// The game's picture with its counts. Returns what the player wants.
     pub fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, dark: bool) -> Option<Wish> {
         self.dark = dark;
+        self.counts(ui);
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Maze"));
@@ -258,7 +261,6 @@ impl MazeScreen {
         if let Some(texture) = self.canvas.texture() {
             Image::new((texture, rect.size())).paint_at(ui, rect);
         }
-        self.counts(ui, rect.left_top());
         self.messages(ui, rect.center_top());
         self.won(ui)
     }
@@ -285,29 +287,29 @@ impl MazeScreen {
         }
     }
 
-    /// Collectibles and times, at the upper left.
-    fn counts(&self, ui: &Ui, corner: Pos2) {
+    /// Collectibles, times and what is to be done, in a line above the picture.
+    fn counts(&self, ui: &mut Ui) {
         let of = self.game.maze().collectibles().count();
-        let mut lines = vec![
-            format!("Collected  {} of {of}", self.game.collected()),
-            format!("Time  {:.1} s", self.game.elapsed()),
+        let mut counts = vec![
+            format!("Collected {} of {of}", self.game.collected()),
+            format!("Time {:.1} s", self.game.elapsed()),
         ];
-        lines.extend(self.game.best().map(|best| format!("Best  {best:.1} s")));
-        Area::new(Id::unique("counts")).fixed_pos(corner + Vec2::splat(14.0)).show(
-            ui.ctx(),
-            |ui| {
-                Frame::popup(ui.style()).show(ui, |ui| {
-                    for line in lines {
-                        ui.label(RichText::new(line).size(17.0));
-                    }
-                    ui.weak(if ui.input(|input| input.has_touch_screen()) {
-                        "Drag with a finger to tilt the maze."
-                    } else {
-                        "Arrow keys or WASD tilt the maze; so does the right mouse button."
-                    });
-                });
-            },
-        );
+        counts.extend(self.game.best().map(|best| format!("Best {best:.1} s")));
+        let is_touched = ui.input(|input| input.has_touch_screen());
+        let row = |ui: &mut Ui| {
+            for count in counts {
+                ui.label(RichText::new(count).size(16.0).strong());
+                ui.separator();
+            }
+            ui.label(GOAL);
+            ui.weak(if is_touched {
+                "Drag with a finger to tilt the maze."
+            } else {
+                "Arrow keys or WASD tilt the maze; so does the right mouse button."
+            });
+        };
+        let margin = egui::Margin::symmetric(8, 3);
+        Frame::new().inner_margin(margin).show(ui, |ui| ui.horizontal_wrapped(row));
     }
 
     fn messages(&self, ui: &Ui, top: Pos2) {

@@ -74,6 +74,25 @@ impl Orbit {
         self.camera.position += by;
     }
 
+    /// Comes nearer, by this part of the way, to where all of `bounds` is in a picture of this width
+    /// to height, seen from the side it is on; faster where that would be left behind.
+    pub fn approach(&mut self, bounds: &Bounds, aspect: f64, part: f64) {
+        // Farthest that the target stays behind the middle, in radii.
+        const BEHIND: f64 = 0.4;
+        let direction = -self.camera.ahead();
+        let fitted = Self::about(Camera::fitted(bounds, direction, aspect.max(16.0 / 9.0)), bounds);
+        // Its own field of view may be another one than that of fitted cameras.
+        let opening = |camera: &Camera| (0.5 * camera.vertical_fov).tan();
+        let scale = opening(&fitted.camera) / opening(&self.camera);
+        let distance = self.distance + part * (scale * fitted.distance - self.distance);
+        let gap = bounds.center().distance(self.target());
+        let part = part.max(1.0 - BEHIND * bounds.radius() / gap.max(f64::MIN_POSITIVE));
+        let target = self.target().lerp(bounds.center(), part);
+        self.distance = distance;
+        self.camera.near = self.camera.near.min(1e-2 * distance);
+        self.camera.position = target + distance * direction;
+    }
+
     /// Looks at a point from the side and distance it has \[m\].
     pub fn center_on(&mut self, point: DVec3) {
         self.camera.position = point - self.distance * self.camera.ahead();

@@ -19,7 +19,8 @@ pub fn show(
     let mut actions = Vec::new();
     let is_narrow = is_narrow(ui);
     let mut button = |ui: &mut Ui, symbol: &str, text: &str, action: Action| {
-        let response = ui.button(RichText::new(symbol).size(15.0)).on_hover_text(text);
+        let response = ui.button(RichText::new(symbol).size(15.0));
+        let response = response.on_hover_text(format!("{text} ({})", action.keys()));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));
         if response.clicked() {
             actions.push(action);

@@ -30,5 +30,29 @@ pub fn open(setup: Setup) -> Result<(), WindowError> {
     let options = NativeOptions { viewport, renderer: Renderer::Wgpu, ..Default::default() };
     let create: eframe::AppCreator =
         Box::new(|host| Ok(Box::new(App::new(host, setup)?) as Box<dyn eframe::App>));
-    eframe::run_native("carom", options, create).map_err(|error| WindowError(error.to_string()))
+    eframe::run_native("carom", options, create)
+        .map_err(|error| WindowError(without_place(&error.to_string())))
+}
+
+/// What went wrong, without the line of the source in which a library says that it noticed.
+fn without_place(error: &str) -> String {
+    let parts = error.split_once(" at ").and_then(|(what, rest)| {
+        let (place, why) = rest.split_once(": ")?;
+        place.contains(".rs:").then(|| format!("{what}: {why}"))
+    });
+    parts.unwrap_or_else(|| error.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_names_no_line_of_a_library() {
+        let told = "os error at /root/.cargo/registry/src/x/winit-0.30/src/mod.rs:779: no DISPLAY";
+        assert_eq!(without_place(told), "os error: no DISPLAY");
+        for plain in ["no driver", "looked at it: nothing", "at: once"] {
+            assert_eq!(without_place(plain), plain);
+        }
+    }
 }

@@ -50,7 +50,7 @@ impl App {
     pub(super) fn bar(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         ui.horizontal_wrapped(|ui| {
-            if ui.button("Scenes").on_hover_text("Enter").clicked() {
+            if ui.button("Scenes").on_hover_text(Action::Choose.hint()).clicked() {
                 actions.push(Action::Choose);
             }
             if let Some((name, _)) = self.shown() {
@@ -87,7 +87,7 @@ impl App {
             ("Light/dark", Action::Theme),
             ("Keys", Action::Help),
         ] {
-            if ui.button(text).on_hover_text(action.text()).clicked() {
+            if ui.button(text).on_hover_text(action.hint()).clicked() {
                 actions.push(action);
             }
         }

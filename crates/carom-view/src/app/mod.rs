@@ -115,9 +115,21 @@ impl App {
             Some(Start::Scene(scene, source)) => app.watch(*scene, source),
             Some(Start::Maze(maze)) => app.play(*maze),
             Some(Start::Link(link)) => app.follow(&link),
-            None => app.open_chooser(),
+            None => app.welcome(),
         }
         Ok(app)
+    }
+
+    /// Has a scene play behind the chooser, so that there is something to see whatever is chosen.
+    fn welcome(&mut self) {
+        let entries = self.library.entries().unwrap_or_default();
+        if let Some((scene, source)) =
+            entries.into_iter().find_map(|it| Some((it.scene.ok()?, it.source)))
+        {
+            self.watch(scene, source);
+            self.command(Command::Play);
+        }
+        self.open_chooser();
     }
 
     /// Opens a scene: a maze to be played, any other to be watched.
@@ -175,10 +187,10 @@ impl App {
 
     /// Says why a link cannot be followed.
     pub fn refuse_link(&mut self, why: &str) {
-        self.notices.complain(why);
         if matches!(self.screen, Screen::Empty) {
-            self.open_chooser();
+            self.welcome();
         }
+        self.notices.complain(why);
     }
 
     /// Fills the window with something else; a film of what was there before is complete.
@@ -259,6 +271,7 @@ impl App {
                 self.context.set_theme(if dark { Theme::Light } else { Theme::Dark });
             }
             Action::Close => {
+                self.stop_seeking();
                 self.help = false;
                 self.link.close();
                 self.chooser.close();
@@ -272,6 +285,14 @@ impl App {
                 Screen::Maze(screen) => act_in_maze(screen, action),
                 Screen::Empty => {}
             },
+        }
+    }
+
+    /// Ends the way to another time where it has come to, unless the key is for a dialog.
+    fn stop_seeking(&mut self) {
+        let has_dialog = self.help || self.link.is_open() || self.chooser.is_open();
+        if !has_dialog && self.watching().is_some_and(|it| it.view().seeking.is_some()) {
+            self.command(Command::StopSeeking);
         }
     }
 
@@ -361,9 +382,10 @@ impl App {
                     watching.act(action);
                 }
                 let studio = &mut self.studio;
-                egui::CentralPanel::default()
+                let shown = egui::CentralPanel::default()
                     .frame(margin)
                     .show(ui, |ui| watching.picture(ui, studio, manner));
+                shown.inner.into_iter().for_each(|action| watching.act(action));
             }
             Screen::Maze(screen) => {
                 let studio = &mut self.studio;

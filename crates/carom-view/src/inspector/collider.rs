@@ -1,5 +1,6 @@
 //! What balls bounce off.
 
+use carom::{CombineRule, SphereId};
 use carom_session::{Command, Edit, View};
 use egui::{Slider, Ui};
 
@@ -36,6 +37,9 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         if is_changed {
             commands.push(Command::Edit(Edit::ColliderRestitution(*id, restitution)));
         }
+        if let Some((ball, of_contact)) = with_picked(view, restitution) {
+            ui.weak(format!("with ball {ball}: {of_contact:.2}"));
+        }
         if !has_friction {
             continue;
         }
@@ -45,6 +49,14 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             commands.push(Command::Edit(Edit::ColliderFriction(*id, said)));
         }
     }
+}
+
+/// The picked ball, and the restitution of its contact with a surface of this restitution.
+fn with_picked(view: &View, restitution: f64) -> Option<(SphereId, f64)> {
+    let ball = view.picked?;
+    let of_ball = view.spheres.restitutions[view.spheres.index_of(ball)?];
+    let rule = CombineRule::from(view.setup.simulation.combine_rule);
+    Some((ball, rule.combine(restitution, of_ball)))
 }
 
 fn slider(ui: &mut Ui, title: &str, text: &str, restitution: &mut f64) -> bool {

@@ -12,7 +12,7 @@ use crate::orbit::zoom_asked;
 impl Watching {
     /// What the mouse or a finger does.
     pub(super) fn hand(&mut self, ui: &Ui, response: &Response, side: usize) {
-        let Some(orbit) = &mut self.orbit else { return };
+        let Some(mut orbit) = self.viewpoint.orbit() else { return };
         let height = f64::from(response.rect.height().max(1.0));
         let drag = response.drag_delta();
         let (right, down) = (f64::from(drag.x) / height, f64::from(drag.y) / height);
@@ -28,6 +28,7 @@ impl Watching {
         if response.hovered() {
             orbit.zoom(zoom_asked(ui));
         }
+        self.viewpoint.take(orbit);
         if let Some(pointer) = response.interact_pointer_pos()
             && response.clicked()
         {
@@ -36,7 +37,7 @@ impl Watching {
     }
 
     fn click(&mut self, response: &Response, pointer: Pos2, modifiers: Modifiers, side: usize) {
-        let Some(orbit) = &mut self.orbit else { return };
+        let Some(mut orbit) = self.viewpoint.orbit() else { return };
         let rect = response.rect;
         let place = (pointer - rect.center()) / (0.5 * rect.size());
         let aspect = f64::from(rect.width() / rect.height());
@@ -62,8 +63,9 @@ impl Watching {
             && let Some(index) = picked.and_then(|id| view.spheres.index_of(id))
         {
             orbit.center_on(look::place(view, index, blend));
+            self.viewpoint.take(orbit);
         }
-        self.followed = None;
+        self.viewpoint.unfollow();
         self.commands.push(Command::Pick(picked));
     }
 
@@ -71,7 +73,7 @@ impl Watching {
     /// it is behind the eye.
     pub fn place_of(&self, index: usize, picture: Rect) -> Option<Pos2> {
         let aspect = f64::from(picture.width() / picture.height());
-        let camera = self.orbit?.camera.in_picture(aspect);
+        let camera = self.viewpoint.orbit()?.camera.in_picture(aspect);
         let center = look::place(self.view(), index, self.driver.blend());
         let place = camera.place(center, aspect)?;
         Some(picture.center() + Vec2::new(place.x, -place.y) * 0.5 * picture.size())

@@ -1,6 +1,8 @@
 //! A scene being watched: its picture, and what is done with it by hand.
 
 mod hand;
+mod hints;
+mod viewpoint;
 
 use std::sync::Arc;
 
@@ -16,11 +18,13 @@ use crate::action::Action;
 use crate::inspector::{self, Throw};
 use crate::layout::is_narrow;
 use crate::look::{self, Look, Marks};
-use crate::orbit::{Orbit, Preset};
+use crate::orbit::Preset;
 use crate::plots;
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 use crate::{impact_list, transport};
+use hints::Way;
+use viewpoint::Viewpoint;
 
 /// A scene being watched.
 pub struct Watching {
@@ -31,10 +35,9 @@ pub struct Watching {
     link: (Arc<Scene>, Link),
     /// Commands of this picture, sent at its end.
     pub commands: Vec<Command>,
-    /// `None` until there is a picture to fit the scene into.
-    orbit: Option<Orbit>,
-    /// Where the followed ball was in the last picture \[m\].
-    followed: Option<DVec3>,
+    viewpoint: Viewpoint,
+    /// The way to another time, while it is on it.
+    way: Option<Way>,
     marks: Marks,
     panels: Panels,
     plots: plots::Shown,
@@ -125,8 +128,8 @@ impl Watching {
             driver,
             source,
             commands: Vec::new(),
-            orbit: None,
-            followed: None,
+            viewpoint: Viewpoint::new(),
+            way: None,
             marks: Marks::default(),
             panels: Panels { inspector: true, plots: false, impacts: false },
             plots: plots::Shown::default(),
@@ -188,15 +191,11 @@ impl Watching {
                 let next = transport::next_speed(speed, action == Action::Faster);
                 self.commands.push(Command::Speed(next));
             }
-            Action::SceneCamera => self.look_from(Preset::Scene),
-            Action::FrontCamera => self.look_from(Preset::Front),
-            Action::TopCamera => self.look_from(Preset::Top),
-            Action::Follow => {
-                self.followed = match self.followed {
-                    Some(_) => None,
-                    None => self.picked_place(),
-                };
-            }
+            Action::SceneCamera => self.viewpoint.look_from(Preset::Scene),
+            Action::FrontCamera => self.viewpoint.look_from(Preset::Front),
+            Action::TopCamera => self.viewpoint.look_from(Preset::Top),
+            Action::Fit => self.viewpoint.toggle_fit(),
+            Action::Follow => self.viewpoint.toggle_follow(self.picked_place()),
             Action::Inspector => self.panels.inspector ^= true,
             Action::Plots => self.panels.plots ^= true,
             Action::Impacts => self.panels.impacts ^= true,
@@ -226,20 +225,6 @@ impl Watching {
             let other = if own == Rule::Exact { Rule::Discrete } else { Rule::Exact };
             Command::Compare(Box::new(scene), [own, other])
         });
-    }
-
-    fn look_from(&mut self, preset: Preset) {
-        let aspect = self.drawn[0].map_or(16.0 / 9.0, |drawn| drawn.size.x / drawn.size.y);
-        self.orbit = self.preset(preset, f64::from(aspect));
-        self.followed = None;
-    }
-
-    fn preset(&self, preset: Preset, aspect: f64) -> Option<Orbit> {
-        let mut drawing = Drawing::default();
-        let look = Look { marks: Marks::default(), dark: false, blend: 1.0 };
-        look::draw(self.view(), &look, &mut drawing);
-        let bounds = drawing.bounds().unwrap_or(carom_render::Bounds::UNIT);
-        Some(Orbit::preset(preset, Camera::of_scene(&self.view().scene), &bounds, aspect))
     }
 
     fn picked_place(&self) -> Option<DVec3> {
@@ -295,10 +280,11 @@ impl Watching {
             ("Contacts", contacts, Action::Contacts),
             ("Contact forces", forces, Action::Forces),
             ("Two rules", self.view().other.is_some(), Action::Compare),
-            ("Follow", self.followed.is_some(), Action::Follow),
+            ("Follow", self.viewpoint.follows(), Action::Follow),
+            ("Fit", self.viewpoint.fits(), Action::Fit),
         ];
         for (text, is_on, action) in switches {
-            if ui.selectable_label(is_on, text).clicked() {
+            if ui.selectable_label(is_on, text).on_hover_text(action.hint()).clicked() {
                 actions.push(action);
             }
         }
@@ -308,15 +294,23 @@ impl Watching {
             ("Front", Action::FrontCamera),
             ("Top", Action::TopCamera),
         ] {
-            if ui.button(text).on_hover_text("camera").clicked() {
+            if ui.button(text).on_hover_text(action.hint()).clicked() {
                 actions.push(action);
             }
         }
         actions
     }
 
-    /// The picture, or two side by side.
-    pub fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, manner: Manner) {
+    /// The camera for the next picture of this width to height, so many seconds after the last one.
+    fn camera(&mut self, aspect: f64, seconds: f64) -> Camera {
+        let (picked, blend) = (self.picked_place(), self.driver.blend());
+        let view = self.driver.view();
+        let orbit = self.viewpoint.next(view, blend, picked, (aspect, seconds));
+        orbit.camera.in_picture(aspect)
+    }
+
+    /// The picture, or two side by side. Returns the actions of the buttons over it.
+    pub fn picture(&mut self, ui: &mut Ui, studio: &mut Studio, manner: Manner) -> Vec<Action> {
         let whole = ui.available_rect_before_wrap();
         let count = if self.view().other.is_some() { 2 } else { 1 };
         let width = whole.width() / count as f32;
@@ -329,7 +323,18 @@ impl Watching {
             self.draw(ui, studio, manner, side, rect);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Scene"));
         }
+        let actions = self.hints(ui, whole);
         self.send();
+        actions
+    }
+
+    /// What is said over the picture. Returns the actions of its buttons.
+    fn hints(&mut self, ui: &mut Ui, picture: Rect) -> Vec<Action> {
+        let Some(orbit) = self.viewpoint.orbit() else { return Vec::new() };
+        let camera = orbit.camera.in_picture(f64::from(picture.width() / picture.height()));
+        let Self { driver, commands, way, .. } = self;
+        *way = Way::of(driver.view(), *way);
+        hints::show(ui, picture, driver.view(), way.as_ref(), &camera, commands)
     }
 
     fn look(&self, manner: Manner) -> Look {
@@ -343,22 +348,18 @@ impl Watching {
             return;
         }
         let aspect = f64::from(size.x / size.y);
-        if self.orbit.is_none() {
-            self.orbit = self.preset(Preset::Scene, aspect);
-        }
-        if let (Some(before), Some(now)) = (self.followed, self.picked_place())
-            && let Some(orbit) = &mut self.orbit
-        {
-            orbit.follow(now - before);
-            self.followed = Some(now);
-        }
-        let Some(orbit) = self.orbit else { return };
+        let seconds = ui.input(|input| f64::from(input.stable_dt));
+        let camera = self.camera(aspect, seconds);
         let look = self.look(manner);
-        let camera = orbit.camera.in_picture(aspect);
         let drawn = Drawn { news: self.news, camera, look, size };
         if self.drawn[side] != Some(drawn) {
-            let view = side_of(self.driver.view(), side);
-            look::draw(view, &look, &mut self.drawing);
+            if self.viewpoint.fits() {
+                // It may still be on its way.
+                ui.ctx().request_repaint();
+            }
+            let view = self.driver.view();
+            self.drawing.framing = self.viewpoint.framing(&view.scene);
+            look::draw(side_of(view, side), &look, &mut self.drawing);
             studio.draw(&mut self.canvases[side], size, &self.drawing, &camera);
             self.drawn[side] = Some(drawn);
         }
@@ -403,16 +404,13 @@ impl Watching {
         manner: Manner,
         [width, height]: [u32; 2],
     ) -> Result<Snapshot, GpuError> {
-        if self.orbit.is_none() {
-            self.orbit = self.preset(Preset::Scene, f64::from(width) / f64::from(height));
-        }
         let look = self.look(manner);
-        let Self { driver, drawing, orbit, .. } = self;
-        let Some(orbit) = orbit else { return Err(GpuError::Lost("nothing to see".into())) };
+        let count = if self.view().other.is_some() { 2 } else { 1 };
+        let size = [width / count, height];
+        let camera = self.camera(f64::from(size[0]) / f64::from(size[1]), 0.0);
+        let Self { driver, drawing, .. } = self;
         let view = driver.view();
         let sides: Vec<&View> = [Some(view), view.other.as_deref()].into_iter().flatten().collect();
-        let size = [width / sides.len() as u32, height];
-        let camera = orbit.camera.in_picture(f64::from(size[0]) / f64::from(size[1]));
         let mut parts = Vec::new();
         for side in sides {
             look::draw(side, &look, drawing);

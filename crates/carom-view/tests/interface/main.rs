@@ -5,6 +5,7 @@
 mod contact_forces;
 mod desk;
 mod files;
+mod hints;
 mod links;
 mod maze;
 mod narrow;

@@ -3,6 +3,7 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test -p carom-view --test interface` draws them anew.
 
 use carom_maze::Maze;
+use carom_session::Command;
 use egui::{Key, Theme};
 use egui_kittest::{SnapshotOptions, SnapshotResults};
 
@@ -32,9 +33,12 @@ fn the_chooser() {
     let mut results = SnapshotResults::new();
     for (theme, name) in [(Theme::Light, "chooser_light"), (Theme::Dark, "chooser_dark")] {
         let mut desk = desk(setup());
+        // The scene behind it stands still, whatever the clock says.
+        desk.state_mut().command(Command::Pause);
+        go_to(&mut desk, 0.0);
         set_theme(&mut desk, theme);
         // Thumbnails come one by one.
-        desk.run_steps(16);
+        desk.run_steps(24);
         compare(&mut desk, name, &mut results);
     }
     results.unwrap();

@@ -7,7 +7,7 @@ use carom_view::{Setup, Start};
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
 
-use crate::desk::{Desk, desk, press, scene, setup, watching};
+use crate::desk::{Desk, desk, go_to, press, scene, setup, watching};
 
 #[test]
 fn the_chooser_is_there_at_the_start_and_comes_back_on_enter() {
@@ -15,7 +15,7 @@ fn the_chooser_is_there_at_the_start_and_comes_back_on_enter() {
     desk.get_by_label("Choose a scene");
     press(&mut desk, Key::Enter);
     assert!(desk.query_by_label("Choose a scene").is_none());
-    assert_eq!(scene(&desk).view().scene.name, "simtest1");
+    assert_eq!(scene(&desk).view().scene.name, "billiards");
     press(&mut desk, Key::Enter);
     desk.get_by_label("Choose a scene");
     press(&mut desk, Key::Escape);
@@ -29,7 +29,7 @@ fn what_is_typed_filters_by_name_and_description() {
     desk.run_steps(3);
     assert!(desk.query_by_label("simtest1").is_none());
     press(&mut desk, Key::Enter);
-    assert_eq!(scene(&desk).view().scene.name, "tutorial3");
+    assert_eq!(scene(&desk).view().scene.name, "cradle");
 }
 
 #[test]
@@ -238,4 +238,18 @@ fn a_ball_that_is_clicked_is_picked_and_one_is_thrown_with_control() {
     desk.run_steps(4);
     assert_eq!(scene(&desk).view().spheres.ids.len(), balls + 1);
     assert!(!desk.root().accesskit_node().is_hidden());
+}
+
+#[test]
+fn a_picked_ball_shows_the_restitution_of_its_contacts() {
+    let mut desk = watching("simtest1");
+    go_to(&mut desk, 2.0);
+    let ball = scene(&desk).view().spheres.ids[0];
+    desk.state_mut().command(Command::Pick(Some(ball)));
+    let change = carom_session::SphereChange { restitution: Some(0.5), ..Default::default() };
+    desk.state_mut().command(Command::Edit(Edit::Sphere(ball, Box::new(change))));
+    desk.run_steps(3);
+    // 0.8 on 0.5, and 0.2 on 0.5, multiplied.
+    desk.get_by_label(&format!("with ball {ball}: 0.40"));
+    desk.get_by_label(&format!("with ball {ball}: 0.10"));
 }

@@ -1,0 +1,129 @@
+//! What is said over the picture of a scene: how to begin, how far the way is, where the balls are.
+
+use carom_render::Camera;
+use carom_session::{Command, View};
+use egui::{Align2, Area, Button, Frame, Id, Label, Rect, RichText, Role, Ui, Vec2, WidgetInfo};
+use web_time::Instant;
+
+use crate::action::Action;
+
+/// Width of the text about a way, in points.
+const WAY_WIDTH: f32 = 270.0;
+
+/// The way to another time, since it was set out for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Way {
+    target: u64,
+    from: u64,
+    since: Instant,
+}
+
+/// A way shorter than this is not spoken of \[s\].
+const SHORT: f64 = 0.5;
+
+impl Way {
+    /// The way that a view is on, `before` being that of the last one.
+    pub fn of(view: &View, before: Option<Self>) -> Option<Self> {
+        let target = view.seeking?;
+        let same = before.filter(|it| it.target == target && it.from <= view.frame);
+        Some(same.unwrap_or_else(|| Self { target, from: view.frame, since: Instant::now() }))
+    }
+
+    /// How far it is, for people; `None` while there is nothing worth saying.
+    fn text(&self, view: &View) -> Option<String> {
+        let seconds = self.since.elapsed().as_secs_f64();
+        let (done, all) = (view.frame - self.from, self.target.saturating_sub(self.from));
+        if seconds < SHORT || all == 0 {
+            return None;
+        }
+        let part = done as f64 / all as f64;
+        let end = self.target as f64 * view.setup.simulation.frame_time;
+        let left = seconds * (1.0 - part) / part.max(1e-9);
+        let percent = (100.0 * part).floor();
+        let left = if done == 0 { String::new() } else { format!(", {} left", duration(left)) };
+        Some(format!("{percent:.0} % of the way to {end:.1} s{left}"))
+    }
+}
+
+/// A duration \[s\], rounded as people do.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 90.0 => format!("about {:.0} s", s.max(1.0)),
+        s if s < 5400.0 => format!("about {:.0} min", s / 60.0),
+        s if s < 172_800.0 => format!("about {:.0} h", s / 3600.0),
+        _ => "more than two days".to_owned(),
+    }
+}
+
+/// Whether there are balls, and the camera sees none of them.
+fn all_have_left(view: &View, camera: &Camera, aspect: f64) -> bool {
+    // Where the picture ends: a ball at its edge is not gone.
+    const EDGE: f32 = 1.15;
+    let is_seen = |(center, radius): (&carom::DVec3, &f64)| {
+        let place = camera.place(*center, aspect);
+        place.is_some_and(|place| place.abs().max_element() < EDGE)
+            || center.distance(camera.position) < 2.0 * radius
+    };
+    let spheres = &view.spheres;
+    !spheres.ids.is_empty() && !spheres.positions.iter().zip(&spheres.radii).any(is_seen)
+}
+
+/// Says what helps now, at the lower edge of the picture. Returns the actions of its buttons.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    view: &View,
+    way: Option<&Way>,
+    camera: &Camera,
+    commands: &mut Vec<Command>,
+) -> Vec<Action> {
+    let mut actions = Vec::new();
+    let aspect = f64::from(rect.width() / rect.height());
+    let is_at_start = view.frame == 0 && !view.playback.playing && view.playback.error.is_none();
+    let mut button = |ui: &mut Ui, text: &str, action: Action| {
+        if ui.button(text).on_hover_text(action.hint()).clicked() {
+            actions.push(action);
+        }
+    };
+    if view.seeking.is_some() {
+        let Some(text) = way.and_then(|way| way.text(view)) else { return actions };
+        card(ui, rect, |ui| {
+            // The button stays in its place, however long the text is.
+            ui.add_sized([WAY_WIDTH, ui.spacing().interact_size.y], Label::new(text).truncate());
+            if ui.button("Stop here").clicked() {
+                commands.push(Command::StopSeeking);
+            }
+        });
+    } else if is_at_start {
+        area(rect).show(ui.ctx(), |ui| {
+            let text = RichText::new("▶  Play").size(22.0).strong();
+            let large = Button::new(text)
+                .min_size(Vec2::new(150.0, 48.0))
+                .corner_radius(24)
+                .shortcut_text(Action::PlayOrPause.keys());
+            let response = ui.add(large);
+            response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Play the scene"));
+            if response.clicked() {
+                actions.push(Action::PlayOrPause);
+            }
+        });
+    } else if all_have_left(view, camera, aspect) {
+        card(ui, rect, |ui| {
+            ui.label("All balls have left the picture.");
+            button(ui, "Restart", Action::Restart);
+            button(ui, "Fit", Action::Fit);
+        });
+    }
+    actions
+}
+
+fn area(rect: Rect) -> Area {
+    let place = rect.center_bottom() - Vec2::new(0.0, 18.0);
+    Area::new(Id::unique("hints")).pivot(Align2::CENTER_BOTTOM).fixed_pos(place)
+}
+
+fn card(ui: &Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
+    area(rect).show(ui.ctx(), |ui| {
+        Frame::popup(ui.style()).show(ui, |ui| ui.horizontal(content));
+    });
+}

@@ -1,0 +1,132 @@
+//! Where a scene is watched from.
+
+use std::sync::Arc;
+
+use carom::DVec3;
+use carom_render::{Camera, Drawing, Framing};
+use carom_scene::Scene;
+use carom_session::View;
+
+use crate::look::{self, Look, Marks};
+use crate::orbit::{Orbit, Preset};
+
+/// The camera on a scene, and what moves it.
+#[derive(Debug, Default)]
+pub(super) struct Viewpoint {
+    /// `None` until there is a picture to fit the scene into.
+    orbit: Option<Orbit>,
+    /// The shape of that picture, width to height.
+    aspect: f64,
+    /// The preset it was put to, until a hand moves it: it suits pictures of any shape.
+    preset: Option<Preset>,
+    /// Whether it goes on fitting what there is to see.
+    fits: bool,
+    /// Where the followed ball was in the last picture \[m\].
+    followed: Option<DVec3>,
+    /// A scene, and what its first seconds sweep.
+    framed: Option<(Arc<Scene>, Option<Framing>)>,
+}
+
+/// Time in which a camera that fits comes nearer by e to where it should be \[s\].
+const FITTING_TIME: f64 = 0.25;
+
+impl Viewpoint {
+    /// At the scene's camera.
+    pub fn new() -> Self {
+        Self { preset: Some(Preset::Scene), ..Self::default() }
+    }
+
+    /// The camera as it was in the last picture.
+    pub fn orbit(&self) -> Option<Orbit> {
+        self.orbit
+    }
+
+    /// Whether it goes on fitting what there is to see.
+    pub fn fits(&self) -> bool {
+        self.fits
+    }
+
+    /// Whether it moves along with a ball.
+    pub fn follows(&self) -> bool {
+        self.followed.is_some()
+    }
+
+    /// Puts it to a preset.
+    pub fn look_from(&mut self, preset: Preset) {
+        *self = Self { preset: Some(preset), framed: self.framed.take(), ..Self::default() };
+    }
+
+    /// Goes on fitting what there is to see, or no longer.
+    pub fn toggle_fit(&mut self) {
+        self.fits ^= true;
+        self.preset = None;
+        self.followed = None;
+    }
+
+    /// Moves along with a ball at this place \[m\], or no longer.
+    pub fn toggle_follow(&mut self, place: Option<DVec3>) {
+        self.followed = if self.follows() { None } else { place };
+        self.fits &= !self.follows();
+        self.preset = if self.follows() { None } else { self.preset };
+    }
+
+    /// Moves along with no ball any more.
+    pub fn unfollow(&mut self) {
+        self.followed = None;
+    }
+
+    /// Takes a camera that a hand has moved. One that fits goes on, if it was turned only.
+    pub fn take(&mut self, orbit: Orbit) {
+        let Some(before) = self.orbit.replace(orbit) else { return };
+        if before != orbit {
+            let moved = orbit.target().distance(before.target());
+            let turned_only = moved < 1e-6 * before.distance && orbit.distance == before.distance;
+            self.fits &= turned_only;
+            self.preset = None;
+        }
+    }
+
+    /// What the first seconds of a scene sweep.
+    pub fn framing(&mut self, scene: &Arc<Scene>) -> Option<Framing> {
+        if !self.framed.as_ref().is_some_and(|(framed, _)| Arc::ptr_eq(framed, scene)) {
+            self.framed = Some((scene.clone(), Framing::of_scene(scene)));
+            if self.preset.is_some() {
+                self.orbit = None;
+            }
+        }
+        self.framed.as_ref().and_then(|it| it.1)
+    }
+
+    /// The camera for the next picture of this width to height, so many seconds after the last one.
+    /// `followed`: where the ball is that it may move along with \[m\].
+    pub fn next(
+        &mut self,
+        view: &View,
+        blend: f64,
+        followed: Option<DVec3>,
+        (aspect, seconds): (f64, f64),
+    ) -> Orbit {
+        let first = self.framing(&view.scene);
+        let now = || {
+            let mut drawing = Drawing::default();
+            look::draw(view, &Look { marks: Marks::default(), dark: false, blend }, &mut drawing);
+            drawing
+        };
+        let of_scene = || Camera::of_scene(&view.scene);
+        let has_changed = self.preset.is_some() && self.aspect != aspect;
+        let mut orbit = self.orbit.filter(|_| !has_changed).unwrap_or_else(|| {
+            let bounds = Framing::of_run(first, &now()).whole;
+            Orbit::preset(self.preset.unwrap_or(Preset::Scene), of_scene(), &bounds, aspect)
+        });
+        if self.fits {
+            let bounds = Framing::of_drawing(&now()).unwrap_or(Framing::UNIT).whole;
+            orbit.approach(&bounds, aspect, 1.0 - (-seconds / FITTING_TIME).exp());
+        }
+        if let (Some(before), Some(now)) = (self.followed, followed) {
+            orbit.follow(now - before);
+            self.followed = Some(now);
+        }
+        self.aspect = aspect;
+        *self.orbit.insert(orbit)
+    }
+}
