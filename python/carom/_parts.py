@@ -540,7 +540,7 @@ class Camera(Part):
 
     position: Vector
     rotation: Quaternion = _UNTURNED
-    vertical_fov_degrees: float = 60.0
+    vertical_fov_degrees: float = 35.0
     near: float = 0.3
     far: float = 1000.0
 

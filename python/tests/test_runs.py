@@ -31,7 +31,7 @@ def test_a_run_is_that_of_the_command_line(name: str, tmp_path: Path) -> None:
         other = impact["collider" if line[1] == "collider" else "sphere_1"]
         assert (int(line[2]), int(line[3])) == (other, impact["sphere_2"])
         numbers = [impact["time"], *impact["point"], *impact["normal"]]
-        numbers += [impact["approach_speed"], impact["impulse"]]
+        numbers += [impact["approach_speed"], impact["impulse"], *impact["tangential_impulse"]]
         assert [float(text) for text in (line[0], *line[4:])] == numbers
 
 
