@@ -69,10 +69,10 @@ test("what was changed by hand goes with the link, and gives the same bits elsew
   );
   const link = viewer.page.url();
   assert.equal(stateHash("--link", link), hash);
+  await viewer.close();
   const other = await desk.open(new URL(link).hash);
   assert.equal(await shownHash(other), hash);
   await other.close();
-  await viewer.close();
 });
 
 test("an address that changes is followed", async () => {

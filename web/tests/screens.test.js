@@ -77,9 +77,8 @@ test("fine pixels are used", async () => {
 test("on a phone a tap chooses, a finger turns the camera, and two come nearer", async () => {
   const viewer = await desk.open("", PHONE);
   await viewer.keepPicture("phone-chooser");
-  const { x, y, width, height } = await viewer.widget("simtest3", "Button");
-  await viewer.page.touchscreen.tap(x + width / 2, y + height / 2);
-  await viewer.until((status) => status.watching?.scene === "simtest3");
+  await viewer.tap("cradle", { role: "Button" });
+  await viewer.until((status) => status.watching?.scene === "cradle" && !status.choosing);
   await viewer.redraw();
   const before = read(await viewer.keepPicture("phone-scene"));
   const { send } = await fingers(viewer);
@@ -120,8 +119,7 @@ test("a tilted device tilts the maze", async () => {
   const viewer = await desk.open("#scene=maze", PHONE);
   const { maze: before } = await viewer.until(({ maze }) => maze);
   for (const label of ["Menu", "Tilt the device"]) {
-    const { x, y, width, height } = await viewer.widget(label);
-    await viewer.page.touchscreen.tap(x + width / 2, y + height / 2);
+    await viewer.tap(label);
   }
   await viewer.pause(500);
   const hold = (/** @type {number} */ gamma) =>

@@ -51,6 +51,8 @@ export class Desk {
    * @param {import("playwright-core").BrowserContextOptions} [options]
    */
   async open(fragment = "", options = {}) {
+    // A test that failed has left its page, and it would go on drawing.
+    await Promise.all(this.browser.contexts().map((context) => context.close()));
     const viewport = { width: 1280, height: 800 };
     const context = await this.browser.newContext({ viewport, ...options });
     const page = await context.newPage();
@@ -165,14 +167,39 @@ export class Viewer {
   }
 
   /**
-   * Clicks on a part of the interface, by default in its middle.
+   * A point on a part of the interface, by default its middle, that a user can see.
+   *
+   * @param {string} label
+   * @param {{ role?: string, part?: number }} where part of its width
+   * @returns {Promise<[x: number, y: number]>}
+   */
+  async point(label, { role, part = 0.5 }) {
+    const { x, y, width, height } = await this.widget(label, role);
+    const [left, top] = [x + part * width, y + 0.5 * height];
+    const window = this.page.viewportSize();
+    const isSeen = window && left > 0 && left < window.width && top > 0 && top < window.height;
+    assert.ok(isSeen, `${label} lies at (${left}, ${top}), outside of the window`);
+    return [left, top];
+  }
+
+  /**
+   * Clicks on a part of the interface.
    *
    * @param {string} label
    * @param {{ role?: string, part?: number }} [where] part of its width
    */
-  async click(label, { role, part = 0.5 } = {}) {
-    const { x, y, width, height } = await this.widget(label, role);
-    await this.page.mouse.click(x + part * width, y + 0.5 * height);
+  async click(label, where = {}) {
+    await this.page.mouse.click(...(await this.point(label, where)));
+  }
+
+  /**
+   * Taps on a part of the interface.
+   *
+   * @param {string} label
+   * @param {{ role?: string, part?: number }} [where] part of its width
+   */
+  async tap(label, where = {}) {
+    await this.page.touchscreen.tap(...(await this.point(label, where)));
   }
 
   /**

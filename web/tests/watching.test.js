@@ -41,13 +41,13 @@ test("the chooser lists every scene", async () => {
 
 test("a scene that is clicked on is watched, and its balls move", async () => {
   const viewer = await desk.open();
-  await viewer.click("simtest1", { role: "Button" });
-  await viewer.until((status) => status.watching?.scene === "simtest1" && !status.choosing);
+  await viewer.click("cradle", { role: "Button" });
+  await viewer.until((status) => status.watching?.scene === "cradle" && !status.choosing);
   await viewer.page.keyboard.press("p");
   await viewer.until(({ watching }) => watching.time > 1.5);
-  const early = await viewer.keepPicture("simtest1-early");
+  const early = await viewer.keepPicture("cradle-early");
   const { watching: then } = await viewer.until(({ watching }) => watching.time > 5);
-  const late = await viewer.keepPicture("simtest1-late");
+  const late = await viewer.keepPicture("cradle-late");
   assert.ok(difference(read(early), read(late), MIDDLE) > 0.002);
   assert.ok(then.impacts > 10 && then.spheres > 4, JSON.stringify(then));
   await viewer.close();
