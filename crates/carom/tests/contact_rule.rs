@@ -192,7 +192,8 @@ fn a_heap_comes_to_rest_and_bears_its_weight() {
     let speeds = world.spheres().velocities().iter().map(|v| v.length_squared()).sum::<f64>();
     assert!((speeds / 200.0).sqrt() < 1e-3, "rms {}", (speeds / 200.0).sqrt());
     assert!(largest_overlap(&world) < 0.005 * 0.06, "{}", largest_overlap(&world));
-    // The floor bears the weight of all.
+    // The floor bears the weight of all, but for what has changed since each sphere fell asleep, when the
+    // forces on it were last computed.
     let floor: f64 = world
         .contacts()
         .iter()
@@ -200,7 +201,7 @@ fn a_heap_comes_to_rest_and_bears_its_weight() {
         .map(|it| (it.normal_force * it.normal + it.tangential_force).y)
         .sum();
     let weight = G * world.spheres().masses().iter().sum::<f64>();
-    assert!((floor / weight - 1.0).abs() < 1e-3, "{floor} {weight}");
+    assert!((floor / weight - 1.0).abs() < 3e-3, "{floor} {weight}");
 }
 
 #[test]
@@ -349,11 +350,12 @@ fn a_heap_at_rest_sleeps_does_not_creep_and_wakes_when_touched() {
 
 /// A column of balls in a shaft, at rest, without friction; the lowest is that of an emitter, which takes it away
 /// after this time.
-fn column(count: u32, radius: f64, seconds: f64) -> World {
+fn column(count: u32, [radius, restitution]: [f64; 2], seconds: f64) -> World {
     let mut world = under_gravity();
     add_box(&mut world, radius, 0.0);
     let ball = |height: f64| {
-        Sphere::new(DVec3::new(0.0, height * radius, 0.0), radius).with_restitution(1.0)
+        let place = DVec3::new(0.0, height * radius, 0.0);
+        Sphere::new(place, radius).with_restitution(restitution)
     };
     let away = Emitter::new(ball(1.0), seconds).with_max_spheres(1);
     let emitter = world.add_emitter(away).unwrap();
@@ -369,7 +371,7 @@ fn column(count: u32, radius: f64, seconds: f64) -> World {
 #[test]
 fn what_bounces_on_a_column_keeps_only_its_top_awake() {
     let (count, radius) = (12, 0.1);
-    let mut world = column(count, radius, 1e3);
+    let mut world = column(count, [radius, 1.0], 1e3);
     // It falls for longer than the column takes to fall asleep.
     let place = DVec3::new(0.0, f64::from(2 * count + 40) * radius, 0.0);
     let light = Sphere::new(place, 0.5 * radius).with_mass(0.02).with_restitution(1.0);
@@ -389,7 +391,8 @@ fn what_bounces_on_a_column_keeps_only_its_top_awake() {
 #[test]
 fn a_column_falls_as_a_whole_when_its_foot_is_taken_away() {
     let (count, radius) = (12, 0.1);
-    let mut world = column(count, radius, 2.0);
+    // Without restitution: they wake one after the other, so that small gaps open, and close on the ground.
+    let mut world = column(count, [radius, 0.0], 2.0);
     run(&mut world, 110);
     assert_eq!(world.report().contact_account.asleep, count);
     let before = world.spheres().positions().to_vec();
@@ -459,7 +462,7 @@ fn bits_depend_on_no_thread() {
             .unwrap();
     }
     run(&mut world, 60);
-    assert_eq!(world.state_hash().to_string(), "195d85a51018952d");
+    assert_eq!(world.state_hash().to_string(), "206dd278628c7c1d");
 }
 
 #[test]

@@ -130,7 +130,8 @@ struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// Makes the contacts of all slabs, side by side.
+    /// Makes the contacts of all slabs, side by side: first those that bear something, so that they fill
+    /// batches, and sweeps have little to do with the others.
     fn add_contacts(&self, slabs: &mut Slabs) {
         let Slabs { list, far } = slabs;
         let ends: Vec<usize> = list.iter().map(|slab| slab.end).collect();
@@ -138,13 +139,20 @@ impl Known<'_> {
         parallel::for_each(tasks, |(number, slab)| {
             let next_end = ends[(number + 1).min(ends.len() - 1)];
             let Slab { start, batches, pairs, .. } = &mut *slab;
-            pairs.retain(|&pair| {
-                let is_far = pair[1] as usize >= next_end;
+            let mut unloaded = Vec::new();
+            pairs.retain(|&slots| {
+                let is_far = slots[1] as usize >= next_end;
                 if !is_far {
-                    batches.push(&self.pair(pair, *start), self.kinds);
+                    let pair = self.pair(slots, *start);
+                    if pair.impulses.is_some() {
+                        batches.push(&pair, self.kinds);
+                    } else {
+                        unloaded.push(pair);
+                    }
                 }
                 is_far
             });
+            unloaded.iter().for_each(|pair| batches.push(pair, self.kinds));
             self.add_surfaces(slab);
         });
         for pair in list.iter_mut().flat_map(|slab| slab.pairs.drain(..)) {

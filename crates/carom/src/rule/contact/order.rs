@@ -7,14 +7,17 @@ use super::row::Row;
 /// Cells along an axis at most; beyond, spheres share the outermost ones.
 const MOST_CELLS: f64 = 1024.0;
 /// Cells for each sphere at most, all in all: where spheres are scattered, cells are wider.
-const CELLS_PER_SPHERE: f64 = 4.0;
+const CELLS_PER_SPHERE: f64 = 32.0;
 
 /// A grid over all spheres. Its slowest axis makes layers.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Grid {
+    /// The corner where cells begin along each axis \[m\].
     origin: DVec3,
-    /// Along each axis \[1/m\].
-    cells_per_metre: f64,
+    /// Along each axis \[1/m\]; negative where cells follow each other against it.
+    cells_per_metre: DVec3,
+    /// Of a cell \[m\].
+    width: f64,
     /// The axes, from the slowest to the fastest.
     axes: [usize; 3],
     /// Cells along each of these.
@@ -23,7 +26,7 @@ pub(super) struct Grid {
 
 impl Grid {
     /// A grid of cells of this width at least \[m\] over these centres \[m\], whose fastest axis is that of
-    /// the forces: columns stay together.
+    /// the forces: columns stay together, and what presses comes before what bears it.
     pub fn over(centers: &[Row], width: f64, down: DVec3) -> Self {
         let bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let (low, high) = centers
@@ -46,11 +49,17 @@ impl Grid {
             if extent[first] >= extent[second] { [first, second] } else { [second, first] };
         let axes = [slowest, middle, fastest];
         let cells = axes.map(|axis| (extent[axis] / width) as usize + 1);
-        Self { origin: low, cells_per_metre: 1.0 / width, axes, cells }
+        let (mut origin, mut cells_per_metre) = (low, DVec3::splat(1.0 / width));
+        if down[fastest] < 0.0 {
+            origin[fastest] = high[fastest];
+            cells_per_metre[fastest] *= -1.0;
+        }
+        Self { origin, cells_per_metre, width, axes, cells }
     }
 
+    /// Of a cell \[m\].
     pub fn width(&self) -> f64 {
-        1.0 / self.cells_per_metre
+        self.width
     }
 
     /// How many cells there are.
@@ -64,6 +73,17 @@ impl Grid {
         let offset = (center - self.origin) * self.cells_per_metre;
         let along = |rank: usize| (offset[self.axes[rank]] as usize).min(self.cells[rank] - 1);
         [along(0), along(1), along(2)]
+    }
+
+    /// The first and the last cells, along the axes from the slowest to the fastest, within `span` \[m\] of a
+    /// place.
+    pub fn cells_within(&self, center: DVec3, span: f64) -> [[usize; 3]; 2] {
+        let span = DVec3::splat(span);
+        let [one, other] = [self.cell_of(center - span), self.cell_of(center + span)];
+        let of_both = |choose: fn(usize, usize) -> usize| {
+            [0, 1, 2].map(|rank| choose(one[rank], other[rank]))
+        };
+        [of_both(usize::min), of_both(usize::max)]
     }
 
     /// The number of a cell.

@@ -211,8 +211,7 @@ impl Search {
         let widest = 0.5 * grid.width();
         for &slot in wide.iter() {
             let center = position[slot as usize].vector();
-            let span = DVec3::splat(reach(slot as usize) + widest);
-            let (low, high) = (grid.cell_of(center - span), grid.cell_of(center + span));
+            let [low, high] = grid.cells_within(center, reach(slot as usize) + widest);
             let mut visit = |other: u32| {
                 *tests += 1;
                 let offset = position[other as usize].vector() - center;

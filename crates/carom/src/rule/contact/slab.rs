@@ -15,7 +15,7 @@ use crate::parallel;
 /// Spheres in a slab, about.
 const SPHERES: usize = 500;
 /// Slabs at most.
-const MOST: usize = 32;
+const MOST: usize = 200;
 
 /// The contacts of a run of slots.
 #[derive(Debug, Clone, Default)]
