@@ -21,6 +21,7 @@ mod check;
 mod error;
 mod expand;
 mod force;
+mod formula;
 mod generate;
 mod library;
 mod load;
@@ -28,6 +29,7 @@ mod origin;
 mod overlap;
 mod overrides;
 mod palette;
+mod parameters;
 pub mod part;
 #[cfg(feature = "recording")]
 pub mod recording;

@@ -8,6 +8,7 @@ use toml::{Spanned, Table, Value};
 
 use crate::error::{Fault, Problem, SceneError, segments};
 use crate::overrides::Override;
+use crate::parameters;
 use crate::scene::Scene;
 use crate::wording::{in_plain_words, suggestion};
 use crate::world;
@@ -101,11 +102,18 @@ impl Scene {
 }
 
 /// A scene from its table, or the first problem with it.
-fn read(table: Table) -> Result<Scene, Problem> {
+fn read(mut table: Table) -> Result<Scene, Problem> {
+    let known = parameters::resolve(&mut table)?;
     let scene: Scene = serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
         let path = error.path().to_string();
-        let path = if path == "." { String::new() } else { path };
-        Problem::new(path, in_plain_words(error.into_inner().message().trim()))
+        let problem = in_plain_words(error.into_inner().message().trim());
+        match path.as_str() {
+            "." => Problem::new("", problem),
+            field if !field.contains(['.', '[']) => {
+                Problem::new(field, parameters::or_parameter(problem, &known))
+            }
+            _ => Problem::new(path, problem),
+        }
     })?;
     world::build(&scene)?;
     Ok(scene)

@@ -2,7 +2,8 @@
 
 use toml::{Table, Value};
 
-use crate::error::{SceneError, segments};
+use crate::error::{SceneError, nearest, segments};
+use crate::parameters;
 
 /// Most names and indices in a path: twice of what leads to the deepest values of scenes. Text from
 /// elsewhere must not make tables in tables until the stack ends.
@@ -20,9 +21,9 @@ pub struct Override {
 impl std::str::FromStr for Override {
     type Err = SceneError;
 
-    /// Parses `path=value`: names and indices, as in `emitters.0.period` or `emitters[0].period`,
-    /// then a value in TOML. A word that is no TOML value is taken as a string; `none` takes the
-    /// field out of the scene.
+    /// Parses `path=value`: names and indices, as in `emitters.0.period` or `emitters[0].period`, or
+    /// the name of a parameter, then a value in TOML. A word that is no TOML value is taken as a
+    /// string; `none` takes the field out of the scene.
     fn from_str(text: &str) -> Result<Self, SceneError> {
         let (path, value) = text
             .split_once('=')
@@ -64,13 +65,44 @@ impl std::fmt::Display for Override {
 impl Override {
     /// Changes the scene.
     pub(crate) fn apply(&self, scene: &mut Table) -> Result<(), SceneError> {
-        let Some((last, way)) = self.path.split_last() else { return Ok(()) };
+        let path = self.path_in(scene);
+        if let [parameters::TABLE, name] = path[..] {
+            self.check_parameter(name, scene)?;
+        }
+        let Some((last, way)) = path.split_last() else { return Ok(()) };
         let mut place = Place::Table(scene);
         for (i, name) in way.iter().enumerate() {
-            let next = self.path[i + 1].as_str();
+            let next = path[i + 1];
             place = place.enter(name, next).map_err(|problem| bad_override(&self.text, problem))?;
         }
         place.set(last, self.value.clone()).map_err(|problem| bad_override(&self.text, problem))
+    }
+
+    /// A parameter that no formula can name would change nothing.
+    fn check_parameter(&self, name: &str, scene: &Table) -> Result<(), SceneError> {
+        let known = scene.get(parameters::TABLE).and_then(Value::as_table);
+        if known.is_some_and(|it| it.contains_key(name)) {
+            return Ok(());
+        }
+        let names = known.into_iter().flat_map(Table::keys).map(String::as_str);
+        let problem = match nearest(name, names) {
+            Some(like) => format!("the scene has no parameter `{name}`; did you mean \"{like}\"?"),
+            None => format!("the scene has no parameter `{name}`"),
+        };
+        Err(bad_override(&self.text, problem))
+    }
+
+    /// The path in this scene: a parameter goes by its name alone where no field has it.
+    fn path_in(&self, scene: &Table) -> Vec<&str> {
+        let path = self.path.iter().map(String::as_str);
+        let parameters = scene.get(parameters::TABLE).and_then(Value::as_table);
+        let is_parameter = match &self.path[..] {
+            [name] => {
+                !scene.contains_key(name) && parameters.is_some_and(|it| it.contains_key(name))
+            }
+            _ => false,
+        };
+        is_parameter.then_some(parameters::TABLE).into_iter().chain(path).collect()
     }
 
     /// Whether the field at `path` (like `emitters[0].period`) is part of what this changes, or

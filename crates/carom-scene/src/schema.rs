@@ -1,11 +1,54 @@
 //! The JSON Schema of scene files, with which editors complete and check them.
 
+use schemars::Schema;
+use schemars::generate::SchemaSettings;
+use schemars::transform::RecursiveTransform;
+use serde_json::{Value, json};
+
+use crate::parameters;
 use crate::scene::Scene;
+
+/// What a string looks like that is a formula.
+const FORMULA: &str = "^=";
 
 /// The schema as JSON text, as it is committed in `scenes/scene.schema.json`.
 pub fn json_schema() -> String {
-    let schema = schemars::schema_for!(Scene);
+    let settings = SchemaSettings::default().with_transform(RecursiveTransform(allow_formula));
+    let mut schema = settings.into_generator().into_root_schema_for::<Scene>();
+    add_parameters(&mut schema);
     let mut text = serde_json::to_string_pretty(&schema).expect("a schema is plain JSON");
     text.push('\n');
     text
+}
+
+/// Where there may be a number, there may be a formula.
+fn allow_formula(schema: &mut Schema) {
+    let Some(types) = schema.get_mut("type") else { return };
+    let mut all = match types.take() {
+        Value::Array(all) => all,
+        one => vec![one],
+    };
+    let is_number = all.iter().any(|it| it == "number" || it == "integer");
+    if is_number {
+        all.push(json!("string"));
+    }
+    *types = if all.len() == 1 { all.remove(0) } else { Value::Array(all) };
+    if is_number {
+        schema.insert("pattern".to_owned(), json!(FORMULA));
+    }
+}
+
+/// The parameters are no field of a scene: reading a file puts numbers in the place of its formulas.
+fn add_parameters(schema: &mut Schema) {
+    let mut value = schemars::json_schema!({ "type": "number" });
+    allow_formula(&mut value);
+    let table = json!({
+        "description": "Numbers by name, for formulas: a string that begins with = may stand wherever a number may, \
+                        as in radius = \"=2*r\". A parameter may be a formula of those before it.",
+        "type": "object",
+        "additionalProperties": value,
+    });
+    if let Some(Value::Object(properties)) = schema.get_mut("properties") {
+        properties.insert(parameters::TABLE.to_owned(), table);
+    }
 }
