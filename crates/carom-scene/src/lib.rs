@@ -37,6 +37,7 @@ mod requirement;
 pub mod scene;
 mod schema;
 mod settings;
+mod units;
 mod wording;
 mod world;
 

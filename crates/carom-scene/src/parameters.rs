@@ -1,12 +1,13 @@
-//! The parameters of a scene file, and the formulas in which they occur.
+//! The parameters of a scene file, the formulas in which they occur, and numbers with units.
 //!
-//! A string that begins with `=` is a formula, wherever a number may stand; its number takes its place before
-//! the scene is read.
+//! A string that begins with `=` is a formula, wherever a number may stand, and one like `5 cm` a number with
+//! a unit; its number takes its place before the scene is read.
 
 use toml::{Table, Value};
 
 use crate::error::Problem;
 use crate::formula::{self, Names};
+use crate::units::{self, Place};
 
 /// The table of the parameters.
 pub(crate) const TABLE: &str = "parameters";
@@ -20,8 +21,8 @@ const MARK: char = '=';
 /// Whole numbers up to this one are written as such: beyond, not every one is a number of 64 bits.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
-/// Takes the parameters out of a scene, and puts numbers in the place of its formulas. Gives the values of the
-/// parameters.
+/// Takes the parameters out of a scene, and puts numbers in the place of its formulas and of its numbers with
+/// units. Gives the values of the parameters.
 pub(crate) fn resolve(scene: &mut Table) -> Result<Vec<(String, f64)>, Problem> {
     let known = match scene.remove(TABLE) {
         Some(Value::Table(table)) => values(table)?,
@@ -60,7 +61,7 @@ fn values(table: Table) -> Result<Vec<(String, f64)>, Problem> {
             Value::Float(number) if number.is_finite() => number,
             Value::Float(number) => return Err(Problem::new(path, format!("is {number}"))),
             _ => {
-                let problem = "is neither a number nor a formula, like \"=2*r\"";
+                let problem = "is neither a number, like \"5 cm\", nor a formula, like \"=2*r\"";
                 return Err(Problem::new(path, problem));
             }
         };
@@ -69,14 +70,17 @@ fn values(table: Table) -> Result<Vec<(String, f64)>, Problem> {
     Ok(known)
 }
 
-/// Puts numbers in the place of the formulas in a value at a path.
+/// Puts numbers in the place of the formulas and the numbers with units in a value at a path.
 fn replace(value: &mut Value, path: &str, known: &Names) -> Result<(), Problem> {
     match value {
         Value::String(text) => {
-            let Some(formula) = text.strip_prefix(MARK) else { return Ok(()) };
-            let number = formula::evaluate(formula.trim(), known)
-                .map_err(|problem| Problem::new(path, problem))?;
-            *value = in_toml(number);
+            let number = match text.strip_prefix(MARK) {
+                Some(formula) => Some(formula::evaluate(formula.trim(), known)),
+                None => units::in_unit_of(place_of(path), text),
+            };
+            if let Some(number) = number {
+                *value = in_toml(number.map_err(|problem| Problem::new(path, problem))?);
+            }
         }
         Value::Array(array) => {
             for (i, element) in array.iter_mut().enumerate() {
@@ -91,6 +95,15 @@ fn replace(value: &mut Value, path: &str, known: &Names) -> Result<(), Problem> 
         _ => {}
     }
     Ok(())
+}
+
+/// The field at a path, or that of the list in which an element is.
+fn place_of(path: &str) -> Place<'_> {
+    let field = path.rsplit('.').next().unwrap_or_default();
+    match path.split_once('.') {
+        Some((TABLE, _)) => Place::Parameter,
+        _ => Place::Field(field.split('[').next().unwrap_or_default()),
+    }
 }
 
 /// A number as a file would have it: without a point where it is whole, for what counts something.

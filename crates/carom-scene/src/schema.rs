@@ -8,12 +8,12 @@ use serde_json::{Value, json};
 use crate::parameters;
 use crate::scene::Scene;
 
-/// What a string looks like that is a formula.
-const FORMULA: &str = "^=";
+/// What a string looks like that is a formula, or a number with a unit.
+const NUMBER: &str = "^(=|[-+]?[0-9.])";
 
 /// The schema as JSON text, as it is committed in `scenes/scene.schema.json`.
 pub fn json_schema() -> String {
-    let settings = SchemaSettings::default().with_transform(RecursiveTransform(allow_formula));
+    let settings = SchemaSettings::default().with_transform(RecursiveTransform(allow_text));
     let mut schema = settings.into_generator().into_root_schema_for::<Scene>();
     add_parameters(&mut schema);
     let mut text = serde_json::to_string_pretty(&schema).expect("a schema is plain JSON");
@@ -21,8 +21,8 @@ pub fn json_schema() -> String {
     text
 }
 
-/// Where there may be a number, there may be a formula.
-fn allow_formula(schema: &mut Schema) {
+/// Where there may be a number, there may be a formula, or a number with a unit.
+fn allow_text(schema: &mut Schema) {
     let Some(types) = schema.get_mut("type") else { return };
     let mut all = match types.take() {
         Value::Array(all) => all,
@@ -34,17 +34,17 @@ fn allow_formula(schema: &mut Schema) {
     }
     *types = if all.len() == 1 { all.remove(0) } else { Value::Array(all) };
     if is_number {
-        schema.insert("pattern".to_owned(), json!(FORMULA));
+        schema.insert("pattern".to_owned(), json!(NUMBER));
     }
 }
 
 /// The parameters are no field of a scene: reading a file puts numbers in the place of its formulas.
 fn add_parameters(schema: &mut Schema) {
     let mut value = schemars::json_schema!({ "type": "number" });
-    allow_formula(&mut value);
+    allow_text(&mut value);
     let table = json!({
         "description": "Numbers by name, for formulas: a string that begins with = may stand wherever a number may, \
-                        as in radius = \"=2*r\". A parameter may be a formula of those before it.",
+                        as in radius = \"=2*r\". A parameter may have a unit, as in \"5 cm\", or be a formula of those before it.",
         "type": "object",
         "additionalProperties": value,
     });

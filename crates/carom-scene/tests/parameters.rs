@@ -70,7 +70,7 @@ fn errors_name_the_line_and_what_may_be_meant() {
     let whole = file("count = 4", "count = 2.5");
     assert!(whole.contains("generators[0].row.count: invalid type: floating point"), "{whole}");
     let text_for_number = file("r = 0.25", "r = \"wide\"");
-    assert!(text_for_number.contains("neither a number nor a formula"), "{text_for_number}");
+    assert!(text_for_number.contains("neither a number, like"), "{text_for_number}");
     let taken = file("r = 0.25", "pi = 3");
     assert!(taken.contains("parameters.pi: \"pi\" has a meaning in formulas"), "{taken}");
     let no_name = file("r = 0.25", "\"2r\" = 3");
@@ -89,4 +89,85 @@ fn overrides_of_parameters_that_are_not_there_are_errors() {
     assert!(problem(TEXT, &["parameters.x=3"]).ends_with("no parameter `x`"));
     let mistyped = problem(TEXT, &["heigt=3"]);
     assert!(mistyped.ends_with("did you mean \"height\"?"), "{mistyped}");
+}
+
+#[test]
+fn numbers_with_units_are_those_of_si() {
+    let text = r#"
+name = "units"
+parameters = { tilt = "90 deg", r = "5 cm" }
+simulation = { frame_time = "20 ms" }
+forces = [{ gravity = { acceleration = [0, "-981 cm/s^2", 0] } }]
+
+[[spheres]]
+position = ["1 ft", "=2 + r", 0.5]
+diameter = "10 cm"
+density = "2.7 g/cm^3"
+velocity = ["36 km/h", "=sin(tilt)", 0]
+
+[[colliders]]
+shape = { rectangle = { size_x = "40 cm", size_z = "2 m" } }
+rotation = { axis = [0, 0, 1], degrees = "30 deg" }
+"#;
+    let si = r#"
+name = "units"
+simulation = { frame_time = 0.02 }
+forces = [{ gravity = { acceleration = [0, -9.81, 0] } }]
+
+[[spheres]]
+position = [0.3048, 2.05, 0.5]
+diameter = 0.1
+density = 2700
+velocity = [10, 1, 0]
+
+[[colliders]]
+shape = { rectangle = { size_x = 0.4, size_z = 2 } }
+rotation = { axis = [0, 0, 1], degrees = 30 }
+"#;
+    assert_eq!(read(text, &[]).unwrap(), read(si, &[]).unwrap());
+    let world = read(text, &["spheres.0.diameter=2 in"]).unwrap().world().unwrap();
+    assert_eq!(world.spheres().radii(), [0.0254]);
+    let wrong = problem(&text.replace("\"10 cm\"", "\"10 g\""), &[]);
+    assert_eq!(wrong, "line.toml:9: spheres[0].diameter: \"10 g\" is in g, not in m");
+    let unknown = problem(&text.replace("20 ms", "20 msec"), &[]);
+    assert!(unknown.starts_with("line.toml:4: simulation.frame_time: unknown unit `msec`"));
+    assert!(unknown.ends_with("did you mean \"ms\"?"), "{unknown}");
+}
+
+#[test]
+fn fields_take_the_units_that_the_schema_describes() {
+    let schema: serde_json::Value = serde_json::from_str(&carom_scene::json_schema()).unwrap();
+    let mut fields = Vec::new();
+    described(&schema, &mut fields);
+    let units = ["m/s²", "m/s", "rad/s", "kg/m³", "kg/s", "kg", "N", "degrees", "s", "m"];
+    let mut checked = 0;
+    for (field, description) in fields {
+        let says = |unit: &&str| {
+            let mut parts = description.split(['.', ',', ':', ';']);
+            parts.any(|part| part.to_lowercase().ends_with(&format!("in {unit}").to_lowercase()))
+        };
+        let Some(unit) = units.into_iter().find(says) else { continue };
+        let other = if unit == "kg" { "m" } else { "t" };
+        let problem = problem(&format!("name = \"x\"\n[any]\n{field} = \"1 {other}\""), &[]);
+        let expected =
+            format!("line.toml:3: any.{field}: \"1 {other}\" is in {other}, not in {unit}");
+        assert_eq!(problem, expected, "{description}");
+        checked += 1;
+    }
+    assert!(checked > 30, "{checked}");
+}
+
+fn described(schema: &serde_json::Value, fields: &mut Vec<(String, String)>) {
+    let Some(object) = schema.as_object() else {
+        schema.as_array().into_iter().flatten().for_each(|it| described(it, fields));
+        return;
+    };
+    if let Some(properties) = object.get("properties").and_then(|it| it.as_object()) {
+        for (name, property) in properties {
+            if let Some(text) = property.get("description").and_then(|it| it.as_str()) {
+                fields.push((name.clone(), text.to_owned()));
+            }
+        }
+    }
+    object.values().for_each(|it| described(it, fields));
 }

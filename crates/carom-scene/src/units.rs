@@ -1,0 +1,206 @@
+//! Numbers with units, as in `"5 cm"`: what they are in the unit of the field where they stand.
+
+use winnow::ascii::float;
+use winnow::error::ContextError;
+use winnow::prelude::*;
+
+/// A unit: its name, the unit that it is a multiple of, and that multiple as a fraction, whose quotient is
+/// rounded once: 7 cm are the number 0.07.
+type Unit = (&'static str, &'static str, [f64; 2]);
+
+const UNITS: [Unit; 43] = [
+    ("m", "m", [1.0, 1.0]),
+    ("km", "m", [1000.0, 1.0]),
+    ("cm", "m", [1.0, 100.0]),
+    ("mm", "m", [1.0, 1e3]),
+    ("um", "m", [1.0, 1e6]),
+    ("nm", "m", [1.0, 1e9]),
+    ("in", "m", [0.0254, 1.0]),
+    ("ft", "m", [0.3048, 1.0]),
+    ("s", "s", [1.0, 1.0]),
+    ("ms", "s", [1.0, 1e3]),
+    ("us", "s", [1.0, 1e6]),
+    ("min", "s", [60.0, 1.0]),
+    ("h", "s", [3600.0, 1.0]),
+    ("kg", "kg", [1.0, 1.0]),
+    ("g", "kg", [1.0, 1e3]),
+    ("mg", "kg", [1.0, 1e6]),
+    ("t", "kg", [1e3, 1.0]),
+    ("m/s", "m/s", [1.0, 1.0]),
+    ("cm/s", "m/s", [1.0, 100.0]),
+    ("mm/s", "m/s", [1.0, 1e3]),
+    ("km/s", "m/s", [1e3, 1.0]),
+    ("km/h", "m/s", [1.0, 3.6]),
+    ("m/s²", "m/s²", [1.0, 1.0]),
+    ("m/s^2", "m/s²", [1.0, 1.0]),
+    ("cm/s²", "m/s²", [1.0, 100.0]),
+    ("cm/s^2", "m/s²", [1.0, 100.0]),
+    ("kg/m³", "kg/m³", [1.0, 1.0]),
+    ("kg/m^3", "kg/m³", [1.0, 1.0]),
+    ("g/cm³", "kg/m³", [1e3, 1.0]),
+    ("g/cm^3", "kg/m³", [1e3, 1.0]),
+    ("N", "N", [1.0, 1.0]),
+    ("kN", "N", [1e3, 1.0]),
+    ("mN", "N", [1.0, 1e3]),
+    ("kg/s", "kg/s", [1.0, 1.0]),
+    ("g/s", "kg/s", [1.0, 1e3]),
+    ("rad/s", "rad/s", [1.0, 1.0]),
+    ("deg/s", "rad/s", [PI, 180.0]),
+    ("°/s", "rad/s", [PI, 180.0]),
+    ("rpm", "rad/s", [PI, 30.0]),
+    ("rad", DEGREES, [180.0, PI]),
+    ("deg", DEGREES, [1.0, 1.0]),
+    ("°", DEGREES, [1.0, 1.0]),
+    ("turns", DEGREES, [360.0, 1.0]),
+];
+
+const PI: f64 = std::f64::consts::PI;
+const DEGREES: &str = "degrees";
+
+/// The unit of each field that has one.
+const FIELDS: [(&str, &str); 34] = [
+    ("acceleration", "m/s²"),
+    ("angular_velocity", "rad/s"),
+    ("center", "m"),
+    ("coefficient", "kg/s"),
+    ("contact_duration", "s"),
+    ("degrees", DEGREES),
+    ("density", "kg/m³"),
+    ("diameter", "m"),
+    ("duration", "s"),
+    ("euler_degrees", DEGREES),
+    ("far", "m"),
+    ("force", "N"),
+    ("frame_time", "s"),
+    ("look_at", "m"),
+    ("mass", "kg"),
+    ("max", "m"),
+    ("min", "m"),
+    ("near", "m"),
+    ("period", "s"),
+    ("position", "m"),
+    ("radius", "m"),
+    ("radius_range", "m"),
+    ("row_step", "m"),
+    ("size", "m"),
+    ("size_x", "m"),
+    ("size_z", "m"),
+    ("spacing", "m"),
+    ("speed", "m/s"),
+    ("start", "m"),
+    ("step", "m"),
+    ("tolerance", "m"),
+    ("velocity", "m/s"),
+    ("vertical_fov_degrees", DEGREES),
+    ("zone_tick", "s"),
+];
+
+/// Where a number with a unit stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Place<'a> {
+    /// In the field of this name.
+    Field(&'a str),
+    /// Where numbers of any unit may be: they come to SI units, and angles to radians.
+    Parameter,
+}
+
+/// The number in the unit of its place of a text like `5 cm`; `None` for a text that is no number with a
+/// unit, or stands where there is none.
+///
+/// # Errors
+/// What is wrong with the unit.
+pub(crate) fn in_unit_of(place: Place, text: &str) -> Option<Result<f64, String>> {
+    let wanted = match place {
+        Place::Field(field) => Some(FIELDS.iter().find(|it| it.0 == field)?.1),
+        Place::Parameter => None,
+    };
+    let mut rest = text.trim();
+    let is_number = rest.starts_with(|it: char| it.is_ascii_digit() || "+-.".contains(it));
+    let number: Result<f64, ContextError> = float.parse_next(&mut rest);
+    let number = number.ok().filter(|number| is_number && number.is_finite())?;
+    let name = rest.trim();
+    if name.is_empty() {
+        return None;
+    }
+    let Some(&(_, unit, [by, of])) = UNITS.iter().find(|it| it.0 == name) else {
+        return Some(Err(unknown(name, wanted)));
+    };
+    Some(match wanted {
+        Some(wanted) if wanted != unit => {
+            Err(format!("\"{}\" is in {name}, not in {wanted}", text.trim()))
+        }
+        None if unit == DEGREES => Ok(number * by / of * PI / 180.0),
+        _ => Ok(number * by / of),
+    })
+}
+
+fn unknown(name: &str, wanted: Option<&str>) -> String {
+    let fitting = UNITS.iter().filter(|it| wanted.is_none_or(|wanted| wanted == it.1));
+    let names: Vec<_> = fitting.map(|it| format!("`{}`", it.0)).collect();
+    format!("unknown unit `{name}`, expected one of {}", names.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn field(name: &str, text: &str) -> Option<Result<f64, String>> {
+        in_unit_of(Place::Field(name), text)
+    }
+
+    #[test]
+    fn a_number_with_a_unit_is_the_number_that_one_would_write() {
+        let cases = [
+            ("radius", "7 cm", 0.07),
+            ("radius", "7cm", 0.07),
+            ("position", "-2.5 mm", -0.0025),
+            ("size", "1e3 m", 1000.0),
+            ("diameter", "2 in", 0.0508),
+            ("period", "20 ms", 0.02),
+            ("mass", "3 g", 0.003),
+            ("density", "7.8 g/cm^3", 7800.0),
+            ("velocity", "36 km/h", 10.0),
+            ("acceleration", "-9.81 m/s^2", -9.81),
+            ("angular_velocity", "2 rad/s", 2.0),
+            ("degrees", "30 deg", 30.0),
+            ("vertical_fov_degrees", "0.5 turns", 180.0),
+        ];
+        for (name, text, expected) in cases {
+            assert_eq!(field(name, text), Some(Ok(expected)), "{name} = {text}");
+        }
+    }
+
+    #[test]
+    fn angles_are_degrees_where_a_field_says_so_and_radians_in_parameters() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let of_field = field("degrees", &format!("{quarter} rad")).unwrap().unwrap();
+        // Two roundings of an eighth of an ulp of 90 each.
+        assert!((of_field - 90.0).abs() <= 2.0 * 90.0 * f64::EPSILON, "{of_field}");
+        let spin = field("angular_velocity", "60 rpm").unwrap().unwrap();
+        assert!((spin - 2.0 * PI).abs() <= 2.0 * PI * f64::EPSILON, "{spin}");
+        assert_eq!(in_unit_of(Place::Parameter, "90 deg"), Some(Ok(quarter)));
+        assert_eq!(in_unit_of(Place::Parameter, "5 cm"), Some(Ok(0.05)));
+    }
+
+    #[test]
+    fn units_of_something_else_are_errors() {
+        let wrong = field("radius", "5 kg").unwrap().unwrap_err();
+        assert_eq!(wrong, "\"5 kg\" is in kg, not in m");
+        let unknown = field("mass", "5 kgs").unwrap().unwrap_err();
+        assert_eq!(unknown, "unknown unit `kgs`, expected one of `kg`, `g`, `mg`, `t`");
+    }
+
+    #[test]
+    fn other_texts_are_left_alone() {
+        for (name, text) in [
+            ("shape", "half-space"),
+            ("color", "#aabbcc"),
+            ("name", "3 pegs"),
+            ("radius", "wide"),
+            ("radius", "5"),
+            ("radius", "inf m"),
+        ] {
+            assert_eq!(field(name, text), None, "{name} = {text}");
+        }
+    }
+}
