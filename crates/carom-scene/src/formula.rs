@@ -15,8 +15,12 @@ use winnow::token::{any, take_while};
 /// Most characters of a formula: parentheses in parentheses must not take the whole stack.
 const LONGEST: usize = 200;
 
-/// Functions of one number.
-const OF_ONE: [(&str, fn(f64) -> f64); 14] = [
+/// A function of one number, by name.
+type OfOne = (&'static str, fn(f64) -> f64);
+/// A function of two numbers, by name.
+type OfTwo = (&'static str, fn(f64, f64) -> f64);
+
+const OF_ONE: [OfOne; 14] = [
     ("abs", f64::abs),
     ("acos", libm::acos),
     ("asin", libm::asin),
@@ -32,8 +36,7 @@ const OF_ONE: [(&str, fn(f64) -> f64); 14] = [
     ("sqrt", f64::sqrt),
     ("tan", libm::tan),
 ];
-/// Functions of two numbers.
-const OF_TWO: [(&str, fn(f64, f64) -> f64); 3] =
+const OF_TWO: [OfTwo; 3] =
     [("atan2", libm::atan2), ("max", f64::max), ("min", f64::min)];
 const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("tau", std::f64::consts::TAU)];
 
