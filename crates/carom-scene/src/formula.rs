@@ -36,8 +36,7 @@ const OF_ONE: [OfOne; 14] = [
     ("sqrt", f64::sqrt),
     ("tan", libm::tan),
 ];
-const OF_TWO: [OfTwo; 3] =
-    [("atan2", libm::atan2), ("max", f64::max), ("min", f64::min)];
+const OF_TWO: [OfTwo; 3] = [("atan2", libm::atan2), ("max", f64::max), ("min", f64::min)];
 const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("tau", std::f64::consts::TAU)];
 
 /// Numbers by name.
