@@ -41,8 +41,8 @@ impl Choice {
 /// What is different in a scene.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Changes {
-    /// Change a value of the scene, like emitters.0.max_spheres=100, or take it out with
-    /// emitters.0.max_spheres=none; may be given several times.
+    /// Change a value of the scene, like emitters.0.max_spheres=100, or a parameter by its name, or
+    /// take a value out with emitters.0.max_spheres=none; may be given several times.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
     #[arg(requires = "scene")]
     overrides: Vec<Override>,

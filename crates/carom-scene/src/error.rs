@@ -75,7 +75,7 @@ impl fmt::Display for Fault {
     }
 }
 
-fn did_you_mean(nearest: &Option<String>) -> String {
+pub(crate) fn did_you_mean(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or(String::new(), |name| format!("; did you mean \"{name}\"?"))
 }
 
@@ -89,6 +89,11 @@ pub(crate) struct Problem {
 impl Problem {
     pub fn new(field: impl Into<String>, problem: impl Into<String>) -> Self {
         Self { field: field.into(), problem: problem.into() }
+    }
+
+    /// The same problem, with a name or an index before its path.
+    pub fn below(self, name: &str) -> Self {
+        Self { field: format!("{name}{}", self.field), ..self }
     }
 
     /// A refusal of the physics, about what is written at `path`.

@@ -1,7 +1,9 @@
 //! Formulas: arithmetic with numbers and names, as in `2 * r + sin(pi / 6)`.
 //!
-//! Functions are those of `libm`, so that a formula has the same bits on every machine.
+//! Every function is exact, correctly rounded or that of `libm`, so that a formula has the same bits on every
+//! machine.
 
+use thiserror::Error;
 use winnow::ModalResult;
 use winnow::ascii::{float, multispace0};
 use winnow::combinator::{
@@ -10,17 +12,21 @@ use winnow::combinator::{
 };
 use winnow::prelude::*;
 use winnow::stream::Stateful;
-use winnow::token::{any, take_while};
+use winnow::token::{any, one_of, take_while};
 
-/// Most characters of a formula: parentheses in parentheses must not take the whole stack.
+use crate::units;
+
+/// Most bytes of a formula, and most parentheses in parentheses: text from elsewhere must not take the whole
+/// stack.
 const LONGEST: usize = 200;
+const DEEPEST: u32 = 32;
 
 /// A function of one number, by name.
-type OfOne = (&'static str, fn(f64) -> f64);
+type Unary = (&'static str, fn(f64) -> f64);
 /// A function of two numbers, by name.
-type OfTwo = (&'static str, fn(f64, f64) -> f64);
+type Binary = (&'static str, fn(f64, f64) -> f64);
 
-const OF_ONE: [OfOne; 14] = [
+const UNARY: [Unary; 14] = [
     ("abs", f64::abs),
     ("acos", libm::acos),
     ("asin", libm::asin),
@@ -36,29 +42,62 @@ const OF_ONE: [OfOne; 14] = [
     ("sqrt", f64::sqrt),
     ("tan", libm::tan),
 ];
-const OF_TWO: [OfTwo; 3] = [("atan2", libm::atan2), ("max", f64::max), ("min", f64::min)];
-const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("tau", std::f64::consts::TAU)];
+const BINARY: [Binary; 3] = [("atan2", libm::atan2), ("max", larger), ("min", smaller)];
+const CONSTANTS: [(&str, f64); 3] = [
+    ("deg", std::f64::consts::PI / 180.0),
+    ("pi", std::f64::consts::PI),
+    ("tau", std::f64::consts::TAU),
+];
+
+/// The larger of two numbers; what is none comes out, too.
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}
+
+/// The smaller of two numbers; what is none comes out, too.
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b || a.is_nan() { a } else { b }
+}
 
 /// Numbers by name.
-pub(crate) type Names = [(String, f64)];
+pub(crate) type NamedValues = [(String, f64)];
 
-/// The text of a formula, and the names that it may use.
+/// What is wrong with a formula.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub(crate) enum FormulaError {
+    /// It has a name that is neither known nor a function or constant.
+    #[error("unknown name `{name}`, expected one of {}", quoted(.expected))]
+    UnknownName { name: String, expected: Vec<String> },
+    /// Anything else, in words.
+    #[error("{0}")]
+    Other(String),
+}
+
+fn quoted(names: &[String]) -> String {
+    let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
+/// The text of a formula, and what is known of it.
 type Input<'a> = Stateful<&'a str, State<'a>>;
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct State<'a> {
-    known: &'a Names,
-    /// The name that is none, once one was met.
-    unknown: Option<&'a str>,
+    known: &'a NamedValues,
+    /// Parentheses that are open.
+    depth: u32,
+    /// What is wrong, where that is more than a place that cannot be read.
+    error: Option<FormulaError>,
 }
 
 /// Whether a formula has a meaning of its own for this name.
 pub(crate) fn is_taken(name: &str) -> bool {
-    of_formulas().any(|own| own == name)
+    own_names().any(|own| own == name)
 }
 
-fn of_formulas<'a>() -> impl Iterator<Item = &'a str> {
-    let functions = OF_ONE.iter().map(|it| it.0).chain(OF_TWO.iter().map(|it| it.0));
+/// The names of functions and constants.
+fn own_names<'a>() -> impl Iterator<Item = &'a str> {
+    let functions = UNARY.iter().map(|it| it.0).chain(BINARY.iter().map(|it| it.0));
     functions.chain(CONSTANTS.iter().map(|it| it.0))
 }
 
@@ -74,38 +113,47 @@ pub(crate) fn is_name(text: &str) -> bool {
 /// radians.
 ///
 /// # Errors
-/// What is wrong with it: a place that cannot be read, a name that is none, a value that is no number.
-pub(crate) fn evaluate(text: &str, known: &Names) -> Result<f64, String> {
+/// What is wrong with it: a place that cannot be read, an unknown name, a value that is not finite.
+pub(crate) fn evaluate(text: &str, known: &NamedValues) -> Result<f64, FormulaError> {
     if text.len() > LONGEST {
-        return Err(format!("a formula has {LONGEST} characters at most"));
+        return Err(FormulaError::Other(format!("a formula has {LONGEST} characters at most")));
     }
-    let mut input = Input { input: text, state: State { known, unknown: None } };
+    let mut input = Input { input: text, state: State { known, depth: 0, error: None } };
     let value = terminated(sum, multispace0).parse_next(&mut input);
-    if let Some(name) = input.state.unknown {
-        let names = known.iter().map(|it| it.0.as_str()).chain(of_formulas());
-        let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();
-        return Err(format!("unknown name `{name}`, expected one of {}", names.join(", ")));
+    if let Some(error) = input.state.error {
+        return Err(error);
     }
     match value {
         Ok(value) if input.input.is_empty() && value.is_finite() => Ok(value),
-        Ok(value) if input.input.is_empty() => Err(format!("\"{text}\" is {value}, no number")),
-        _ => Err(unreadable(text, input.input)),
+        Ok(value) if input.input.is_empty() => {
+            Err(FormulaError::Other(format!("\"{text}\" must be a finite number, not {value}")))
+        }
+        _ => Err(FormulaError::Other(unreadable(text, input.input.trim()))),
     }
 }
 
 fn unreadable(text: &str, rest: &str) -> String {
-    match rest.trim() {
+    let word = rest.split(|it: char| it.is_whitespace() || "+-*()".contains(it)).next();
+    match rest {
         "" => format!("the formula \"{text}\" ends too early"),
-        rest => format!("the formula \"{text}\" cannot be read from \"{rest}\" on"),
+        _ if word.is_some_and(units::is_unit) => {
+            format!("a formula has no units: give those of \"{text}\" to parameters")
+        }
+        _ => format!("the formula \"{text}\" cannot be read from \"{rest}\" on"),
     }
 }
 
 /// Numbers with operators between them, as closely as these bind.
 fn sum(input: &mut Input) -> ModalResult<f64> {
-    expression(preceded(multispace0, operand))
+    input.state.depth += 1;
+    if input.state.depth > DEEPEST {
+        let error = format!("a formula has {DEEPEST} parentheses in each other at most");
+        return wrong(input, FormulaError::Other(error));
+    }
+    let value = expression(preceded(multispace0, operand))
         .prefix(preceded(
             multispace0,
-            dispatch! {any;
+            dispatch! {one_of(['-', '+']);
                 '-' => Prefix(3, |_: &mut _, value: f64| Ok(-value)),
                 '+' => Prefix(3, |_: &mut _, value: f64| Ok(value)),
                 _ => fail,
@@ -122,7 +170,9 @@ fn sum(input: &mut Input) -> ModalResult<f64> {
                 _ => fail,
             },
         ))
-        .parse_next(input)
+        .parse_next(input);
+    input.state.depth -= 1;
+    value
 }
 
 /// A number, a name, a function of something, or something in parentheses.
@@ -145,25 +195,38 @@ fn named(input: &mut Input) -> ModalResult<f64> {
     let name: &str = take_while(1.., |it: char| it.is_ascii_alphanumeric() || it == '_')
         .verify(is_name)
         .parse_next(input)?;
-    let one = OF_ONE.iter().find(|it| it.0 == name);
-    let two = OF_TWO.iter().find(|it| it.0 == name);
-    if one.is_some() || two.is_some() {
-        let values = separated(1..=2, sum, (multispace0, ','));
-        let values: Vec<f64> =
-            cut_err(delimited((multispace0, '('), values, (multispace0, ')'))).parse_next(input)?;
-        return match (one, two, &values[..]) {
-            (Some((_, function)), _, [value]) => Ok(function(*value)),
-            (_, Some((_, function)), [first, second]) => Ok(function(*first, *second)),
-            _ => cut_err(fail).parse_next(input),
+    if let Some((_, function)) = UNARY.iter().find(|it| it.0 == name) {
+        return match arguments(input)?[..] {
+            [value] => Ok(function(value)),
+            _ => wrong(input, FormulaError::Other(format!("\"{name}\" takes one number"))),
+        };
+    }
+    if let Some((_, function)) = BINARY.iter().find(|it| it.0 == name) {
+        return match arguments(input)?[..] {
+            [first, second] => Ok(function(first, second)),
+            _ => wrong(input, FormulaError::Other(format!("\"{name}\" takes two numbers"))),
         };
     }
     let constants = CONSTANTS.iter().copied();
     let known = input.state.known.iter().map(|(name, value)| (name.as_str(), *value));
-    let Some((_, value)) = known.chain(constants).find(|it| it.0 == name) else {
-        input.state.unknown = input.state.unknown.or(Some(name));
-        return fail.parse_next(input);
-    };
-    Ok(value)
+    if let Some((_, value)) = known.chain(constants).find(|it| it.0 == name) {
+        return Ok(value);
+    }
+    let known = input.state.known.iter().map(|it| it.0.as_str());
+    let expected = known.chain(own_names()).map(str::to_owned).collect();
+    wrong(input, FormulaError::UnknownName { name: name.to_owned(), expected })
+}
+
+/// What stands in the parentheses after the name of a function.
+fn arguments(input: &mut Input) -> ModalResult<Vec<f64>> {
+    let values = separated(1.., sum, (multispace0, ','));
+    cut_err(delimited((multispace0, '('), values, (multispace0, ')'))).parse_next(input)
+}
+
+/// Ends the reading with an error; the first one counts.
+fn wrong(input: &mut Input, error: FormulaError) -> ModalResult<f64> {
+    input.state.error.get_or_insert(error);
+    cut_err(fail).parse_next(input)
 }
 
 #[cfg(test)]
@@ -171,7 +234,8 @@ mod tests {
     use super::*;
 
     fn value(text: &str) -> Result<f64, String> {
-        evaluate(text, &[("r".to_owned(), 0.25), ("count".to_owned(), 8.0)])
+        let known = [("r".to_owned(), 0.25), ("count".to_owned(), 8.0)];
+        evaluate(text, &known).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -211,12 +275,18 @@ mod tests {
             ("(1 + 2", "ends too early"),
             ("2 r", "from \"r\" on"),
             ("2 $ 3", "from \"$ 3\" on"),
-            ("1 / 0", "\"1 / 0\" is inf, no number"),
-            ("sqrt(-1)", "is NaN, no number"),
+            ("2 * * 3", "from \"* 3\" on"),
+            ("(r + )", "from \")\" on"),
+            ("()", "from \")\" on"),
+            ("$r", "from \"$r\" on"),
+            ("5 cm + r", "a formula has no units"),
+            ("1 / 0", "\"1 / 0\" must be a finite number, not inf"),
+            ("max(0, sqrt(-1))", "must be a finite number, not NaN"),
             ("inf", "unknown name `inf`"),
             ("2 * radius", "unknown name `radius`, expected one of `r`, `count`"),
-            ("max(1)", "the formula"),
-            ("sin 3", "the formula"),
+            ("max(1) + 2", "\"max\" takes two numbers"),
+            ("sin(1, 2)", "\"sin\" takes one number"),
+            ("sin 3", "from \"3\" on"),
         ];
         for (text, expected) in cases {
             let problem = value(text).unwrap_err();
@@ -226,6 +296,9 @@ mod tests {
 
     #[test]
     fn what_is_nested_without_end_is_refused() {
+        let nested = format!("{}r{}", "(".repeat(31), ")".repeat(31));
+        assert_eq!(value(&nested), Ok(0.25));
+        assert!(value(&format!("({nested})")).unwrap_err().contains("in each other at most"));
         for opening in ["(", "-", "sqrt(", "2^"] {
             let problem = value(&opening.repeat(100_000)).unwrap_err();
             assert!(problem.contains("200 characters at most"), "{problem}");

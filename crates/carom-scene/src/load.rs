@@ -72,7 +72,13 @@ impl Scene {
                 cause = overrides.iter().collect();
             }
             let cause: Vec<_> = cause.iter().map(|it| format!("--set {it}")).collect();
-            let fault = Box::new(fault(source_name, None, &problem.field, &problem.problem));
+            let mut told = problem.problem;
+            if told.starts_with("unknown field ") && !problem.field.contains(['.', '[']) {
+                // What `--set` calls by its name alone may be meant for a parameter.
+                let known = original_parameters(&document);
+                known.for_each(|name| told.push_str(&format!(", `{name}`")));
+            }
+            let fault = Box::new(fault(source_name, None, &problem.field, &told));
             SceneError::Overridden { overrides: cause.join(" "), fault }
         })
     }
@@ -101,19 +107,25 @@ impl Scene {
     }
 }
 
+/// The names of the parameters that a file has.
+fn original_parameters<'a>(document: &'a Spanned<DeTable>) -> impl Iterator<Item = &'a str> {
+    let table = document.get_ref().get(parameters::TABLE);
+    let table = table.and_then(|value| value.get_ref().as_table());
+    table.into_iter().flatten().map(|(name, _)| name.get_ref().as_ref())
+}
+
 /// A scene from its table, or the first problem with it.
 fn read(mut table: Table) -> Result<Scene, Problem> {
-    let known = parameters::resolve(&mut table)?;
+    parameters::resolve(&mut table)?;
     let scene: Scene = serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
         let path = error.path().to_string();
-        let problem = in_plain_words(error.into_inner().message().trim());
-        match path.as_str() {
-            "." => Problem::new("", problem),
-            field if !field.contains(['.', '[']) => {
-                Problem::new(field, parameters::or_parameter(problem, &known))
-            }
-            _ => Problem::new(path, problem),
+        let path = if path == "." { String::new() } else { path };
+        let mut problem = in_plain_words(error.into_inner().message().trim());
+        // The reader knows the fields of a scene, from which parameters have been taken out.
+        if problem.starts_with("unknown field ") && !path.contains(['.', '[']) {
+            problem.push_str(&format!(", `{}`", parameters::TABLE));
         }
+        Problem::new(path, problem)
     })?;
     world::build(&scene)?;
     Ok(scene)

@@ -2,7 +2,7 @@
 
 use toml::{Table, Value};
 
-use crate::error::{SceneError, nearest, segments};
+use crate::error::{SceneError, did_you_mean, nearest, segments};
 use crate::parameters;
 
 /// Most names and indices in a path: twice of what leads to the deepest values of scenes. Text from
@@ -85,14 +85,13 @@ impl Override {
             return Ok(());
         }
         let names = known.into_iter().flat_map(Table::keys).map(String::as_str);
-        let problem = match nearest(name, names) {
-            Some(like) => format!("the scene has no parameter `{name}`; did you mean \"{like}\"?"),
-            None => format!("the scene has no parameter `{name}`"),
-        };
+        let nearest = did_you_mean(&nearest(name, names));
+        let problem = format!("the scene has no parameter `{name}`{nearest}");
         Err(bad_override(&self.text, problem))
     }
 
-    /// The path in this scene: a parameter goes by its name alone where no field has it.
+    /// The path in this scene: a parameter goes by its name alone where the scene writes no field of that
+    /// name.
     fn path_in(&self, scene: &Table) -> Vec<&str> {
         let path = self.path.iter().map(String::as_str);
         let parameters = scene.get(parameters::TABLE).and_then(Value::as_table);
@@ -106,11 +105,20 @@ impl Override {
     }
 
     /// Whether the field at `path` (like `emitters[0].period`) is part of what this changes, or
-    /// the other way round.
+    /// the other way round. Parameters go by their names alone.
     pub(crate) fn concerns(&self, path: &str) -> bool {
         let segments = segments(path);
-        let shared = self.path.len().min(segments.len());
-        shared > 0 && self.path[..shared] == segments[..shared]
+        let [own, other] = [&self.path[..], &segments].map(without_table);
+        let shared = own.len().min(other.len());
+        shared > 0 && own[..shared] == other[..shared]
+    }
+}
+
+/// The path of a parameter without the table of all of them.
+fn without_table(path: &[String]) -> &[String] {
+    match path {
+        [table, rest @ ..] if table == parameters::TABLE => rest,
+        _ => path,
     }
 }
 

@@ -6,14 +6,18 @@
 use toml::{Table, Value};
 
 use crate::error::Problem;
-use crate::formula::{self, Names};
+use crate::formula::{self, FormulaError, NamedValues};
 use crate::units::{self, Place};
 
 /// The table of the parameters.
 pub(crate) const TABLE: &str = "parameters";
 
-/// Fields of a scene that are for people: what stands there is never a formula.
-const TEXTS: [&str; 4] = ["name", "title", "description", "origin"];
+/// Fields of a scene that are for people, and names of its parts: what stands there is never a formula.
+const TEXTS: [&str; 4] = [NAME, "title", "description", "origin"];
+const NAME: &str = "name";
+
+/// Parameters at most: each name in a formula is looked for among all of them.
+const MOST: usize = 1000;
 
 /// What a string begins with that is a formula.
 const MARK: char = '=';
@@ -22,92 +26,97 @@ const MARK: char = '=';
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// Takes the parameters out of a scene, and puts numbers in the place of its formulas and of its numbers with
-/// units. Gives the values of the parameters.
-pub(crate) fn resolve(scene: &mut Table) -> Result<Vec<(String, f64)>, Problem> {
+/// units.
+pub(crate) fn resolve(scene: &mut Table) -> Result<(), Problem> {
     let known = match scene.remove(TABLE) {
-        Some(Value::Table(table)) => values(table)?,
+        Some(Value::Table(table)) => values(&table)?,
         Some(_) => return Err(Problem::new(TABLE, "is no table of numbers")),
         None => Vec::new(),
     };
     let mut fields = scene.iter_mut().filter(|(name, _)| !TEXTS.contains(&name.as_str()));
-    fields.try_for_each(|(name, value)| replace(value, name, &known))?;
-    Ok(known)
-}
-
-/// What is wrong with a field of the scene itself, with the parameters among the names that an unknown one
-/// may be meant for.
-pub(crate) fn or_parameter(mut problem: String, known: &Names) -> String {
-    if problem.starts_with("unknown field ") {
-        known.iter().for_each(|(name, _)| problem.push_str(&format!(", `{name}`")));
-    }
-    problem
+    fields.try_for_each(|(name, value)| {
+        replace(value, Place::Field(name), &known).map_err(|problem| problem.below(name))
+    })
 }
 
 /// The values of the parameters, each computed from those before it.
-fn values(table: Table) -> Result<Vec<(String, f64)>, Problem> {
+fn values(table: &Table) -> Result<Vec<(String, f64)>, Problem> {
+    if table.len() > MOST {
+        return Err(Problem::new(TABLE, format!("has more than {MOST} parameters")));
+    }
     let mut known: Vec<(String, f64)> = Vec::new();
-    for (name, mut value) in table {
-        let path = format!("{TABLE}.{name}");
-        if !formula::is_name(&name) {
-            let problem = "a name has letters, digits and _, and begins with no digit";
-            return Err(Problem::new(path, problem));
-        }
-        if formula::is_taken(&name) {
-            return Err(Problem::new(path, format!("\"{name}\" has a meaning in formulas")));
-        }
-        replace(&mut value, &path, &known)?;
-        let number = match value {
-            Value::Integer(number) => number as f64,
-            Value::Float(number) if number.is_finite() => number,
-            Value::Float(number) => return Err(Problem::new(path, format!("is {number}"))),
-            _ => {
-                let problem = "is neither a number, like \"5 cm\", nor a formula, like \"=2*r\"";
-                return Err(Problem::new(path, problem));
-            }
-        };
-        known.push((name, number));
+    for (name, value) in table {
+        let number = value_of(name, value, &known).map_err(|error| {
+            let problem = match &error {
+                FormulaError::UnknownName { name: other, .. } if table.contains_key(other) => {
+                    format!(
+                        "\"{other}\" comes after \"{name}\": a formula has parameters before it"
+                    )
+                }
+                _ => error.to_string(),
+            };
+            Problem::new(format!("{TABLE}.{name}"), problem)
+        })?;
+        known.push((name.clone(), number));
     }
     Ok(known)
 }
 
-/// Puts numbers in the place of the formulas and the numbers with units in a value at a path.
-fn replace(value: &mut Value, path: &str, known: &Names) -> Result<(), Problem> {
-    match value {
-        Value::String(text) => {
-            let number = match text.strip_prefix(MARK) {
-                Some(formula) => Some(formula::evaluate(formula.trim(), known)),
-                None => units::in_unit_of(place_of(path), text),
-            };
-            if let Some(number) = number {
-                *value = in_toml(number.map_err(|problem| Problem::new(path, problem))?);
-            }
-        }
-        Value::Array(array) => {
-            for (i, element) in array.iter_mut().enumerate() {
-                replace(element, &format!("{path}[{i}]"), known)?;
-            }
-        }
-        Value::Table(table) => {
-            for (name, value) in table.iter_mut() {
-                replace(value, &format!("{path}.{name}"), known)?;
-            }
-        }
-        _ => {}
+/// The value of a parameter.
+fn value_of(name: &str, value: &Value, known: &NamedValues) -> Result<f64, FormulaError> {
+    let wrong = |problem: &str| Err(FormulaError::Other(problem.to_owned()));
+    if !formula::is_name(name) {
+        return wrong("a name has letters, digits and _, and begins with no digit");
     }
-    Ok(())
+    if formula::is_taken(name) {
+        return wrong(&format!("\"{name}\" has a meaning in formulas"));
+    }
+    match value {
+        Value::Integer(number) => Ok(*number as f64),
+        Value::Float(number) if number.is_finite() => Ok(*number),
+        Value::Float(number) => wrong(&format!("must be a finite number, not {number}")),
+        Value::String(text) => number_in(text, Place::Parameter, known).unwrap_or_else(|| {
+            wrong("is neither a number, like \"5 cm\", nor a formula, like \"=2*r\"")
+        }),
+        _ => wrong("must be a number"),
+    }
 }
 
-/// The field at a path, or that of the list in which an element is.
-fn place_of(path: &str) -> Place<'_> {
-    let field = path.rsplit('.').next().unwrap_or_default();
-    match path.split_once('.') {
-        Some((TABLE, _)) => Place::Parameter,
-        _ => Place::Field(field.split('[').next().unwrap_or_default()),
+/// The number that a text is, if it is a formula or a number with a unit.
+fn number_in(text: &str, place: Place, known: &NamedValues) -> Option<Result<f64, FormulaError>> {
+    match text.strip_prefix(MARK) {
+        Some(formula) => Some(formula::evaluate(formula.trim(), known)),
+        None => Some(units::in_unit_of(place, text)?.map_err(FormulaError::Other)),
+    }
+}
+
+/// Puts numbers in the place of the formulas and the numbers with units in a value. The field of a problem
+/// is what lies below the value.
+fn replace(value: &mut Value, place: Place, known: &NamedValues) -> Result<(), Problem> {
+    match value {
+        Value::String(text) => {
+            if let Some(number) = number_in(text, place, known) {
+                *value = in_toml(number.map_err(|error| Problem::new("", error.to_string()))?);
+            }
+            Ok(())
+        }
+        Value::Array(array) => array.iter_mut().enumerate().try_for_each(|(i, element)| {
+            replace(element, place, known).map_err(|problem| problem.below(&format!("[{i}]")))
+        }),
+        Value::Table(table) => {
+            let mut fields = table.iter_mut().filter(|(name, _)| *name != NAME);
+            fields.try_for_each(|(name, value)| {
+                let place = Place::Field(name);
+                replace(value, place, known).map_err(|it| it.below(&format!(".{name}")))
+            })
+        }
+        _ => Ok(()),
     }
 }
 
 /// A number as a file would have it: without a point where it is whole, for what counts something.
 fn in_toml(number: f64) -> Value {
     let is_whole = number == number.trunc() && number.abs() <= LARGEST_WHOLE;
-    if is_whole { Value::Integer(number as i64) } else { Value::Float(number) }
+    let is_minus_zero = number == 0.0 && number.is_sign_negative();
+    if is_whole && !is_minus_zero { Value::Integer(number as i64) } else { Value::Float(number) }
 }

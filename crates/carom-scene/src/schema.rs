@@ -8,8 +8,10 @@ use serde_json::{Value, json};
 use crate::parameters;
 use crate::scene::Scene;
 
+/// What a string looks like that is a formula.
+const FORMULA: &str = "^=";
 /// What a string looks like that is a formula, or a number with a unit.
-const NUMBER: &str = "^(=|[-+]?[0-9.])";
+const FORMULA_OR_QUANTITY: &str = "^(=|[-+]?[0-9.].*[^-+.0-9]$)";
 
 /// The schema as JSON text, as it is committed in `scenes/scene.schema.json`.
 pub fn json_schema() -> String {
@@ -21,20 +23,25 @@ pub fn json_schema() -> String {
     text
 }
 
-/// Where there may be a number, there may be a formula, or a number with a unit.
+/// Where there may be a number, there may be a formula, and where there may be a fraction, a unit.
 fn allow_text(schema: &mut Schema) {
     let Some(types) = schema.get_mut("type") else { return };
     let mut all = match types.take() {
         Value::Array(all) => all,
         one => vec![one],
     };
-    let is_number = all.iter().any(|it| it == "number" || it == "integer");
-    if is_number {
+    let has = |name: &str| all.iter().any(|it| it == name);
+    let pattern = match [has("number"), has("integer")] {
+        [true, _] => Some(FORMULA_OR_QUANTITY),
+        [false, true] => Some(FORMULA),
+        [false, false] => None,
+    };
+    if pattern.is_some() {
         all.push(json!("string"));
     }
     *types = if all.len() == 1 { all.remove(0) } else { Value::Array(all) };
-    if is_number {
-        schema.insert("pattern".to_owned(), json!(NUMBER));
+    if let Some(pattern) = pattern {
+        schema.insert("pattern".to_owned(), json!(pattern));
     }
 }
 

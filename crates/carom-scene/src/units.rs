@@ -4,8 +4,8 @@ use winnow::ascii::float;
 use winnow::error::ContextError;
 use winnow::prelude::*;
 
-/// A unit: its name, the unit that it is a multiple of, and that multiple as a fraction, whose quotient is
-/// rounded once: 7 cm are the number 0.07.
+/// A unit: its name, the unit that it is a multiple of, and that multiple as a fraction, so that a decimal
+/// one is rounded once: 7 cm are the number 0.07.
 type Unit = (&'static str, &'static str, [f64; 2]);
 
 const UNITS: [Unit; 43] = [
@@ -48,7 +48,7 @@ const UNITS: [Unit; 43] = [
     ("deg/s", "rad/s", [PI, 180.0]),
     ("°/s", "rad/s", [PI, 180.0]),
     ("rpm", "rad/s", [PI, 30.0]),
-    ("rad", DEGREES, [180.0, PI]),
+    (RADIANS, DEGREES, [180.0, PI]),
     ("deg", DEGREES, [1.0, 1.0]),
     ("°", DEGREES, [1.0, 1.0]),
     ("turns", DEGREES, [360.0, 1.0]),
@@ -56,6 +56,7 @@ const UNITS: [Unit; 43] = [
 
 const PI: f64 = std::f64::consts::PI;
 const DEGREES: &str = "degrees";
+const RADIANS: &str = "rad";
 
 /// The unit of each field that has one.
 const FIELDS: [(&str, &str); 34] = [
@@ -95,6 +96,11 @@ const FIELDS: [(&str, &str); 34] = [
     ("zone_tick", "s"),
 ];
 
+/// Whether this is the name of a unit.
+pub(crate) fn is_unit(name: &str) -> bool {
+    UNITS.iter().any(|it| it.0 == name)
+}
+
 /// Where a number with a unit stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place<'a> {
@@ -129,6 +135,7 @@ pub(crate) fn in_unit_of(place: Place, text: &str) -> Option<Result<f64, String>
         Some(wanted) if wanted != unit => {
             Err(format!("\"{}\" is in {name}, not in {wanted}", text.trim()))
         }
+        None if name == RADIANS => Ok(number),
         None if unit == DEGREES => Ok(number * by / of * PI / 180.0),
         _ => Ok(number * by / of),
     })
@@ -179,6 +186,7 @@ mod tests {
         let spin = field("angular_velocity", "60 rpm").unwrap().unwrap();
         assert!((spin - 2.0 * PI).abs() <= 2.0 * PI * f64::EPSILON, "{spin}");
         assert_eq!(in_unit_of(Place::Parameter, "90 deg"), Some(Ok(quarter)));
+        assert_eq!(in_unit_of(Place::Parameter, "0.03 rad"), Some(Ok(0.03)));
         assert_eq!(in_unit_of(Place::Parameter, "5 cm"), Some(Ok(0.05)));
     }
 

@@ -350,7 +350,7 @@ fn a_heap_at_rest_sleeps_does_not_creep_and_wakes_when_touched() {
 
 /// A column of balls in a shaft, at rest, without friction; the lowest is that of an emitter, which takes it away
 /// after this time.
-fn column(count: u32, [radius, restitution]: [f64; 2], seconds: f64) -> World {
+fn column(count: u32, radius: f64, restitution: f64, seconds: f64) -> World {
     let mut world = under_gravity();
     add_box(&mut world, radius, 0.0);
     let ball = |height: f64| {
@@ -371,7 +371,7 @@ fn column(count: u32, [radius, restitution]: [f64; 2], seconds: f64) -> World {
 #[test]
 fn what_bounces_on_a_column_keeps_only_its_top_awake() {
     let (count, radius) = (12, 0.1);
-    let mut world = column(count, [radius, 1.0], 1e3);
+    let mut world = column(count, radius, 1.0, 1e3);
     // It falls for longer than the column takes to fall asleep.
     let place = DVec3::new(0.0, f64::from(2 * count + 40) * radius, 0.0);
     let light = Sphere::new(place, 0.5 * radius).with_mass(0.02).with_restitution(1.0);
@@ -392,7 +392,7 @@ fn what_bounces_on_a_column_keeps_only_its_top_awake() {
 fn a_column_falls_as_a_whole_when_its_foot_is_taken_away() {
     let (count, radius) = (12, 0.1);
     // Without restitution: they wake one after the other, so that small gaps open, and close on the ground.
-    let mut world = column(count, [radius, 0.0], 2.0);
+    let mut world = column(count, radius, 0.0, 2.0);
     run(&mut world, 110);
     assert_eq!(world.report().contact_account.asleep, count);
     let before = world.spheres().positions().to_vec();

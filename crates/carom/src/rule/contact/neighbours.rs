@@ -130,8 +130,8 @@ struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// Makes the contacts of all slabs, side by side: first those that bear something, so that they fill
-    /// batches, and sweeps have little to do with the others.
+    /// Makes the contacts of all slabs, side by side: first those that bear something, so that most others come
+    /// to batches in which sweeps have little to do.
     fn add_contacts(&self, slabs: &mut Slabs) {
         let Slabs { list, far } = slabs;
         let ends: Vec<usize> = list.iter().map(|slab| slab.end).collect();

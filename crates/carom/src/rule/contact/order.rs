@@ -6,7 +6,8 @@ use super::row::Row;
 
 /// Cells along an axis at most; beyond, spheres share the outermost ones.
 const MOST_CELLS: f64 = 1024.0;
-/// Cells for each sphere at most, all in all: where spheres are scattered, cells are wider.
+/// Cells for each sphere at most, all in all: where spheres are scattered, cells are wider. With few of them, those
+/// that fly apart would share cells with many.
 const CELLS_PER_SPHERE: f64 = 32.0;
 
 /// A grid over all spheres. Its slowest axis makes layers.

@@ -74,7 +74,7 @@ impl Search {
         let reach = |slot: usize| slots.position[slot].number() + margins[slot];
         let mean = (0..count).map(reach).sum::<f64>() / count.max(1) as f64;
         let widest = (0..count).map(reach).filter(|&it| it <= WIDE * mean).fold(0.0, f64::max);
-        let down = slots.acceleration.first().map_or(DVec3::ZERO, |row| row.vector());
+        let down = slots.acceleration.iter().map(|row| row.vector()).sum::<DVec3>();
         *grid = Grid::over(&slots.position, 2.0 * widest.max(f64::MIN_POSITIVE), down);
         cells.clear();
         cells.extend(

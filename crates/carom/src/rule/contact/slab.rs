@@ -14,7 +14,7 @@ use crate::parallel;
 
 /// Spheres in a slab, about.
 const SPHERES: usize = 500;
-/// Slabs at most.
+/// Slabs at most: of 100,000 spheres each still fits into a cache of the processor.
 const MOST: usize = 200;
 
 /// The contacts of a run of slots.

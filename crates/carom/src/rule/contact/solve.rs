@@ -31,8 +31,8 @@ pub(super) fn prepare(solver: &mut Solver, sub_step: &SubStep) {
 }
 
 /// Sweeps over all contacts: as often as the parameters say, and on while bodies would come to overlap by
-/// more than [`TOLERABLE`]. All go in one direction, since a heap needs more that go there and back; surfaces
-/// come last, for nothing to be pressed through them.
+/// more than [`TOLERABLE`]. These go in one direction, since a heap needs more that go there and back; in each slab
+/// surfaces come last, for little to be pressed through them.
 pub(super) fn sweep(
     solver: &mut Solver,
     sub_step: &SubStep,
