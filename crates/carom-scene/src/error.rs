@@ -91,7 +91,7 @@ impl Problem {
         Self { field: field.into(), problem: problem.into() }
     }
 
-    /// The same problem, with a name or an index before its path.
+    /// Puts a name or an index before the path of the problem.
     pub fn below(self, name: &str) -> Self {
         Self { field: format!("{name}{}", self.field), ..self }
     }

@@ -15,6 +15,7 @@ use winnow::stream::Stateful;
 use winnow::token::{any, one_of, take_while};
 
 use crate::units;
+use crate::wording::quoted;
 
 /// Most bytes of a formula, and most parentheses in parentheses: text from elsewhere must not take the whole
 /// stack.
@@ -66,16 +67,11 @@ pub(crate) type NamedValues = [(String, f64)];
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub(crate) enum FormulaError {
     /// It has a name that is neither known nor a function or constant.
-    #[error("unknown name `{name}`, expected one of {}", quoted(.expected))]
-    UnknownName { name: String, expected: Vec<String> },
+    #[error("unknown name `{name}`, expected one of {expected}")]
+    UnknownName { name: String, expected: String },
     /// Anything else, in words.
     #[error("{0}")]
     Other(String),
-}
-
-fn quoted(names: &[String]) -> String {
-    let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
-    names.join(", ")
 }
 
 /// The text of a formula, and what is known of it.
@@ -213,7 +209,7 @@ fn named(input: &mut Input) -> ModalResult<f64> {
         return Ok(value);
     }
     let known = input.state.known.iter().map(|it| it.0.as_str());
-    let expected = known.chain(own_names()).map(str::to_owned).collect();
+    let expected = quoted(known.chain(own_names()));
     wrong(input, FormulaError::UnknownName { name: name.to_owned(), expected })
 }
 

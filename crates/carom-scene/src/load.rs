@@ -10,7 +10,7 @@ use crate::error::{Fault, Problem, SceneError, segments};
 use crate::overrides::Override;
 use crate::parameters;
 use crate::scene::Scene;
-use crate::wording::{in_plain_words, suggestion};
+use crate::wording::{in_plain_words, suggestion, with_names};
 use crate::world;
 
 impl Scene {
@@ -72,13 +72,10 @@ impl Scene {
                 cause = overrides.iter().collect();
             }
             let cause: Vec<_> = cause.iter().map(|it| format!("--set {it}")).collect();
-            let mut told = problem.problem;
-            if told.starts_with("unknown field ") && !problem.field.contains(['.', '[']) {
-                // What `--set` calls by its name alone may be meant for a parameter.
-                let known = original_parameters(&document);
-                known.for_each(|name| told.push_str(&format!(", `{name}`")));
-            }
-            let fault = Box::new(fault(source_name, None, &problem.field, &told));
+            // What `--set` calls by its name alone may be meant for a parameter.
+            let Problem { field, problem } = problem;
+            let problem = with_names(problem, &field, parameter_names(&document));
+            let fault = Box::new(fault(source_name, None, &field, &problem));
             SceneError::Overridden { overrides: cause.join(" "), fault }
         })
     }
@@ -108,7 +105,7 @@ impl Scene {
 }
 
 /// The names of the parameters that a file has.
-fn original_parameters<'a>(document: &'a Spanned<DeTable>) -> impl Iterator<Item = &'a str> {
+fn parameter_names<'a>(document: &'a Spanned<DeTable>) -> impl Iterator<Item = &'a str> {
     let table = document.get_ref().get(parameters::TABLE);
     let table = table.and_then(|value| value.get_ref().as_table());
     table.into_iter().flatten().map(|(name, _)| name.get_ref().as_ref())
@@ -120,11 +117,9 @@ fn read(mut table: Table) -> Result<Scene, Problem> {
     let scene: Scene = serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
         let path = error.path().to_string();
         let path = if path == "." { String::new() } else { path };
-        let mut problem = in_plain_words(error.into_inner().message().trim());
+        let problem = in_plain_words(error.into_inner().message().trim());
         // The reader knows the fields of a scene, from which parameters have been taken out.
-        if problem.starts_with("unknown field ") && !path.contains(['.', '[']) {
-            problem.push_str(&format!(", `{}`", parameters::TABLE));
-        }
+        let problem = with_names(problem, &path, [parameters::TABLE]);
         Problem::new(path, problem)
     })?;
     world::build(&scene)?;

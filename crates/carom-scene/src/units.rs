@@ -4,6 +4,8 @@ use winnow::ascii::float;
 use winnow::error::ContextError;
 use winnow::prelude::*;
 
+use crate::wording::{DECIMAL_POINT, quoted};
+
 /// A unit: its name, the unit that it is a multiple of, and that multiple as a fraction, so that a decimal
 /// one is rounded once: 7 cm are the number 0.07.
 type Unit = (&'static str, &'static str, [f64; 2]);
@@ -142,9 +144,11 @@ pub(crate) fn in_unit_of(place: Place, text: &str) -> Option<Result<f64, String>
 }
 
 fn unknown(name: &str, wanted: Option<&str>) -> String {
+    if name.starts_with(',') {
+        return DECIMAL_POINT.to_owned();
+    }
     let fitting = UNITS.iter().filter(|it| wanted.is_none_or(|wanted| wanted == it.1));
-    let names: Vec<_> = fitting.map(|it| format!("`{}`", it.0)).collect();
-    format!("unknown unit `{name}`, expected one of {}", names.join(", "))
+    format!("unknown unit `{name}`, expected one of {}", quoted(fitting.map(|it| it.0)))
 }
 
 #[cfg(test)]
@@ -194,6 +198,8 @@ mod tests {
     fn units_of_something_else_are_errors() {
         let wrong = field("radius", "5 kg").unwrap().unwrap_err();
         assert_eq!(wrong, "\"5 kg\" is in kg, not in m");
+        let comma = field("radius", "0,4 m").unwrap().unwrap_err();
+        assert_eq!(comma, "decimals have a point, not a comma");
         let unknown = field("mass", "5 kgs").unwrap().unwrap_err();
         assert_eq!(unknown, "unknown unit `kgs`, expected one of `kg`, `g`, `mg`, `t`");
     }

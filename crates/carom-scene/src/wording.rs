@@ -28,6 +28,9 @@ const SYNONYMS: [(&str, &str); 22] = [
     ("walls", "colliders"),
 ];
 
+/// For those whose language writes numbers with a comma.
+pub(crate) const DECIMAL_POINT: &str = "decimals have a point, not a comma";
+
 /// A message of the reader in plain words.
 pub(crate) fn in_plain_words(message: &str) -> String {
     let message = message.lines().next().unwrap_or_default();
@@ -36,7 +39,7 @@ pub(crate) fn in_plain_words(message: &str) -> String {
     {
         return match expected.strip_prefix("an array of length ") {
             Some(wanted) => format!("has {count} values, not {wanted}"),
-            None => format!("{count} values are too many; decimals have a point, not a comma"),
+            None => format!("{count} values are too many; {DECIMAL_POINT}"),
         };
     }
     if message == "invalid type: map, expected a sequence" {
@@ -51,6 +54,26 @@ pub(crate) fn in_plain_words(message: &str) -> String {
         other => other,
     };
     format!("{found}, expected {}", name_of_type(expected))
+}
+
+/// Names in a message, as [`suggestion`] reads them.
+pub(crate) fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let names: Vec<_> = names.into_iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
+/// A message about a field; one that says that the scene itself has no such field lists these names, too.
+pub(crate) fn with_names<'a>(
+    message: String,
+    field: &str,
+    names: impl IntoIterator<Item = &'a str>,
+) -> String {
+    let is_of_scene = !field.contains(['.', '[']);
+    let names = quoted(names);
+    if message.starts_with("unknown field ") && is_of_scene && !names.is_empty() {
+        return format!("{message}, {names}");
+    }
+    message
 }
 
 /// What a type of Rust is to those that write scenes.
