@@ -30,8 +30,17 @@ pub enum Command {
     /// Simulated seconds per second, between [`SLOWEST`](crate::SLOWEST) and
     /// [`FASTEST`](crate::FASTEST).
     Speed(f64),
-    /// Make a change.
+    /// Make a change. One that follows another of the same thing within a second goes on with it,
+    /// as a slider does that is dragged; see [`Session::edit_further`](crate::Session::edit_further).
     Edit(Edit),
+    /// Take back the last change by hand, and go where it was made; nothing if there is none.
+    Undo,
+    /// Make the change again that was taken back last, and go where it was made; nothing if there is
+    /// none.
+    Redo,
+    /// Go back to the beginning with the values that were changed until now; see
+    /// [`Session::restart_with_values`](crate::Session::restart_with_values).
+    RestartWithValues,
     /// Follow another sphere, or none.
     Pick(Option<SphereId>),
     /// Whether views have the state as a number, which takes time to make.
@@ -55,6 +64,7 @@ impl Command {
             Self::Open(_) | Self::Replay(..) | Self::Compare(..) => true,
             Self::Play | Self::Pause | Self::Step | Self::StepBack | Self::Speed(_) => false,
             Self::Edit(_) | Self::Pick(_) => false,
+            Self::Undo | Self::Redo | Self::RestartWithValues => false,
             Self::ShowStateHash(_) | Self::ShowContacts(_) => false,
         }
     }
@@ -69,7 +79,8 @@ impl Command {
     /// Whether a frame at work is given up for it.
     #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn stops_frame(&self) -> bool {
-        matches!(self, Self::Pause | Self::StepBack) || self.goes_elsewhere()
+        matches!(self, Self::Pause | Self::StepBack | Self::Undo | Self::RestartWithValues)
+            || self.goes_elsewhere()
     }
 
     /// One command instead of this one and a `later` one right after it; `None` if it takes both.

@@ -131,16 +131,50 @@ impl Comparison {
     /// # Errors
     /// As [`Session::edit`], if it is refused by one of them; neither changes then.
     pub fn edit(&mut self, edit: &Edit) -> Result<(), SessionError> {
+        self.edit_both(edit, Session::edit)
+    }
+
+    /// Makes a change to both that goes on with the last; see [`Session::edit_further`].
+    ///
+    /// # Errors
+    /// As [`Self::edit`].
+    pub fn edit_further(&mut self, edit: &Edit) -> Result<(), SessionError> {
+        self.edit_both(edit, Session::edit_further)
+    }
+
+    fn edit_both(
+        &mut self,
+        edit: &Edit,
+        make: impl Fn(&mut Session, Edit) -> Result<(), SessionError>,
+    ) -> Result<(), SessionError> {
         let [first, second] = [&self.first, &self.second].map(|session| own(edit, session));
         self.second.check(&second)?;
-        self.first.edit(first)?;
-        self.second.edit(second)?;
-        match self.first.frame().checked_sub(1) {
-            Some(before) => self.distances.cut(before),
-            None => self.distances.clear(),
-        }
-        self.measure();
+        make(&mut self.first, first)?;
+        make(&mut self.second, second)?;
+        self.measure_anew();
         Ok(())
+    }
+
+    /// Takes back the last change by hand in both; see [`Session::undo`].
+    pub fn undo(&mut self) -> bool {
+        let done = self.first.undo() & self.second.undo();
+        self.measure_anew();
+        done
+    }
+
+    /// Makes the change again in both that was taken back last; see [`Session::redo`].
+    pub fn redo(&mut self) -> bool {
+        let done = self.first.redo() & self.second.redo();
+        self.measure_anew();
+        done
+    }
+
+    /// Goes back to the beginning of both with the values of now; see
+    /// [`Session::restart_with_values`].
+    pub fn restart_with_values(&mut self) {
+        self.first.restart_with_values();
+        self.second.restart_with_values();
+        self.measure_anew();
     }
 
     /// Follows a sphere in both.
@@ -157,6 +191,17 @@ impl Comparison {
         let now = self.distance();
         view.distances.pop_if(|last| last.time >= now.time);
         view.distances.push(now);
+    }
+
+    /// Forgets the distances that are no longer, and measures that of now where both are at one frame.
+    fn measure_anew(&mut self) {
+        match self.first.frame().min(self.second.frame()).checked_sub(1) {
+            Some(before) => self.distances.cut(before),
+            None => self.distances.clear(),
+        }
+        if self.first.frame() == self.second.frame() {
+            self.measure();
+        }
     }
 
     fn measure(&mut self) {

@@ -88,6 +88,20 @@ impl SphereChange {
 }
 
 impl Edit {
+    /// What of it makes sense at the beginning of a run, whenever it was made: how things are, not
+    /// where they are; `None` if nothing does.
+    pub(crate) fn value(&self) -> Option<Self> {
+        match self {
+            Self::Throw { .. } | Self::RemoveSphere(_) => None,
+            Self::Sphere(id, change) => {
+                let SphereChange { radius, mass, restitution, friction, .. } = **change;
+                let value = SphereChange { radius, mass, restitution, friction, ..Default::default() };
+                (value != SphereChange::default()).then(|| Self::Sphere(*id, Box::new(value)))
+            }
+            other => Some(other.clone()),
+        }
+    }
+
     /// One edit instead of this one and a `later` one right after it; `None` if it takes both.
     pub fn merged(&self, later: &Self) -> Option<Self> {
         match (self, later) {

@@ -162,6 +162,41 @@ impl History {
         self.furthest = (frame, time);
     }
 
+    /// Puts other changes in the place of all, and drops the moments that they make wrong.
+    pub fn rewrite(&mut self, changes: Arc<Vec<PastChange>>) {
+        let same = self.changes.iter().zip(changes.iter()).take_while(|(old, new)| old == new);
+        let kept = same.count();
+        let others = [self.changes.get(kept), changes.get(kept)].into_iter().flatten();
+        if let Some(frame) = others.map(|it| it.frame).min() {
+            self.moments.retain(|it| (it.frame, it.changes) <= (frame, kept));
+        }
+        self.changes = changes;
+    }
+
+    /// Makes this frame, at `time` \[s\], the last one that was reached; frames after it last for
+    /// `frame_time` \[s\]. Changes after it are still to come.
+    pub fn end(&mut self, frame: u64, time: f64, frame_time: f64) {
+        self.moments.retain(|moment| moment.frame <= frame);
+        self.timetable.cut(frame);
+        self.furthest = (frame, time);
+        self.note_frame_time(frame_time);
+    }
+
+    /// The times of all edits \[s\], ascending.
+    pub fn edit_times(&self) -> Vec<f64> {
+        let edits = self.changes.iter().filter(|it| matches!(it.change, Change::Edit(_)));
+        let timetable = self.complete_timetable();
+        edits.map(|it| timetable.time_of(it.frame)).collect()
+    }
+
+    /// With the frames that are to come.
+    fn complete_timetable(&self) -> Timetable {
+        let reached = self.changes.partition_point(|it| it.frame <= self.furthest.0);
+        let mut timetable = self.timetable.clone();
+        timetable.extend(&self.changes[reached..]);
+        timetable
+    }
+
     /// Notes a change at the last frame, after which frames last for `frame_time` \[s\]. Returns
     /// how many changes there are.
     pub fn note(&mut self, change: Change, frame_time: f64) -> usize {
@@ -183,10 +218,7 @@ impl History {
     /// # Errors
     /// As [`Timetable::frame_at`].
     pub fn frame_at(&self, time: f64) -> Result<u64, SessionError> {
-        let reached = self.changes.partition_point(|it| it.frame <= self.furthest.0);
-        let mut timetable = self.timetable.clone();
-        timetable.extend(&self.changes[reached..]);
-        timetable.frame_at(time)
+        self.complete_timetable().frame_at(time)
     }
 
     /// Whether the last change at the last frame was a failed step.

@@ -43,6 +43,7 @@ mod previous;
 mod queue;
 mod readings;
 mod replay;
+mod revisions;
 mod series;
 mod session;
 mod setup;

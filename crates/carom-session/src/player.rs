@@ -6,6 +6,7 @@ use carom::StopRequest;
 
 use crate::command::Command;
 use crate::comparison::Comparison;
+use crate::edit::Edit;
 use crate::error::SessionError;
 use crate::pace::Pace;
 use crate::queue::Queue;
@@ -13,12 +14,17 @@ use crate::session::Session;
 use crate::view::{Playback, View};
 use crate::watched::Watched;
 
+/// Edits of one thing that are no further apart are one gesture \[s\].
+const GESTURE: f64 = 1.0;
+
 /// What both forms of a driver have in common: it knows neither clock nor thread.
 #[derive(Debug)]
 pub(crate) struct Player {
     watched: Watched,
     pace: Pace,
     pub queue: Queue,
+    /// The last edit, and how long it is ago \[s\].
+    last_edit: Option<(Edit, f64)>,
     shows_state_hash: bool,
     shows_contacts: bool,
     /// Ends a frame at work early.
@@ -34,6 +40,7 @@ impl Player {
             watched,
             pace: Pace::new(),
             queue: Queue::default(),
+            last_edit: None,
             shows_state_hash: false,
             shows_contacts: false,
             stop_request: None,
@@ -52,6 +59,9 @@ impl Player {
     /// Obeys what waits and takes the frames that are due now that `wall_seconds` have gone by, at
     /// least one piece of work, and no more once `time_is_up`.
     pub fn update(&mut self, wall_seconds: f64, time_is_up: &mut dyn FnMut() -> bool) {
+        if let Some((_, seconds)) = &mut self.last_edit {
+            *seconds += wall_seconds;
+        }
         // Time that went by at a stop or on the way elsewhere is not to be made up for.
         let was_playing = self.pace.is_playing() && self.watched.seeking().is_none();
         let is_done = self.obey(time_is_up);
@@ -121,9 +131,15 @@ impl Player {
                 self.stop_on_error(stopped);
             }
             Command::Edit(edit) => {
-                self.error = self.watched.edit(edit).err().map(Arc::new);
+                self.error = self.edit(edit).err().map(Arc::new);
                 self.pace.show_whole_frame();
             }
+            Command::Undo => self.revise(Watched::undo),
+            Command::Redo => self.revise(Watched::redo),
+            Command::RestartWithValues => self.revise(|watched| {
+                watched.restart_with_values();
+                true
+            }),
             Command::Open(scene) => {
                 let opened = Session::new(*scene).map(Watched::from);
                 self.open(opened.map_err(SessionError::from));
@@ -135,6 +151,23 @@ impl Player {
                 let opened = Comparison::new(&scene, rules).map(Watched::from);
                 self.open(opened.map_err(SessionError::from));
             }
+        }
+    }
+
+    fn edit(&mut self, edit: Edit) -> Result<(), SessionError> {
+        let before = self.last_edit.replace((edit.clone(), 0.0));
+        let goes_on = before.is_some_and(|(last, seconds)| {
+            seconds < GESTURE && last.merged(&edit).is_some()
+        });
+        if goes_on { self.watched.edit_further(edit) } else { self.watched.edit(edit) }
+    }
+
+    /// Takes changes back, or makes them again.
+    fn revise(&mut self, how: impl Fn(&mut Watched) -> bool) {
+        self.last_edit = None;
+        if how(&mut self.watched) {
+            self.error = None;
+            self.pace.show_whole_frame();
         }
     }
 
@@ -154,6 +187,7 @@ impl Player {
         match opened {
             Ok(watched) => {
                 self.watched = watched;
+                self.last_edit = None;
                 self.error = None;
                 self.pace.show_whole_frame();
             }

@@ -76,6 +76,13 @@ impl Timetable {
         Ok(frame)
     }
 
+    /// The time of a frame \[s\], to rounding.
+    pub fn time_of(&self, frame: u64) -> f64 {
+        let later = self.pieces.partition_point(|piece| piece.frame <= frame);
+        let piece = self.pieces[later.saturating_sub(1)];
+        piece.time + frame.saturating_sub(piece.frame) as f64 * piece.frame_time
+    }
+
     fn last(&self) -> Piece {
         self.pieces[self.pieces.len() - 1]
     }

@@ -32,6 +32,12 @@ pub struct View {
     pub furthest_frame: u64,
     /// Its time \[s\].
     pub furthest: f64,
+    /// When edits were made, or are to be made again \[s\]; ascending, the future included.
+    pub edits: Vec<f64>,
+    /// How many edits by hand can be taken back.
+    pub undoable: usize,
+    /// How many that were taken back can be made again.
+    pub redoable: usize,
     /// The frame it is on the way to.
     pub seeking: Option<u64>,
     /// All spheres.
@@ -143,6 +149,9 @@ impl Default for View {
             time: 0.0,
             furthest_frame: 0,
             furthest: 0.0,
+            edits: Vec::new(),
+            undoable: 0,
+            redoable: 0,
             seeking: None,
             spheres: SphereArrays::default(),
             poses: Vec::new(),

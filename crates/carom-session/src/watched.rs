@@ -109,6 +109,41 @@ impl Watched {
         }
     }
 
+    /// See [`Session::edit_further`] and [`Comparison::edit_further`].
+    ///
+    /// # Errors
+    /// Those of [`Session::edit`].
+    pub fn edit_further(&mut self, edit: Edit) -> Result<(), SessionError> {
+        match self {
+            Self::One(session) => session.edit_further(edit),
+            Self::Two(comparison) => comparison.edit_further(&edit),
+        }
+    }
+
+    /// See [`Session::undo`].
+    pub fn undo(&mut self) -> bool {
+        match self {
+            Self::One(session) => session.undo(),
+            Self::Two(comparison) => comparison.undo(),
+        }
+    }
+
+    /// See [`Session::redo`].
+    pub fn redo(&mut self) -> bool {
+        match self {
+            Self::One(session) => session.redo(),
+            Self::Two(comparison) => comparison.redo(),
+        }
+    }
+
+    /// See [`Session::restart_with_values`].
+    pub fn restart_with_values(&mut self) {
+        match self {
+            Self::One(session) => session.restart_with_values(),
+            Self::Two(comparison) => comparison.restart_with_values(),
+        }
+    }
+
     /// See [`Session::pick`].
     pub fn pick(&mut self, sphere: Option<SphereId>) {
         match self {

@@ -12,6 +12,7 @@ mod link_refusals;
 mod pace;
 mod past;
 mod readings;
+mod revisions;
 mod saving;
 
 use carom::StateHash;

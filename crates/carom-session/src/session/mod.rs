@@ -1,5 +1,7 @@
 //! A session: a scene with its past and its edits.
 
+mod editing;
+
 use std::iter;
 use std::sync::Arc;
 
@@ -8,15 +10,15 @@ use carom_scene::SceneError;
 use carom_scene::scene::Scene;
 
 use crate::change::{Change, PastChange};
-use crate::edit::Edit;
 use crate::error::SessionError;
 use crate::history::{History, Moment};
 use crate::link::Link;
 use crate::looks::Looks;
 use crate::previous::Previous;
 use crate::readings::Readings;
+use crate::revisions::Revisions;
 use crate::setup::Setup;
-use crate::subjects::{self, Subjects};
+use crate::subjects;
 use crate::view::{SphereArrays, View, replace};
 
 /// A scene being watched.
@@ -35,6 +37,7 @@ pub struct Session {
     /// How many of all changes have been made.
     changes: usize,
     history: History,
+    revisions: Revisions,
     readings: Readings,
     previous: Previous,
     /// The frame to go to.
@@ -72,6 +75,7 @@ impl Session {
             frame,
             changes,
             history,
+            revisions: Revisions::default(),
             readings,
             previous,
             target,
@@ -145,15 +149,9 @@ impl Session {
 
     /// Sets out for a frame; [`Self::advance_seek`] goes there.
     pub fn seek(&mut self, frame: u64) {
-        let moment = self.history.before(frame);
         let is_ahead = self.frame <= frame;
-        if !(is_ahead && moment.frame <= self.frame) {
-            moment.restore(&mut self.world);
-            (self.frame, self.changes) = (moment.frame, moment.changes);
-            (self.setup, self.looks) = (moment.setup.clone(), moment.looks.clone());
-            self.readings.go_to(moment.frame, moment.impacts);
-            self.previous.remember(&self.world);
-            self.stamp += 1;
+        if !(is_ahead && self.history.before(frame).frame <= self.frame) {
+            self.return_before(frame);
             // What was changed at a frame that was reached was not refused there.
             let _ = self.repeat_changes();
         }
@@ -185,31 +183,6 @@ impl Session {
             self.target = Some(target).filter(|target| *target != self.frame);
         }
         Ok(self.target.is_none())
-    }
-
-    /// Makes a change, now; what came after the present is cut off.
-    ///
-    /// # Errors
-    /// What is wrong with it; nothing changes then.
-    pub fn edit(&mut self, edit: Edit) -> Result<(), SessionError> {
-        let change = Change::Edit(edit);
-        self.apply(&change)?;
-        self.target = None;
-        self.history.cut(self.frame, self.world.time());
-        self.changes = self.history.note(change, self.frame_time());
-        self.readings.cut(self.frame, &self.world);
-        Ok(())
-    }
-
-    /// Whether a change would be refused.
-    ///
-    /// # Errors
-    /// What is wrong with it.
-    pub fn check(&self, edit: &Edit) -> Result<(), SessionError> {
-        let (mut world, mut setup) = (self.world.clone(), self.setup.clone());
-        let mut looks = self.looks.clone();
-        let subjects = Subjects { world: &mut world, setup: &mut setup, looks: &mut looks };
-        subjects.edit(edit, &self.scene)
     }
 
     /// Follows another sphere, or none, from now on.
@@ -255,6 +228,8 @@ impl Session {
         (view.setup, view.changes) = (self.setup.clone(), self.history.changes().clone());
         (view.frame, view.time) = (self.frame, self.time());
         (view.furthest_frame, view.furthest) = self.history.furthest();
+        view.edits = self.history.edit_times();
+        (view.undoable, view.redoable) = (self.revisions.undoable(), self.revisions.redoable());
         view.seeking = self.target;
         replace(&mut view.poses, self.world.colliders().map(|(_, collider)| collider.pose));
         self.fill_readings(view);
@@ -316,6 +291,17 @@ impl Session {
         self.previous.positions()
     }
 
+    /// Goes back to the last moment kept that is not after this frame.
+    fn return_before(&mut self, frame: u64) {
+        let moment = self.history.before(frame);
+        moment.restore(&mut self.world);
+        (self.frame, self.changes) = (moment.frame, moment.changes);
+        (self.setup, self.looks) = (moment.setup.clone(), moment.looks.clone());
+        self.readings.go_to(moment.frame, moment.impacts);
+        self.previous.remember(&self.world);
+        self.stamp += 1;
+    }
+
     fn take_frame(&mut self) -> Result<(), SessionError> {
         let start = self.world.time();
         self.previous.remember(&self.world);
@@ -349,35 +335,6 @@ impl Session {
         if self.frame == self.furthest_frame() && !self.history.ends_with_failed_step() {
             self.changes = self.history.note(Change::FailedStep, self.frame_time());
         }
-    }
-
-    /// Makes the changes that come at this frame. One that is refused, which none is that was made
-    /// in this session before, is dropped with all that follow.
-    fn repeat_changes(&mut self) -> Result<(), SessionError> {
-        let (frame, first) = (self.frame, self.changes);
-        let mut refused = None;
-        while let Some(change) = self.history.change_at(frame, self.changes) {
-            let change = change.clone();
-            if let Err(error) = self.apply(&change) {
-                self.history.forget_changes_after(self.changes);
-                refused = Some(SessionError::Repeat { frame, source: Box::new(error) });
-                break;
-            }
-            self.changes += 1;
-        }
-        if self.changes > first && frame == self.furthest_frame() {
-            self.history.note_frame_time(self.frame_time());
-            self.readings.cut(frame, &self.world);
-        }
-        refused.map_or(Ok(()), Err)
-    }
-
-    fn apply(&mut self, change: &Change) -> Result<(), SessionError> {
-        let Self { scene, setup, world, looks, .. } = self;
-        Subjects { world, setup, looks }.change(change, scene)?;
-        self.previous.remember(&self.world);
-        self.stamp += 1;
-        Ok(())
     }
 
     fn fill_properties(&self, arrays: &mut SphereArrays) {
