@@ -3,12 +3,14 @@
 import { showFragment } from "./address.js";
 import { save } from "./download.js";
 import { beginFilm } from "./film/film.js";
+import { openFile } from "./open_file.js";
 import { offersTilt, tilt, useTilt } from "./tilt.js";
 import { takeTrouble } from "./trouble.js";
 
 /** @type {import("carom-web").Services} */
 export const services = {
   save,
+  openFile,
   beginFilm,
   tilt,
   offersTilt,

@@ -1,7 +1,7 @@
 //! The commands of a driver.
 
 use carom::SphereId;
-use carom_scene::scene::{Rule, Scene};
+use carom_scene::scene::{Scene, Simulation};
 
 use crate::edit::Edit;
 use crate::link::Link;
@@ -38,7 +38,7 @@ pub enum Command {
     /// Make the change again that was taken back last, and go where it was made; nothing if there is
     /// none.
     Redo,
-    /// Go back to the beginning with the values that were changed until now; see
+    /// Go back to the beginning with the values that were changed in the whole run; see
     /// [`Session::restart_with_values`](crate::Session::restart_with_values).
     RestartWithValues,
     /// Follow another sphere, or none.
@@ -52,8 +52,9 @@ pub enum Command {
     /// Open a scene, the one of a link, and go where the link leads, changing on the way what was
     /// changed there; time goes on from there, if it did.
     Replay(Box<Scene>, Box<Link>),
-    /// Open a scene under two rules side by side.
-    Compare(Box<Scene>, [Rule; 2]),
+    /// Show the scene under two simulations side by side, frames being as long as the first one says,
+    /// or alone under the first again; at the time of now, with all changes but those of the simulation.
+    Compare(Option<Box<[Simulation; 2]>>),
 }
 
 impl Command {
@@ -61,10 +62,10 @@ impl Command {
     pub(crate) fn goes_elsewhere(&self) -> bool {
         match self {
             Self::Restart | Self::Seek(_) | Self::StopSeeking => true,
-            Self::Open(_) | Self::Replay(..) | Self::Compare(..) => true,
+            Self::Open(_) | Self::Replay(..) => true,
             Self::Play | Self::Pause | Self::Step | Self::StepBack | Self::Speed(_) => false,
             Self::Edit(_) | Self::Pick(_) => false,
-            Self::Undo | Self::Redo | Self::RestartWithValues => false,
+            Self::Undo | Self::Redo | Self::RestartWithValues | Self::Compare(_) => false,
             Self::ShowStateHash(_) | Self::ShowContacts(_) => false,
         }
     }

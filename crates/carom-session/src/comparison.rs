@@ -2,7 +2,7 @@
 
 use carom::{SphereId, StopRequest};
 use carom_scene::SceneError;
-use carom_scene::scene::{Rule, Scene};
+use carom_scene::scene::{Rule, Scene, Simulation};
 
 use crate::distance::Distance;
 use crate::edit::Edit;
@@ -31,10 +31,28 @@ impl Comparison {
             scene.simulation.rule = rule;
             Session::new(scene)
         });
-        let mut comparison = Self { first: first?, second: second?, distances: Series::default() };
+        Ok(Self::of(first?, second?))
+    }
+
+    /// The scene of a session under two simulations, at the beginning; frames have the length that
+    /// the first one says. Everything that was changed in the session comes again at its time, but
+    /// for changes of the simulation.
+    ///
+    /// # Errors
+    /// As [`Session::under`], for one of them.
+    pub(crate) fn under(
+        session: &Session,
+        [first, second]: &[Simulation; 2],
+    ) -> Result<Self, SessionError> {
+        let second = Simulation { frame_time: first.frame_time, ..second.clone() };
+        Ok(Self::of(session.under(first)?, session.under(&second)?))
+    }
+
+    fn of(first: Session, second: Session) -> Self {
+        let mut comparison = Self { first, second, distances: Series::default() };
         comparison.set_memory(DEFAULT_MEMORY);
         comparison.measure();
-        Ok(comparison)
+        comparison
     }
 
     /// Under the first rule.
@@ -126,7 +144,8 @@ impl Comparison {
         Ok(())
     }
 
-    /// Makes a change to both. Of the simulation, each keeps its own rule.
+    /// Makes a change to both. Of the simulation, each keeps its own rule, and those parameters of
+    /// rules that are not changed.
     ///
     /// # Errors
     /// As [`Session::edit`], if it is refused by one of them; neither changes then.
@@ -147,7 +166,8 @@ impl Comparison {
         edit: &Edit,
         make: impl Fn(&mut Session, Edit) -> Result<(), SessionError>,
     ) -> Result<(), SessionError> {
-        let [first, second] = [&self.first, &self.second].map(|session| own(edit, session));
+        let before = &self.first.setup().simulation;
+        let [first, second] = [&self.first, &self.second].map(|session| own(edit, before, session));
         self.second.check(&second)?;
         make(&mut self.first, first)?;
         make(&mut self.second, second)?;
@@ -213,14 +233,30 @@ impl Comparison {
     }
 }
 
-/// The edit, with the session's own rule.
-fn own(edit: &Edit, session: &Session) -> Edit {
-    match edit {
-        Edit::Simulation(simulation) => {
-            let mut own = simulation.clone();
-            own.rule = session.setup().simulation.rule;
-            Edit::Simulation(own)
-        }
-        other => other.clone(),
+/// The edit as a session takes it that has a rule of its own, where `before` was edited.
+fn own(edit: &Edit, before: &Simulation, session: &Session) -> Edit {
+    let Edit::Simulation(edited) = edit else { return edit.clone() };
+    let mut own = session.setup().simulation.clone();
+    let Simulation { exact, bisect, discrete, contact, .. } = &**edited;
+    let is_changed = [
+        *exact != before.exact,
+        *bisect != before.bisect,
+        *discrete != before.discrete,
+        *contact != before.contact,
+    ];
+    if is_changed[0] {
+        own.exact = exact.clone();
     }
+    if is_changed[1] {
+        own.bisect = bisect.clone();
+    }
+    if is_changed[2] {
+        own.discrete = discrete.clone();
+    }
+    if is_changed[3] {
+        own.contact = contact.clone();
+    }
+    let Simulation { rule, exact, bisect, discrete, contact, .. } = own;
+    let own = Simulation { rule, exact, bisect, discrete, contact, ..(**edited).clone() };
+    Edit::Simulation(Box::new(own))
 }

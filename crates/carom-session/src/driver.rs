@@ -100,6 +100,16 @@ impl Driver {
         }
     }
 
+    /// For how long the thread has been at work without looking up \[s\]: much of it is one long frame. 0
+    /// where there is no thread, or it sleeps.
+    pub fn seconds_at_work(&self) -> f64 {
+        match &self.form {
+            Form::Inline(_) => 0.0,
+            #[cfg(not(target_arch = "wasm32"))]
+            Form::Threaded(worker) => worker.seconds_at_work(),
+        }
+    }
+
     /// How far a picture made now shows spheres on the way from their previous positions to their
     /// positions, in \[0, 1\].
     pub fn blend(&self) -> f64 {

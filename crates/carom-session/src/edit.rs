@@ -95,7 +95,8 @@ impl Edit {
             Self::Throw { .. } | Self::RemoveSphere(_) => None,
             Self::Sphere(id, change) => {
                 let SphereChange { radius, mass, restitution, friction, .. } = **change;
-                let value = SphereChange { radius, mass, restitution, friction, ..Default::default() };
+                let value =
+                    SphereChange { radius, mass, restitution, friction, ..Default::default() };
                 (value != SphereChange::default()).then(|| Self::Sphere(*id, Box::new(value)))
             }
             other => Some(other.clone()),

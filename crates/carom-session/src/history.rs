@@ -7,6 +7,7 @@ use carom::{Rule, Snapshot, World};
 use crate::change::{Change, PastChange};
 use crate::error::SessionError;
 use crate::looks::Looks;
+use crate::readings::Tally;
 use crate::setup::Setup;
 use crate::timetable::Timetable;
 
@@ -41,8 +42,8 @@ pub(crate) struct Moment {
     pub frame: u64,
     /// How many changes came before, of all.
     pub changes: usize,
-    /// Impacts so far.
-    pub impacts: u64,
+    /// What was counted so far.
+    pub tally: Tally,
     pub setup: Arc<Setup>,
     pub looks: Looks,
     state: Snapshot,
@@ -54,13 +55,18 @@ impl Moment {
     pub fn new(
         frame: u64,
         changes: usize,
-        impacts: u64,
+        tally: Tally,
         world: &World,
         more: (&Arc<Setup>, &Looks),
     ) -> Self {
         let (setup, looks) = (more.0.clone(), more.1.clone());
         let bytes = estimated_bytes(world, frame);
-        Self { frame, changes, impacts, setup, looks, state: world.snapshot(), bytes }
+        Self { frame, changes, tally, setup, looks, state: world.snapshot(), bytes }
+    }
+
+    /// What there was then.
+    pub fn state(&self) -> &Snapshot {
+        &self.state
     }
 
     /// Puts the world back to this moment.
@@ -189,6 +195,11 @@ impl History {
         edits.map(|it| timetable.time_of(it.frame)).collect()
     }
 
+    /// The time of a frame \[s\], to rounding.
+    pub fn time_of(&self, frame: u64) -> f64 {
+        self.complete_timetable().time_of(frame)
+    }
+
     /// With the frames that are to come.
     fn complete_timetable(&self) -> Timetable {
         let reached = self.changes.partition_point(|it| it.frame <= self.furthest.0);
@@ -227,6 +238,11 @@ impl History {
         let count = self.changes.partition_point(|it| it.frame <= frame);
         let last = self.changes[..count].last();
         last.is_some_and(|it| it.frame == frame && it.change == Change::FailedStep)
+    }
+
+    /// All moments kept up to a frame, ascending by frame.
+    pub fn until(&self, frame: u64) -> impl Iterator<Item = &Moment> {
+        self.moments.iter().take_while(move |moment| moment.frame <= frame)
     }
 
     /// The last moment kept that is not after this frame.

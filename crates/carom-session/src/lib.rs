@@ -32,6 +32,7 @@ mod distance;
 mod driver;
 mod edit;
 mod error;
+mod gas;
 mod history;
 mod impacts;
 mod link;

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use carom::StopRequest;
 
 use crate::command::Command;
-use crate::comparison::Comparison;
 use crate::edit::Edit;
 use crate::error::SessionError;
 use crate::pace::Pace;
@@ -147,18 +146,16 @@ impl Player {
             Command::Replay(scene, link) => {
                 self.open(Session::replay(*scene, &link).map(Watched::from));
             }
-            Command::Compare(scene, rules) => {
-                let opened = Comparison::new(&scene, rules).map(Watched::from);
-                self.open(opened.map_err(SessionError::from));
+            Command::Compare(simulations) => {
+                self.open(self.watched.compared(simulations.as_deref()));
             }
         }
     }
 
     fn edit(&mut self, edit: Edit) -> Result<(), SessionError> {
         let before = self.last_edit.replace((edit.clone(), 0.0));
-        let goes_on = before.is_some_and(|(last, seconds)| {
-            seconds < GESTURE && last.merged(&edit).is_some()
-        });
+        let goes_on =
+            before.is_some_and(|(last, seconds)| seconds < GESTURE && last.merged(&edit).is_some());
         if goes_on { self.watched.edit_further(edit) } else { self.watched.edit(edit) }
     }
 

@@ -50,7 +50,7 @@ pub struct View {
     pub readings: Vec<Reading>,
     /// The sphere that is followed; it may have gone.
     pub picked: Option<SphereId>,
-    /// The picked sphere since it was picked.
+    /// The picked sphere until now, from the beginning as far as the past is kept.
     pub picked_readings: Vec<PickedReading>,
     /// The last impacts, oldest first.
     pub impacts: Vec<ListedImpact>,

@@ -1,6 +1,7 @@
 //! What a driver drives: one session, or two side by side.
 
 use carom::{SphereId, StateHash, StopRequest};
+use carom_scene::scene::Simulation;
 
 use crate::comparison::Comparison;
 use crate::edit::Edit;
@@ -36,6 +37,23 @@ impl Watched {
             Self::One(session) => session,
             Self::Two(comparison) => comparison.first(),
         }
+    }
+
+    /// What is driven, under two simulations, or alone under the one of the first; on the way to the
+    /// time of now. Everything that was changed comes again, but for changes of the simulation.
+    ///
+    /// # Errors
+    /// [`SessionError::Scene`] if the scene makes no sense under one of them,
+    /// [`SessionError::Repeat`] for a change at the beginning that is refused, and as
+    /// [`Session::frame_at`].
+    pub fn compared(&self, simulations: Option<&[Simulation; 2]>) -> Result<Self, SessionError> {
+        let session = self.session();
+        let mut compared = match simulations {
+            Some(simulations) => Self::from(Comparison::under(session, simulations)?),
+            None => Self::from(session.under(&session.setup().simulation)?),
+        };
+        compared.seek(compared.session().frame_at(session.time())?);
+        Ok(compared)
     }
 
     /// See [`Session::set_stop_request`].

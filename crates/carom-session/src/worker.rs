@@ -40,6 +40,8 @@ struct Shared {
     inbox: Mutex<Inbox>,
     has_mail: Condvar,
     outbox: Mutex<Outbox>,
+    /// Since when the thread is at work, while it is.
+    at_work: Mutex<Option<Instant>>,
 }
 
 #[derive(Debug, Default)]
@@ -95,6 +97,12 @@ impl Worker {
         true
     }
 
+    /// For how long the thread has been at work without looking up \[s\].
+    pub fn seconds_at_work(&self) -> f64 {
+        let since = *lock(&self.shared.at_work);
+        since.map_or(0.0, |since| since.elapsed().as_secs_f64())
+    }
+
     /// Seconds since the view was made that was taken last.
     pub fn seconds_since_view(&self) -> f64 {
         self.view_made.elapsed().as_secs_f64()
@@ -118,7 +126,9 @@ fn work(mut player: Player, shared: &Shared, on_news: &dyn Fn()) {
         let now = Instant::now();
         let wall_seconds = (now - last).as_secs_f64();
         last = now;
+        *lock(&shared.at_work) = Some(now);
         player.update(wall_seconds, &mut || now.elapsed() >= SLICE);
+        *lock(&shared.at_work) = None;
         if shared.is_view_due(&player, published) {
             player.fill(&mut view);
             view = shared.publish(view);

@@ -11,6 +11,9 @@ pub enum Action {
     Step,
     StepBack,
     Restart,
+    RestartWithValues,
+    Undo,
+    Redo,
     Faster,
     Slower,
     SceneCamera,
@@ -72,7 +75,8 @@ impl Shortcut {
     pub fn keys_text(&self) -> String {
         let name = |key: &KeyboardShortcut| {
             let control = if key.modifiers.command { "Ctrl + " } else { "" };
-            format!("{control}{}", key.logical_key.symbol_or_name())
+            let shift = if key.modifiers.shift { "Shift + " } else { "" };
+            format!("{control}{shift}{}", key.logical_key.symbol_or_name())
         };
         let keys: Vec<String> = self.keys.iter().map(name).collect();
         keys.join("  or  ")
@@ -87,9 +91,14 @@ const fn command(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::COMMAND, key)
 }
 
+const fn shift(key: KeyboardShortcut) -> KeyboardShortcut {
+    KeyboardShortcut::new(key.modifiers.plus(Modifiers::SHIFT), key.logical_key)
+}
+
 macro_rules! shortcuts {
     ($($action:ident: [$($key:expr),*], $text:literal;)*) => {
-        /// All shortcuts, in the order in which the help lists them.
+        /// All shortcuts, in the order in which the help lists them. Keys with Shift come before those
+        /// without, which would take them as theirs.
         pub const SHORTCUTS: &[Shortcut] = &[
             $(Shortcut { action: Action::$action, keys: &[$($key),*], text: $text },)*
         ];
@@ -101,7 +110,10 @@ shortcuts! {
     PlayOrPause: [key(Key::P)], "play or pause";
     Step: [key(Key::Period)], "one frame forward";
     StepBack: [key(Key::Comma)], "one frame back";
-    Restart: [key(Key::Home)], "back to the start";
+    RestartWithValues: [shift(key(Key::Home))], "back to the start, with the values set since";
+    Restart: [key(Key::Home)], "back to the start; edits come again at their times";
+    Redo: [shift(command(Key::Z)), command(Key::Y)], "make the edit again that was taken back";
+    Undo: [command(Key::Z)], "take back the last edit, and go where it was made";
     Faster: [key(Key::Plus), key(Key::Equals)], "faster";
     Slower: [key(Key::Minus)], "slower";
     Screenshot: [key(Key::Space)], "save a picture with the time on it";
@@ -125,6 +137,14 @@ shortcuts! {
     Close: [key(Key::Escape)], "close a dialog";
 }
 
+/// What steers a maze, for the help.
+pub const MAZE: &[(&str, &str)] = &[
+    ("arrow keys, or W A S D", "tilt the maze"),
+    ("right drag", "tilt the maze"),
+    ("gamepad's stick", "tilt the maze"),
+    ("Enter, when it is won", "play again"),
+];
+
 /// What the mouse does in the picture, for the help.
 pub const MOUSE: &[(&str, &str)] = &[
     ("drag", "turn the camera"),
@@ -138,13 +158,12 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("two fingers", "move the camera, come nearer or go away; in a maze: turn it"),
 ];
 
-/// The actions whose keys were pressed; the keys are taken, so that no button sees them. None
-/// while a text is being typed.
+/// The actions whose keys were pressed; the keys are taken, so that no button sees them. While a
+/// text is being typed, only that of the help.
 /// Enter is left to others where they want it.
 pub fn pressed(context: &Context, without_enter: bool) -> Vec<Action> {
-    if context.text_edit_focused() {
-        return Vec::new();
-    }
+    let is_typing = context.text_edit_focused();
+    let is_of_use = |key: &&KeyboardShortcut| !is_typing || key.logical_key == Key::F1;
     let is_pressed = |shortcut: &&Shortcut| {
         context.input_mut(|input| {
             let is_fresh = |key: &KeyboardShortcut| {
@@ -155,7 +174,7 @@ pub fn pressed(context: &Context, without_enter: bool) -> Vec<Action> {
             };
             // A key that is held does again only what is done by steps.
             let counts = shortcut.action.repeats() || shortcut.keys.iter().any(is_fresh);
-            shortcut.keys.iter().any(|key| input.consume_shortcut(key)) && counts
+            shortcut.keys.iter().filter(is_of_use).any(|key| input.consume_shortcut(key)) && counts
         })
     };
     let all = SHORTCUTS.iter().filter(|it| !(without_enter && it.action == Action::Choose));

@@ -1,5 +1,7 @@
 //! The dialog in which a scene is chosen.
 
+use std::path::{Path, PathBuf};
+
 use carom_render::{Camera, Drawing, Framing};
 use carom_scene::scene::Scene;
 use carom_scene::{Entry, Library, Source};
@@ -25,9 +27,21 @@ pub struct Chooser {
     cards: Vec<Card>,
 }
 
+/// What was chosen.
+pub enum Chosen {
+    /// A scene of the list.
+    Scene(Box<Scene>, Source),
+    /// A file whose path was typed.
+    File(PathBuf),
+    /// A file that the user is to be asked for.
+    AnyFile,
+}
+
 /// A scene in the list.
 struct Card {
     entry: Entry,
+    /// Whether it is listed as a file opened lately.
+    is_recent: bool,
     thumbnail: Thumbnail,
 }
 
@@ -48,21 +62,33 @@ const LATEST: f64 = 3.0;
 const MOST_WORK: f64 = 40_000.0;
 
 impl Chooser {
-    /// Opens the dialog with all scenes there are now.
+    /// Opens the dialog with all scenes there are now, first those of files opened lately.
     ///
     /// # Errors
     /// If a folder of scenes has become unreadable; the list is as before then.
-    pub fn open(&mut self, library: &Library) -> Result<(), carom_scene::SceneError> {
+    pub fn open(
+        &mut self,
+        library: &Library,
+        recent: &[PathBuf],
+    ) -> Result<(), carom_scene::SceneError> {
         self.open = true;
         self.just_opened = true;
         self.filter.clear();
         self.selected = 0;
-        let card = |entry: Entry| {
+        let card = |entry: Entry, is_recent| {
             let thumbnail =
                 if entry.scene.is_ok() { Thumbnail::Missing } else { Thumbnail::Impossible };
-            Card { entry, thumbnail }
+            Card { entry, is_recent, thumbnail }
         };
-        self.cards = library.entries()?.into_iter().map(card).collect();
+        let of_file = |path: &PathBuf| {
+            let scene = Scene::from_file(path, &[]);
+            let name = scene.as_ref().map(|it| it.name.clone());
+            let name = name.unwrap_or_else(|_| path.display().to_string());
+            card(Entry { name, scene, source: Source::File(path.clone()) }, true)
+        };
+        let recent = recent.iter().filter(|path| path.is_file()).map(of_file);
+        let all = library.entries()?.into_iter().map(|entry| card(entry, false));
+        self.cards = recent.chain(all).collect();
         Ok(())
     }
 
@@ -77,19 +103,24 @@ impl Chooser {
     }
 
     /// Shows the dialog while it is open. Returns what was chosen, which closes it.
-    pub fn show(&mut self, context: &Context, studio: &mut Studio) -> Option<(Scene, Source)> {
+    pub fn show(&mut self, context: &Context, studio: &mut Studio) -> Option<Chosen> {
         if !self.open {
             return None;
         }
         self.draw_a_thumbnail(context, studio);
         let found = self.found();
-        let mut chosen = self.keys(context, &found);
+        let entered = self.keys(context, &found);
+        let (mut chosen, mut file) = (entered.flatten(), None);
         let modal = Modal::new(Id::unique("scenes")).show(context, |ui| {
             let size = ui.ctx().content_rect().size();
             ui.set_width((size.x - 40.0).clamp(240.0, 880.0));
             ui.horizontal(|ui| {
                 ui.heading("Choose a scene");
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let open = ui.button("Open a file...");
+                    if open.on_hover_text("A scene (TOML) or a maze (text)").clicked() {
+                        file = Some(Chosen::AnyFile);
+                    }
                     let edit = TextEdit::singleline(&mut self.filter).hint_text("type to filter");
                     let width = ui.available_width().min(220.0);
                     let response = ui.add(edit.desired_width(width));
@@ -105,12 +136,18 @@ impl Chooser {
             ui.separator();
             let height = (size.y - 160.0).clamp(120.0, 620.0);
             ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
-                if found.is_empty() {
+                let typed = Path::new(self.filter.trim());
+                if found.is_empty() && typed.is_file() {
+                    let button = ui.button(format!("Open {}", typed.display()));
+                    if button.clicked() || entered.is_some() {
+                        file = Some(Chosen::File(typed.to_owned()));
+                    }
+                } else if found.is_empty() {
                     ui.weak("No scene has this in its name or description.");
                 }
                 let mut group = String::new();
                 for (place, &index) in found.iter().enumerate() {
-                    let next = group_of(&self.cards[index].entry);
+                    let next = group_of(&self.cards[index]);
                     if next != group {
                         ui.add_space(6.0);
                         ui.strong(&next);
@@ -122,15 +159,16 @@ impl Chooser {
                 }
             });
             ui.separator();
-            ui.weak(
-                "Arrow keys and Enter, or a click. Drop a scene file on the window to open it.",
-            );
+            ui.weak("Arrow keys and Enter, or a click. Or drop a scene file on the window.");
         });
         self.just_opened = false;
         if modal.should_close() {
             self.open = false;
         }
-        chosen.and_then(|index| self.choose(index))
+        if file.is_some() {
+            self.open = false;
+        }
+        file.or_else(|| self.choose(chosen?))
     }
 
     /// The cards that the filter leaves.
@@ -148,9 +186,10 @@ impl Chooser {
         (0..self.cards.len()).filter(|&index| is_found(&self.cards[index])).collect()
     }
 
-    /// Arrow keys and Enter, while a text is being typed as well.
-    fn keys(&mut self, context: &Context, found: &[usize]) -> Option<usize> {
-        let mut chosen = None;
+    /// Arrow keys and Enter, while a text is being typed as well. Returns, if Enter was pressed, the card
+    /// that is chosen by it.
+    fn keys(&mut self, context: &Context, found: &[usize]) -> Option<Option<usize>> {
+        let mut entered = None;
         context.input_mut(|input| {
             let down = input.consume_key(Modifiers::NONE, Key::ArrowDown);
             let up = input.consume_key(Modifiers::NONE, Key::ArrowUp);
@@ -163,10 +202,10 @@ impl Chooser {
             }
             self.selected = self.selected.min(found.len().saturating_sub(1));
             if !self.just_opened && input.consume_key(Modifiers::NONE, Key::Enter) {
-                chosen = found.get(self.selected).copied();
+                entered = Some(found.get(self.selected).copied());
             }
         });
-        chosen
+        entered
     }
 
     /// Shows a scene; returns whether it was clicked.
@@ -206,11 +245,11 @@ impl Chooser {
     }
 
     /// Closes with a scene. One that cannot be read is shown with what is wrong, and stays.
-    fn choose(&mut self, index: usize) -> Option<(Scene, Source)> {
+    fn choose(&mut self, index: usize) -> Option<Chosen> {
         let entry = &self.cards.get(index)?.entry;
         let scene = entry.scene.as_ref().ok()?.clone();
         self.open = false;
-        Some((scene, entry.source.clone()))
+        Some(Chosen::Scene(Box::new(scene), entry.source.clone()))
     }
 
     /// Draws one of the missing thumbnails: one a picture, so that the dialog is there at once.
@@ -234,7 +273,11 @@ impl Chooser {
 }
 
 /// What a scene is listed under: where built-in ones come from.
-fn group_of(entry: &Entry) -> String {
+fn group_of(card: &Card) -> String {
+    if card.is_recent {
+        return "Recent".to_owned();
+    }
+    let entry = &card.entry;
     let origin = entry.scene.as_ref().map_or("", |scene| &scene.origin);
     match (&entry.source, origin.split(',').next()) {
         (Source::BuiltIn, Some(origin)) if !origin.is_empty() => origin.to_owned(),

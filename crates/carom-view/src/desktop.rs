@@ -64,6 +64,18 @@ impl Host for Desktop {
         inbox.put(ReadFile { path: file.path().to_owned(), content: file.bytes() });
     }
 
+    fn open_file(&mut self, inbox: &Inbox) {
+        let dialog = rfd::AsyncFileDialog::new().add_filter("Scenes and mazes", &["toml", "txt"]);
+        let (picked, inbox) = (dialog.pick_file(), inbox.clone());
+        // The window goes on while the user chooses.
+        std::thread::spawn(move || {
+            if let Some(file) = pollster::block_on(picked) {
+                let content = std::fs::read(file.path()).map_err(|error| error.to_string());
+                inbox.put(ReadFile { path: file.path().to_owned(), content });
+            }
+        });
+    }
+
     #[cfg(not(feature = "film"))]
     fn begin_film(
         &mut self,

@@ -1,9 +1,11 @@
 //! What leaves the interface: pictures, films and scene files.
 
 use std::ops::Range;
+use std::sync::{Arc, Mutex};
 
 use carom_render::{Picture, stamp};
 use carom_scene::scene::Scene;
+use egui::{ColorImage, Context, Rect, ScreenshotCallback, ViewportCommand};
 
 use crate::host::Host;
 use crate::naming::{file_name, stamp_text};
@@ -16,6 +18,7 @@ use crate::studio::Studio;
 #[derive(Default)]
 pub struct Exports {
     pictures: Vec<Pending>,
+    screens: Vec<PendingScreen>,
     recorder: Option<Recorder>,
 }
 
@@ -27,7 +30,31 @@ struct Pending {
     time: f64,
 }
 
+/// A picture of a part of the window that is awaited, and what it is called.
+struct PendingScreen {
+    name: String,
+    image: Arc<Mutex<Option<ColorImage>>>,
+}
+
 impl Exports {
+    /// Saves a part of the window, in points, as it is in the next picture, with plots of a scene at a
+    /// time \[s\].
+    pub fn save_screen(&mut self, context: &Context, part: Rect, scene: String, time: f64) {
+        let pixels_per_point = context.pixels_per_point();
+        let part = part.intersect(context.content_rect());
+        let image = Arc::new(Mutex::new(None));
+        let (inbox, waiting) = (image.clone(), context.clone());
+        let callback = ScreenshotCallback::new(move |screen| {
+            if let Ok(mut inbox) = inbox.lock() {
+                *inbox = Some(screen.region(&part, Some(pixels_per_point)));
+            }
+            waiting.request_repaint();
+        });
+        context.send_viewport_cmd(ViewportCommand::Screenshot(callback));
+        let name = format!("{}-plots", file_name(&scene, time));
+        self.screens.push(PendingScreen { name, image });
+    }
+
     /// Saves a picture of a scene at a time \[s\], which is written on it, when it has been drawn.
     pub fn save_picture(&mut self, snapshot: Snapshot, scene: String, time: f64) {
         self.pictures.push(Pending { snapshot, scene, time });
@@ -81,6 +108,13 @@ impl Exports {
                 Err(error) => to.notices.complain(error),
             }
         }
+        self.screens.retain(|screen| {
+            let taken = screen.image.lock().ok().and_then(|mut image| image.take());
+            taken.is_none_or(|image| {
+                to.save_screen(&screen.name, &image);
+                false
+            })
+        });
         if let Some(recorder) = &mut self.recorder
             && let Err(error) = recorder.collect(device)
         {
@@ -111,6 +145,20 @@ impl Outlet<'_> {
     /// Saves a scene as it is at a time \[s\].
     pub fn save_scene(&mut self, scene: &Scene, time: f64) {
         self.save(&file_name(&scene.name, time), "toml", scene.to_toml().as_bytes());
+    }
+
+    /// Saves a table about a scene at a time \[s\].
+    pub fn save_table(&mut self, scene: &str, time: f64, name: &str, csv: &str) {
+        self.save(&format!("{}-{name}", file_name(scene, time)), "csv", csv.as_bytes());
+    }
+
+    fn save_screen(&mut self, name: &str, image: &ColorImage) {
+        let [width, height] = image.size.map(|it| it as u32);
+        let pixels = image.pixels.iter().flat_map(|it| it.to_srgba_unmultiplied()).collect();
+        match (Picture { width, height, pixels }).to_png() {
+            Ok(content) => self.save(name, "png", &content),
+            Err(error) => self.notices.complain(error),
+        }
     }
 
     fn save_picture(&mut self, mut picture: Picture, scene: &str, time: f64) {

@@ -2,10 +2,10 @@
 
 use egui::{Align2, Context, Grid, RichText, ScrollArea, Ui, Window};
 
-use crate::action::{MOUSE, SHORTCUTS};
+use crate::action::{MAZE, MOUSE, SHORTCUTS};
 
-/// Shows every shortcut, and what the mouse does.
-pub fn show(context: &Context, open: &mut bool) {
+/// Shows every shortcut, and what the mouse does; first what steers a maze, where one is played.
+pub fn show(context: &Context, open: &mut bool, is_maze: bool) {
     Window::new("Keys and mouse")
         .open(open)
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
@@ -14,15 +14,17 @@ pub fn show(context: &Context, open: &mut bool) {
         .show(context, |ui| {
             // A small window shows a part of it.
             let room = ui.ctx().content_rect().height() - 90.0;
-            ScrollArea::vertical().max_height(room.max(120.0)).show(ui, list);
+            ScrollArea::vertical().max_height(room.max(120.0)).show(ui, |ui| list(ui, is_maze));
         });
 }
 
-fn list(ui: &mut Ui) {
+fn list(ui: &mut Ui, is_maze: bool) {
     Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).striped(true).show(ui, |ui| {
+        let of_maze = MAZE.iter().filter(|_| is_maze);
+        let steering = of_maze.map(|(how, text)| ((*how).to_owned(), *text));
         let keys = SHORTCUTS.iter().map(|it| (it.keys_text(), it.text));
         let gestures = MOUSE.iter().map(|(gesture, text)| ((*gesture).to_owned(), *text));
-        for (how, text) in keys.chain(gestures) {
+        for (how, text) in steering.chain(keys).chain(gestures) {
             ui.label(RichText::new(how).strong());
             ui.label(text);
             ui.end_row();

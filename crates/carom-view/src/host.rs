@@ -20,6 +20,9 @@ pub trait Host {
     /// Reads a file that was dropped, now or later, into the inbox.
     fn read(&mut self, file: &DroppedFileHandle, inbox: &Inbox);
 
+    /// Asks the user for a file, which is read, now or later, into the inbox.
+    fn open_file(&mut self, inbox: &Inbox);
+
     /// Begins a film called `name` of pictures of this size in pixels.
     ///
     /// # Errors

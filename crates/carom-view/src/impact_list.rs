@@ -9,6 +9,9 @@ const ROWS: usize = 60;
 
 /// The last impacts, the newest first; a click on one picks its ball.
 pub fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+    if view.other.is_some() {
+        ui.strong(format!("Of the left picture, {}", view.setup.simulation.rule));
+    }
     ui.weak("Energy is that of all impacts at the same instant, where the rule keeps account.");
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         Grid::new("impacts").num_columns(5).striped(true).spacing([14.0, 3.0]).show(ui, |ui| {

@@ -1,12 +1,77 @@
-//! How much room there is.
+//! How much room there is, and what goes where.
 
-use egui::Ui;
+use egui::{Panel, Rect, Ui, Vec2, Window};
 
 /// Windows less wide than this are those of telephones, in points.
 const NARROW: f32 = 640.0;
 
-/// Whether the window has little room beside the picture: bars take two lines then, and what is
-/// seldom used waits in menus.
+/// Of the picture, that a sheet over its foot leaves free.
+const FREE: f32 = 0.55;
+
+/// Whether the window has little room beside the picture: bars take two lines then, what is
+/// seldom used waits in menus, and panels are sheets over the foot of the picture.
 pub fn is_narrow(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() < NARROW
+}
+
+/// A panel at a side of the picture.
+#[derive(Debug, Clone, Copy)]
+pub struct Beside {
+    pub title: &'static str,
+    /// At the right; else at the left.
+    pub is_right: bool,
+    /// Least, usual and largest width, in points.
+    pub widths: [f32; 3],
+}
+
+impl Beside {
+    /// Shows it while it is `open`: beside the picture where that keeps half of the window, of which
+    /// `room` is left for panels, in points; over the picture where it would not.
+    pub fn show(
+        self,
+        ui: &mut Ui,
+        room: &mut f32,
+        open: &mut bool,
+        contents: impl FnOnce(&mut Ui),
+    ) {
+        if !*open {
+            return;
+        }
+        let [least, usual, largest] = self.widths;
+        if is_narrow(ui) || *room < least {
+            return self.over(ui, open, contents);
+        }
+        let largest = largest.min(*room);
+        let id = self.title.to_lowercase();
+        let panel = if self.is_right { Panel::right(id) } else { Panel::left(id) };
+        let shown =
+            panel.default_size(usual.min(largest)).size_range(least..=largest).show(ui, contents);
+        *room -= shown.response.rect.width();
+    }
+
+    /// Over the picture: at its side, in narrow windows at its foot.
+    fn over(self, ui: &Ui, open: &mut bool, contents: impl FnOnce(&mut Ui)) {
+        let picture = ui.available_rect_before_wrap();
+        let mut place = picture.shrink(4.0);
+        if is_narrow(ui) {
+            place.min.y += FREE * picture.height();
+        } else {
+            let width = self.widths[1].min(place.width());
+            let left = if self.is_right { place.right() - width } else { place.left() };
+            place = Rect::from_min_size(
+                egui::pos2(left, place.top()),
+                Vec2::new(width, place.height()),
+            );
+        }
+        let frame = egui::Frame::window(ui.style());
+        let outer = frame.total_margin().sum() + Vec2::new(0.0, 30.0);
+        Window::new(self.title)
+            .id(egui::Id::unique(("over the picture", self.title)))
+            .open(open)
+            .frame(frame)
+            .collapsible(false)
+            .fixed_pos(place.min)
+            .fixed_size((place.size() - outer).max(Vec2::splat(60.0)))
+            .show(ui.ctx(), contents);
+    }
 }

@@ -20,6 +20,7 @@ mod help;
 mod host;
 mod impact_list;
 mod inspector;
+mod kept;
 mod layout;
 mod link_dialog;
 mod look;

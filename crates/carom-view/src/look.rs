@@ -6,10 +6,13 @@ use carom_scene::Palette;
 use carom_scene::scene::{self, Color};
 use carom_session::View;
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact_forces;
 
 /// What is drawn besides spheres and surfaces.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Marks {
     /// Velocities as arrows.
     pub velocities: bool,

@@ -44,6 +44,8 @@ pub struct MazeScreen {
 pub enum Wish {
     /// Look at the maze as a scene, with all its values.
     Watch,
+    /// Play another maze.
+    Next,
 }
 
 /// Keys that let the ball roll to +x and +z, by part of the full speed.
@@ -348,6 +350,9 @@ impl MazeScreen {
                         });
                         ui.add_space(12.0);
                         again = ui.button(RichText::new("Play again").size(18.0)).clicked();
+                        if ui.button(RichText::new("Next maze").size(18.0)).clicked() {
+                            wish = Some(Wish::Next);
+                        }
                         if ui.button("Watch it as a scene").clicked() {
                             wish = Some(Wish::Watch);
                         }

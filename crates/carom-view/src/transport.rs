@@ -1,7 +1,7 @@
 //! Playing, stepping, and going through time.
 
 use carom_session::{Command, FASTEST, SLOWEST, View};
-use egui::{Align, Color32, Layout, RichText, Slider, Ui, Widget};
+use egui::{Align, Color32, Layout, Rangef, Rect, RichText, Slider, Stroke, Ui, Widget};
 
 use crate::action::Action;
 use crate::layout::is_narrow;
@@ -33,6 +33,11 @@ pub fn show(
         let (symbol, text) = if playing { ("⏸", "Pause") } else { ("▶", "Play") };
         button(ui, symbol, text, Action::PlayOrPause);
         button(ui, "⏵", "Step", Action::Step);
+        for (symbol, text, action, count) in
+            [("↩", "Undo", Action::Undo, view.undoable), ("↪", "Redo", Action::Redo, view.redoable)]
+        {
+            ui.add_enabled_ui(count > 0, |ui| button(ui, symbol, text, action));
+        }
         speed(ui, view, commands);
         if !is_narrow {
             ui.separator();
@@ -138,9 +143,27 @@ fn time_line(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     ui.spacing_mut().slider_width = (ui.available_width() - 90.0).max(60.0);
     let slider = Slider::new(&mut time, 0.0..=end).show_value(false);
     ui.label(RichText::new(format!("{end:.1} s")).weak());
-    let response = slider.ui(ui).on_hover_text("Time line: go to another time");
+    let response = slider.ui(ui).on_hover_text(if view.edits.is_empty() {
+        "Time line: go to another time"
+    } else {
+        "Time line: go to another time. The marks are edits."
+    });
+    marks(ui, view, response.rect, end);
     response.widget_info(|| egui::WidgetInfo::slider(true, time, "Time line"));
     if response.changed() {
         commands.push(Command::Seek(time));
+    }
+}
+
+/// Marks the times of edits on the time line, which lies here and ends at `end` \[s\].
+fn marks(ui: &Ui, view: &View, line: Rect, end: f64) {
+    // As wide as the knob, the middle of which is at the time shown.
+    let along = line.x_range().shrink(line.height() / 2.5);
+    let painter = ui.painter_at(line);
+    let color = ui.visuals().warn_fg_color;
+    for time in view.edits.iter().filter(|time| **time <= end) {
+        let x = along.min + (*time / end) as f32 * along.span();
+        let upper = Rangef::new(line.top(), line.top() + 0.35 * line.height());
+        painter.vline(x, upper, Stroke::new(2.0, color));
     }
 }

@@ -7,6 +7,8 @@ use carom_render::Picture;
 use carom_session::{LOCAL_PAGE, Link};
 use carom_view::{FilmMaker, Host, Inbox, ReadFile};
 use egui::{Context, DroppedFileHandle, Vec2};
+use wasm_bindgen::JsCast;
+use wasm_bindgen::closure::Closure;
 
 use crate::services::{FilmService, Services, message};
 
@@ -27,6 +29,7 @@ impl Host for PageHost {
     fn save(&mut self, name: &str, ending: &str, content: &[u8]) -> Result<String, String> {
         let kind = match ending {
             "png" => "image/png",
+            "csv" => "text/csv",
             _ => "application/toml",
         };
         let name = format!("{name}.{ending}");
@@ -41,6 +44,15 @@ impl Host for PageHost {
             inbox.put(ReadFile { path, content: file.bytes_async().await });
             context.request_repaint();
         });
+    }
+
+    fn open_file(&mut self, inbox: &Inbox) {
+        let (inbox, context) = (inbox.clone(), self.context.clone());
+        let take = Closure::once_into_js(move |name: String, content: Vec<u8>| {
+            inbox.put(ReadFile { path: PathBuf::from(name), content: Ok(content) });
+            context.request_repaint();
+        });
+        self.services.open_file(take.unchecked_ref());
     }
 
     fn begin_film(

@@ -8,6 +8,8 @@ const TYPES: &str = r#"
 export interface Services {
     /** Lets the user keep a file. */
     save(name: string, type: string, content: Uint8Array): void;
+    /** Asks the user for a file, and gives its name and content; nothing where none is chosen. */
+    openFile(take: (name: string, content: Uint8Array) => void): void;
     /** Begins a film; throws an `Error` for people if the browser cannot make any. */
     beginFilm(width: number, height: number, framesPerSecond: number): FilmService;
     /** Right and down by the tilt of the device, each in [-1, 1]; `null` while it is not known. */
@@ -39,6 +41,9 @@ extern "C" {
 
     #[wasm_bindgen(method)]
     pub fn save(this: &Services, name: &str, kind: &str, content: &[u8]);
+
+    #[wasm_bindgen(method, js_name = openFile)]
+    pub fn open_file(this: &Services, take: &js_sys::Function);
 
     #[wasm_bindgen(method, catch, js_name = beginFilm)]
     pub fn begin_film(

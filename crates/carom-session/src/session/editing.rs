@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use carom_scene::scene::{Scene, Simulation};
+
 use super::Session;
 use crate::change::{Change, PastChange};
 use crate::edit::Edit;
@@ -49,19 +51,39 @@ impl Session {
         is_one
     }
 
-    /// Goes back to the beginning with the values that were changed up to now: forces, rule,
+    /// Goes back to the beginning with the values that were changed in the whole run: forces, rule,
     /// materials, and what balls are like. Where balls were put, thrown or taken away on the way is
     /// forgotten, but not what was changed at the beginning itself. [`Self::undo`] takes it back.
     pub fn restart_with_values(&mut self) {
         let before = self.revision();
-        let past = &self.history.changes()[..self.changes];
-        let values: Vec<Edit> = values_of(past);
+        let values = values_of(&before.changes);
         self.rewrite(Revision { frame: 0, changes: Arc::default() });
         for edit in values {
             // A ball that is not there at the beginning has nothing to be changed.
             let _ = self.make(edit);
         }
         self.revisions.open(before);
+    }
+
+    /// The scene under another simulation, at the beginning. Everything that was changed comes again
+    /// at its time, but for changes of the simulation.
+    ///
+    /// # Errors
+    /// [`SessionError::Scene`] if the scene makes no sense under it, [`SessionError::Repeat`] for a
+    /// change at the beginning that is refused.
+    pub(crate) fn under(&self, simulation: &Simulation) -> Result<Self, SessionError> {
+        let edits = self.history.changes().iter().filter_map(|it| match &it.change {
+            Change::Edit(Edit::Simulation(_) | Edit::FrameTime(_)) | Change::FailedStep => None,
+            Change::Edit(_) => Some(it),
+        });
+        let frame_at = |frame| (self.history.time_of(frame) / simulation.frame_time).round() as u64;
+        let changes =
+            edits.map(|it| PastChange { frame: frame_at(it.frame), change: it.change.clone() });
+        let scene = Scene { simulation: simulation.clone(), ..(*self.scene).clone() };
+        let mut session = Self::with_changes(scene, Arc::new(changes.collect()))?;
+        session.repeat_changes()?;
+        session.pick(self.readings.picked());
+        Ok(session)
     }
 
     /// Whether a change would be refused.
@@ -130,10 +152,10 @@ impl Session {
     }
 }
 
-/// The changes with which a run begins that is to have the values of this past from the start.
-fn values_of(past: &[PastChange]) -> Vec<Edit> {
+/// The changes with which a run begins that is to have the values of these from the start.
+fn values_of(all: &[PastChange]) -> Vec<Edit> {
     let mut values: Vec<Edit> = Vec::new();
-    for PastChange { frame, change } in past {
+    for PastChange { frame, change } in all {
         let Change::Edit(edit) = change else { continue };
         let Some(value) = (if *frame == 0 { Some(edit.clone()) } else { edit.value() }) else {
             continue;

@@ -15,7 +15,7 @@ use crate::history::{History, Moment};
 use crate::link::Link;
 use crate::looks::Looks;
 use crate::previous::Previous;
-use crate::readings::Readings;
+use crate::readings::{Readings, Tally};
 use crate::revisions::Revisions;
 use crate::setup::Setup;
 use crate::subjects;
@@ -60,7 +60,7 @@ impl Session {
         let world = scene.world()?;
         let setup = Arc::new(Setup::new(&scene, &world));
         let looks = Looks::new(&scene, &world);
-        let start = Moment::new(0, 0, 0, &world, (&setup, &looks));
+        let start = Moment::new(0, 0, Tally::default(), &world, (&setup, &looks));
         let history = History::new(start, setup.simulation.frame_time, changes);
         let mut readings = Readings::default();
         readings.measure(0, &world);
@@ -185,9 +185,10 @@ impl Session {
         Ok(self.target.is_none())
     }
 
-    /// Follows another sphere, or none, from now on.
+    /// Follows another sphere, or none: from now on, and before as far as the past is kept.
     pub fn pick(&mut self, sphere: Option<SphereId>) {
-        self.readings.pick(sphere);
+        let past = self.history.until(self.frame).map(|moment| (moment.frame, moment.state()));
+        self.readings.pick(sphere, past);
         self.readings.measure(self.frame, &self.world);
     }
 
@@ -297,7 +298,7 @@ impl Session {
         moment.restore(&mut self.world);
         (self.frame, self.changes) = (moment.frame, moment.changes);
         (self.setup, self.looks) = (moment.setup.clone(), moment.looks.clone());
-        self.readings.go_to(moment.frame, moment.impacts);
+        self.readings.go_to(moment.frame, moment.tally);
         self.previous.remember(&self.world);
         self.stamp += 1;
     }
@@ -321,8 +322,8 @@ impl Session {
         self.repeat_changes()?;
         if self.history.wants(self.frame, &self.world) {
             let more = (&self.setup, &self.looks);
-            let impacts = self.readings.impacts;
-            let moment = Moment::new(self.frame, self.changes, impacts, &self.world, more);
+            let tally = self.readings.tally;
+            let moment = Moment::new(self.frame, self.changes, tally, &self.world, more);
             self.history.keep(moment);
         }
         Ok(())

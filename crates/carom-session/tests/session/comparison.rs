@@ -1,8 +1,8 @@
 //! Two rules side by side.
 
 use carom::{DVec3, Sphere};
-use carom_scene::scene::{Force, Rule, Zones};
-use carom_session::{Comparison, Edit, Session, SessionError, View};
+use carom_scene::scene::{Force, ImpactLaw, Rule, Zones};
+use carom_session::{Comparison, Edit, Session, SessionError, View, Watched};
 
 use crate::busy_scene;
 
@@ -88,6 +88,25 @@ fn an_edit_is_made_to_both_or_to_none() {
     assert!(both.edit(&Edit::Simulation(Box::new(simulation))).is_err());
     assert_eq!([both.first().state_hash(), both.second().state_hash()], hashes);
     assert_eq!(both.first().setup().forces.len(), 3);
+}
+
+#[test]
+fn parameters_of_rules_that_are_not_edited_stay_each_its_own() {
+    let mut simulations = [Rule::Exact, Rule::Exact].map(|rule| {
+        let mut simulation = busy_scene().simulation;
+        simulation.rule = rule;
+        simulation
+    });
+    simulations[1].exact.impact_law = ImpactLaw::Sequential;
+    let session = Watched::from(Session::new(busy_scene()).unwrap());
+    let Ok(Watched::Two(mut both)) = session.compared(Some(&simulations)) else { panic!("two") };
+    simulations[0].spheres_collide = false;
+    both.edit(&Edit::Simulation(Box::new(simulations[0].clone()))).unwrap();
+    let second = &both.second().setup().simulation;
+    assert_eq!((second.exact.impact_law, second.spheres_collide), (ImpactLaw::Sequential, false));
+    simulations[0].exact.zones = Zones::Never;
+    both.edit(&Edit::Simulation(Box::new(simulations[0].clone()))).unwrap();
+    assert_eq!(both.second().setup().simulation.exact, simulations[0].exact);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use carom_scene::Scene;
-use carom_scene::scene::{Rule, Zones};
+use carom_scene::scene::{ImpactLaw, Integrator, Rule, Simulation, Zones};
 use carom_session::{Command, Comparison, Driver, Edit, FASTEST, Session, SessionError, View};
 
 use crate::{built_in, busy, busy_scene, hashes};
@@ -269,11 +269,16 @@ fn another_scene_is_opened_or_the_old_one_stays() {
     assert_eq!((driver.view().scene.name.as_str(), driver.view().frame), ("tutorial1", 1));
 }
 
+/// Two simulations of the busy scene that differ by rule.
+fn simulations(rules: [Rule; 2]) -> Option<Box<[Simulation; 2]>> {
+    let of = |rule| Simulation { rule, ..busy_scene().simulation };
+    Some(Box::new(rules.map(of)))
+}
+
 #[test]
 fn two_rules_are_driven_like_one() {
-    let scene = busy_scene();
     let mut driver = Driver::inline(busy());
-    send(&mut driver, [Command::Compare(Box::new(scene), [Rule::Exact, Rule::Bisect])]);
+    send(&mut driver, [Command::Compare(simulations([Rule::Exact, Rule::Bisect]))]);
     send(&mut driver, [Command::ShowStateHash(true), Command::Seek(0.5), Command::StepBack]);
     driver.update(0.0, || false);
     let view = driver.view();
@@ -281,11 +286,51 @@ fn two_rules_are_driven_like_one() {
     assert_eq!((view.frame, other.frame, view.distances.len()), (29, 29, 30));
     assert_ne!(view.playback.state_hash, other.playback.state_hash);
     // One alone again.
-    send(&mut driver, [Command::Open(Box::new(busy_scene()))]);
+    send(&mut driver, [Command::Compare(None)]);
     driver.update(0.0, || false);
     assert!(driver.view().other.is_none() && driver.view().distances.is_empty());
     let both = Comparison::new(&busy_scene(), [Rule::Exact, Rule::Discrete]).unwrap();
     assert!(Driver::inline(both).view().other.is_some());
+}
+
+#[test]
+fn a_comparison_begins_at_the_time_of_now_with_what_was_changed() {
+    let mut driver = Driver::inline(busy());
+    let exact = busy_scene().simulation;
+    send(&mut driver, [Command::Seek(0.2), Command::Edit(Edit::AllColliderRestitutions(0.4))]);
+    send(&mut driver, [Command::Seek(0.5), Command::ShowStateHash(true)]);
+    driver.update(0.0, || false);
+    let alone = driver.view().playback.state_hash;
+    send(&mut driver, [Command::Compare(simulations([Rule::Exact, Rule::Contact]))]);
+    driver.update(0.0, || false);
+    let view = driver.view();
+    assert_eq!((view.frame, view.playback.state_hash), (30, alone));
+    let other = view.other.as_deref().unwrap();
+    assert_eq!(other.setup.colliders[0].1.restitution, 0.4);
+    // Settings of one rule, side by side; and from there another pair.
+    let mut sequential = exact.clone();
+    sequential.exact.impact_law = ImpactLaw::Sequential;
+    send(&mut driver, [Command::Compare(Some(Box::new([exact, sequential])))]);
+    driver.update(0.0, || false);
+    let laws = |view: &View| view.setup.simulation.exact.impact_law;
+    let view = driver.view();
+    assert_eq!(laws(view.other.as_deref().unwrap()), ImpactLaw::Sequential);
+    assert_eq!((laws(view), view.playback.state_hash), (ImpactLaw::default(), alone));
+    send(&mut driver, [Command::Compare(None)]);
+    driver.update(0.0, || false);
+    assert_eq!(driver.view().playback.state_hash, alone);
+}
+
+#[test]
+fn a_pair_that_makes_no_sense_leaves_what_is_shown() {
+    let mut driver = Driver::inline(busy());
+    let mut pair = simulations([Rule::Exact, Rule::Discrete]).unwrap();
+    pair[1].discrete.integrator = Integrator::VelocityVerlet;
+    pair[0].frame_time = -1.0;
+    send(&mut driver, [Command::Seek(0.5), Command::Compare(Some(pair))]);
+    driver.update(0.0, || false);
+    let view = driver.view();
+    assert!(view.other.is_none() && view.playback.error.is_some() && view.frame == 30);
 }
 
 #[test]

@@ -162,23 +162,43 @@ fn the_rate_of_impacts_is_their_number_per_second() {
 }
 
 #[test]
-fn the_picked_sphere_is_followed_from_then_on() {
+fn the_picked_sphere_is_shown_from_the_beginning() {
     let mut session = two_that_meet(Rule::Exact);
     hashes(&mut session, 10);
     let id = session.world().spheres().ids()[0];
     session.pick(Some(id));
     hashes(&mut session, 50);
     let there = view(&session);
-    assert_eq!(there.picked_readings.len(), 51);
-    assert_eq!(there.picked_readings[0].speed, 2.0);
+    assert_eq!(there.picked_readings.len(), 61);
+    assert_eq!(
+        (there.picked_readings[0].time, there.picked_readings[0].velocity.length()),
+        (0.0, 2.0)
+    );
     // Of 2 m/s, the centre of mass keeps 0.5 m/s; of the 1.5 m/s relative to it, half comes back.
-    let last = there.picked_readings[50];
-    assert!((last.speed - 0.25).abs() < 1e-12, "{last:?}");
+    let last = there.picked_readings[60];
+    assert!((last.velocity.length() - 0.25).abs() < 1e-12, "{last:?}");
     session.step_back().unwrap();
-    assert_eq!(view(&session).picked_readings, there.picked_readings[..50]);
+    assert_eq!(view(&session).picked_readings, there.picked_readings[..60]);
     session.edit(Edit::RemoveSphere(id)).unwrap();
     session.step().unwrap();
     assert_eq!(view(&session).picked, Some(id));
+}
+
+#[test]
+fn a_sphere_picked_late_has_the_past_of_one_picked_at_once() {
+    let mut early = busy();
+    let id = early.world().spheres().ids()[3];
+    early.pick(Some(id));
+    hashes(&mut early, 60);
+    let mut late = busy();
+    hashes(&mut late, 60);
+    late.pick(Some(id));
+    assert_eq!(view(&late).picked_readings, view(&early).picked_readings);
+    // What comes after the present is not shown.
+    late.pick(None);
+    late.jump(0.5).unwrap();
+    late.pick(Some(id));
+    assert_eq!(view(&late).picked_readings, view(&early).picked_readings[..31]);
 }
 
 #[test]
@@ -192,6 +212,45 @@ fn only_the_last_impacts_are_remembered() {
     let impacts = view(&session).impacts;
     assert_eq!(impacts.len(), REMEMBERED);
     assert!(impacts.is_sorted_by_key(|impact| impact.time));
+}
+
+/// Mass m, speed u, in a closed box with walls `4 r` apart: it hits both sides of an axis.
+fn one_in_a_box(speed: f64) -> Session {
+    let text = format!(
+        "name = \"box\"\nspheres = [{{ position = [0, 0, 0], radius = 0.5, mass = 3.0, velocity = [{speed}, 0, 0] }}]\n\
+         colliders = [{{ shape = {{ container = {{ size = [2.0, 2.0, 2.0] }} }} }}]"
+    );
+    Session::new(Scene::from_toml(&text, "box").unwrap()).unwrap()
+}
+
+#[test]
+fn pressure_in_a_container_is_the_force_on_its_walls_by_their_area() {
+    let mut session = one_in_a_box(40.0);
+    hashes(&mut session, 60);
+    // 40 impacts a second of 2 m u = 240 N s on 24 m²: 400 Pa; one impact more or less in the window.
+    let pressure = view(&session).now.pressure.unwrap();
+    assert!((pressure - 400.0).abs() <= 1.05 * 240.0 / 24.0 / 0.5, "{pressure}");
+    assert_eq!(view(&busy()).now.pressure, None, "a floor alone shuts nothing in");
+}
+
+#[test]
+fn one_sphere_alone_has_no_temperature_and_two_opposite_ones_that_of_their_motion() {
+    assert_eq!(view(&one_in_a_box(40.0)).now.thermal_energy, 0.0);
+    let text = "name = \"two\"\n\
+         [simulation]\nboundary = { periodic = { size = [4.0, 4.0, 4.0] } }\n\
+         [[spheres]]\nposition = [-1, 0, 0]\nradius = 0.5\nmass = 2.0\nvelocity = [3, 5, 0]\n\
+         [[spheres]]\nposition = [1, 0, 0]\nradius = 0.5\nmass = 2.0\nvelocity = [-3, 5, 0]\n";
+    let mut session = Session::new(Scene::from_toml(text, "two").unwrap()).unwrap();
+    // m v² along the one direction in which they move relative to each other.
+    assert_eq!(view(&session).now.thermal_energy, 18.0);
+    // Between impacts they fly 2 m towards each other, at 6 m/s; each has J = 2 μ 6 m/s = 12 N s.
+    let (rate, distance, impulse) = (3.0, 1.0, 12.0);
+    hashes(&mut session, 180);
+    let of_impacts = distance * impulse * rate / 3.0 / 64.0;
+    let expected = 2.0 * 18.0 / 64.0 + of_impacts;
+    let pressure = view(&session).now.pressure.unwrap();
+    // One impact more or less than 1.5 in the window.
+    assert!((pressure - expected).abs() <= 0.7 * of_impacts, "{pressure} {expected}");
 }
 
 #[test]

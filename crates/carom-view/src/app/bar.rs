@@ -40,11 +40,35 @@ impl App {
             }
         }
         if ui.button("Random").on_hover_text("another one each time").clicked() {
-            self.random_mazes += 1;
-            chosen = Some(Maze::random(self.random_mazes, 8, 6));
+            chosen = Some(self.random_maze());
         }
         ui.separator();
         chosen
+    }
+
+    fn random_maze(&mut self) -> Result<Maze, MazeError> {
+        self.random_mazes += 1;
+        Maze::random(self.random_mazes, 8, 6)
+    }
+
+    /// Plays the maze after the one being played: the course's, those drawn, then random ones.
+    pub(super) fn next_maze(&mut self) {
+        let name = self.maze().map(|it| it.game().scene().name.clone()).unwrap_or_default();
+        let place = BUILT_IN_DRAWINGS.iter().position(|(drawing, _)| *drawing == name);
+        let is_course = Maze::course().is_ok_and(|course| course.scene().name == name);
+        let next = match (place, is_course) {
+            (Some(place), _) => BUILT_IN_DRAWINGS.get(place + 1),
+            (None, true) => BUILT_IN_DRAWINGS.first(),
+            (None, false) => None,
+        };
+        let maze = match next {
+            Some((name, text)) => Maze::from_text(text, name),
+            None => self.random_maze(),
+        };
+        match maze {
+            Ok(maze) => self.play(maze),
+            Err(error) => self.notices.complain(error),
+        }
     }
 
     pub(super) fn bar(&mut self, ui: &mut Ui) -> Vec<Action> {

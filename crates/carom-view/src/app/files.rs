@@ -25,6 +25,12 @@ impl App {
         }
     }
 
+    /// Opens a file of the disk.
+    pub(super) fn open_file(&mut self, path: &Path) {
+        let content = std::fs::read(path).map_err(|error| error.to_string());
+        self.inbox.put(ReadFile { path: path.to_owned(), content });
+    }
+
     /// Opens the text of a file.
     fn open_text(&mut self, text: &str, path: &Path) {
         let name = path.file_name().unwrap_or_default().to_string_lossy();

@@ -16,10 +16,11 @@ use egui::{Context, Pos2, Rect, Theme, Ui};
 
 use crate::action::{self, Action};
 use crate::address::Address;
-use crate::chooser::Chooser;
+use crate::chooser::{Chooser, Chosen};
 use crate::exports::Exports;
 use crate::help;
 use crate::host::{Host, Inbox};
+use crate::kept::Kept;
 use crate::link_dialog::LinkDialog;
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
@@ -75,6 +76,7 @@ pub struct App {
     exports: Exports,
     address: Address,
     link: LinkDialog,
+    kept: Kept,
 }
 
 /// What fills the window.
@@ -110,6 +112,7 @@ impl App {
             exports: Exports::default(),
             address: Address::default(),
             link: LinkDialog::default(),
+            kept: Kept::load(host.storage),
         };
         match setup.start {
             Some(Start::Scene(scene, source)) => app.watch(*scene, source),
@@ -143,8 +146,12 @@ impl App {
     /// Watches a scene from now on; says so where it cannot be.
     pub fn watch(&mut self, scene: Scene, source: Source) {
         match Watching::new(scene, source, self.threaded, &self.context) {
-            Ok(watching) => {
+            Ok(mut watching) => {
                 self.host.watch(&watching.source);
+                if let Source::File(path) = &watching.source {
+                    self.kept.remember(path);
+                }
+                watching.set_layout(self.kept.layout);
                 self.show(Screen::Watching(Box::new(watching)));
             }
             Err(error) => self.notices.complain(error),
@@ -180,7 +187,10 @@ impl App {
             return;
         }
         match Watching::replay(link, scene, self.threaded, &self.context) {
-            Ok(watching) => self.show(Screen::Watching(Box::new(watching))),
+            Ok(mut watching) => {
+                watching.set_layout(self.kept.layout);
+                self.show(Screen::Watching(Box::new(watching)));
+            }
             Err(error) => self.refuse_link(&error.to_string()),
         }
     }
@@ -256,7 +266,7 @@ impl App {
     }
 
     fn open_chooser(&mut self) {
-        if let Err(error) = self.chooser.open(&self.library) {
+        if let Err(error) = self.chooser.open(&self.library, &self.kept.recent) {
             self.notices.complain(error);
         }
     }
@@ -370,7 +380,7 @@ impl App {
     fn screen(&mut self, ui: &mut Ui) {
         let manner = self.manner();
         let margin = egui::Frame::NONE;
-        let mut wish = None;
+        let (mut wish, mut wanted) = (None, None);
         match &mut self.screen {
             Screen::Empty => {
                 egui::CentralPanel::default().show(ui, |ui| {
@@ -381,6 +391,8 @@ impl App {
                 for action in watching.panels(ui, manner) {
                     watching.act(action);
                 }
+                wanted = watching.wanted.take();
+                self.kept.layout = watching.layout();
                 let studio = &mut self.studio;
                 let shown = egui::CentralPanel::default()
                     .frame(margin)
@@ -395,11 +407,17 @@ impl App {
                     .inner;
             }
         }
-        if wish == Some(Wish::Watch)
-            && let Screen::Maze(screen) = &self.screen
-        {
-            let scene = screen.game().maze().scene().clone();
-            self.watch(scene, Source::Registered);
+        if let Some(wanted) = wanted {
+            self.save_plots(wanted);
+        }
+        let Screen::Maze(screen) = &self.screen else { return };
+        match wish {
+            Some(Wish::Watch) => {
+                let scene = screen.game().maze().scene().clone();
+                self.watch(scene, Source::Registered);
+            }
+            Some(Wish::Next) => self.next_maze(),
+            None => {}
         }
     }
 
@@ -432,6 +450,10 @@ fn act_in_maze(screen: &mut MazeScreen, action: Action) {
 }
 
 impl eframe::App for App {
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        self.kept.save(storage);
+    }
+
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         self.cpu_seconds = frame.info().cpu_usage;
         let context = ui.ctx().clone();
@@ -454,10 +476,14 @@ impl eframe::App for App {
         for action in asked {
             self.act(action);
         }
-        if let Some((scene, source)) = self.chooser.show(&context, &mut self.studio) {
-            self.open(scene, source);
+        match self.chooser.show(&context, &mut self.studio) {
+            Some(Chosen::Scene(scene, source)) => self.open(*scene, source),
+            Some(Chosen::File(path)) => self.open_file(&path),
+            Some(Chosen::AnyFile) => self.host.open_file(&self.inbox),
+            None => {}
         }
-        help::show(&context, &mut self.help);
+        let is_maze = self.maze().is_some();
+        help::show(&context, &mut self.help, is_maze);
         self.links();
         self.notices.show(ui);
     }

@@ -2,6 +2,7 @@
 
 use super::{App, Screen};
 use crate::exports::Outlet;
+use crate::plots::Wanted;
 use crate::snapshot::Snapshot;
 
 /// Smallest picture that is saved \[pixels\].
@@ -38,6 +39,18 @@ impl App {
         let view = watching.view();
         let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
         outlet.save_scene(&view.scene_now(), view.time);
+    }
+
+    /// Saves numbers of the plots, or a picture of them.
+    pub(super) fn save_plots(&mut self, wanted: Wanted) {
+        let Some((scene, time)) = self.shown() else { return };
+        match wanted {
+            Wanted::Table { name, csv } => {
+                let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
+                outlet.save_table(&scene, time, &name, &csv);
+            }
+            Wanted::Picture(part) => self.exports.save_screen(&self.context, part, scene, time),
+        }
     }
 
     /// Begins to record a film, or ends it.

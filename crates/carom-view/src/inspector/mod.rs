@@ -5,7 +5,7 @@ mod collider;
 mod emitter;
 mod force;
 mod friction;
-mod simulation;
+pub mod simulation;
 mod value;
 
 use carom_session::{Command, View};

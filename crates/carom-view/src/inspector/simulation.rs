@@ -8,12 +8,25 @@ use super::value::{Field, count, name, number};
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     let mut simulation: Simulation = view.setup.simulation.clone();
-    const RULES: [(Rule, &str); 4] = [
-        (Rule::Exact, "exact"),
-        (Rule::Contact, "contact"),
-        (Rule::Bisect, "bisect"),
-        (Rule::Discrete, "discrete"),
-    ];
+    // Of two, each has its own, which is chosen over its picture.
+    if view.other.is_none() {
+        choice(ui, "rule", &RULES, &mut simulation.rule);
+    }
+    edit(ui, &mut simulation);
+    if simulation != view.setup.simulation {
+        commands.push(Command::Edit(Edit::Simulation(Box::new(simulation))));
+    }
+}
+
+const RULES: [(Rule, &str); 4] = [
+    (Rule::Exact, "exact"),
+    (Rule::Contact, "contact"),
+    (Rule::Bisect, "bisect"),
+    (Rule::Discrete, "discrete"),
+];
+
+/// Everything but the rule.
+pub fn edit(ui: &mut Ui, simulation: &mut Simulation) {
     const INTEGRATORS: [(Integrator, &str); 4] = [
         (Integrator::SemiImplicitEuler, "semi-implicit Euler"),
         (Integrator::ExplicitEuler, "explicit Euler"),
@@ -33,9 +46,6 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
         (CombineRule::Average, "average"),
         (CombineRule::GeometricMean, "geometric mean"),
     ];
-    if view.other.is_none() {
-        choice(ui, "rule", &RULES, &mut simulation.rule);
-    }
     match simulation.rule {
         Rule::Exact => {
             choice(ui, "impact law", &LAWS, &mut simulation.exact.impact_law);
@@ -58,9 +68,6 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     number(ui, Field::positive("frame time", "s"), &mut simulation.frame_time);
     choice(ui, "restitution", &COMBINE_RULES, &mut simulation.combine_rule);
     ui.checkbox(&mut simulation.spheres_collide, "balls collide with each other");
-    if simulation != view.setup.simulation {
-        commands.push(Command::Edit(Edit::Simulation(Box::new(simulation))));
-    }
 }
 
 fn choice<T: Copy + PartialEq>(ui: &mut Ui, title: &str, all: &[(T, &str)], value: &mut T) {

@@ -18,6 +18,30 @@ pub(super) struct Way {
     since: Instant,
 }
 
+/// What became of the edits when the scene was put back to its beginning.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Restarted {
+    /// Whether it begins with their values; else they come again at their times.
+    pub with_values: bool,
+    /// When, by the clock of the interface \[s\].
+    pub at: f64,
+}
+
+/// What may be worth saying.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Told<'a> {
+    pub way: Option<&'a Way>,
+    pub restarted: Option<Restarted>,
+    /// For how long a thread has been at work without a word \[s\].
+    pub seconds_at_work: f64,
+}
+
+/// A frame shorter than this is not spoken of \[s\].
+const LONG: f64 = 0.7;
+
+/// How long that is told \[s\].
+const TOLD: f64 = 7.0;
+
 /// A way shorter than this is not spoken of \[s\].
 const SHORT: f64 = 0.5;
 
@@ -73,11 +97,12 @@ pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     view: &View,
-    way: Option<&Way>,
+    told: Told,
     camera: &Camera,
     commands: &mut Vec<Command>,
 ) -> Vec<Action> {
     let mut actions = Vec::new();
+    let Told { way, restarted, seconds_at_work } = told;
     let aspect = f64::from(rect.width() / rect.height());
     let is_at_start = view.frame == 0 && !view.playback.playing && view.playback.error.is_none();
     let mut button = |ui: &mut Ui, text: &str, action: Action| {
@@ -85,13 +110,42 @@ pub(super) fn show(
             actions.push(action);
         }
     };
-    if view.seeking.is_some() {
+    if seconds_at_work > LONG {
+        ui.ctx().request_repaint_after_secs(0.1);
+        card(ui, rect, |ui| {
+            let text = format!("Computing this frame: {seconds_at_work:.0} s");
+            ui.add_sized([WAY_WIDTH, ui.spacing().interact_size.y], Label::new(text));
+            if ui.button("Stop").on_hover_text("Pause before this frame").clicked() {
+                commands.push(Command::Pause);
+            }
+        });
+    } else if view.seeking.is_some() {
         let Some(text) = way.and_then(|way| way.text(view)) else { return actions };
         card(ui, rect, |ui| {
             // The button stays in its place, however long the text is.
             ui.add_sized([WAY_WIDTH, ui.spacing().interact_size.y], Label::new(text).truncate());
             if ui.button("Stop here").clicked() {
                 commands.push(Command::StopSeeking);
+            }
+        });
+    } else if let Some(Restarted { with_values, at }) = restarted
+        && ui.input(|input| input.time) - at < TOLD
+        && !view.edits.is_empty()
+    {
+        ui.ctx().request_repaint_after_secs(1.0);
+        card(ui, rect, |ui| {
+            if with_values {
+                ui.label("It begins with the values that were set.");
+                button(ui, "Undo", Action::Undo);
+            } else {
+                let (count, s) = (view.edits.len(), if view.edits.len() == 1 { "" } else { "s" });
+                ui.label(format!(
+                    "{count} edit{s} will come again, at the mark{s} of the time line."
+                ));
+                button(ui, "Begin with their values", Action::RestartWithValues);
+            }
+            if !view.playback.playing {
+                button(ui, "▶ Play", Action::PlayOrPause);
             }
         });
     } else if is_at_start {

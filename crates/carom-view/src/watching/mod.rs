@@ -1,14 +1,16 @@
 //! A scene being watched: its picture, and what is done with it by hand.
 
+mod departures;
 mod hand;
 mod hints;
+mod sides;
 mod viewpoint;
 
 use std::sync::Arc;
 
 use carom::DVec3;
 use carom_render::{Camera, Drawing, GpuError};
-use carom_scene::scene::{Rule, Scene};
+use carom_scene::scene::{Rule, Scene, Simulation};
 use carom_scene::{SceneError, Source};
 use carom_session::{Command, Driver, Link, LinkSource, Session, SessionError, View, Watched};
 use egui::{Image, Pos2, Rect, Sense, Ui, Vec2};
@@ -16,14 +18,16 @@ use web_time::Instant;
 
 use crate::action::Action;
 use crate::inspector::{self, Throw};
-use crate::layout::is_narrow;
+use crate::kept::{Layout, Panels};
+use crate::layout::{Beside, is_narrow};
 use crate::look::{self, Look, Marks};
 use crate::orbit::Preset;
 use crate::plots;
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
 use crate::{impact_list, transport};
-use hints::Way;
+use departures::Departures;
+use hints::{Restarted, Way};
 use viewpoint::Viewpoint;
 
 /// A scene being watched.
@@ -38,25 +42,23 @@ pub struct Watching {
     viewpoint: Viewpoint,
     /// The way to another time, while it is on it.
     way: Option<Way>,
-    marks: Marks,
-    panels: Panels,
-    plots: plots::Shown,
+    restarted: Option<Restarted>,
+    departures: Departures,
+    /// Of the interface, at the last picture \[s\].
+    clock: f64,
+    layout: Layout,
+    /// Whether the window had little room at the last picture.
+    is_narrow: bool,
     throw: Throw,
     /// The picture, and beside it that of the other rule.
     canvases: [Canvas; 2],
     drawing: Drawing,
     drawn: [Option<Drawn>; 2],
     news: u64,
+    /// What is to be saved of the plots, until it is.
+    pub wanted: Option<plots::Wanted>,
     /// Why a command was not taken, until a notice says so.
     pub refused: Option<SessionError>,
-}
-
-/// Which panels are open.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Panels {
-    inspector: bool,
-    plots: bool,
-    impacts: bool,
 }
 
 /// All that a picture depends on: another one is drawn when this changes.
@@ -76,6 +78,10 @@ pub struct Manner {
     /// Whether a film is being recorded.
     pub recording: bool,
 }
+
+const INSPECTOR: Beside =
+    Beside { title: "Inspector", is_right: true, widths: [240.0, 290.0, 460.0] };
+const PLOTS: Beside = Beside { title: "Plots", is_right: false, widths: [200.0, 330.0, 700.0] };
 
 /// Longest time for frames before a picture, where both share a thread \[s\].
 const INLINE_BUDGET: f64 = 0.02;
@@ -130,14 +136,17 @@ impl Watching {
             commands: Vec::new(),
             viewpoint: Viewpoint::new(),
             way: None,
-            marks: Marks::default(),
-            panels: Panels { inspector: true, plots: false, impacts: false },
-            plots: plots::Shown::default(),
+            restarted: None,
+            departures: Departures::default(),
+            clock: 0.0,
+            layout: Layout::default(),
+            is_narrow: false,
             throw: Throw::default(),
             canvases: Default::default(),
             drawing: Drawing::default(),
             drawn: [None; 2],
             news: 0,
+            wanted: None,
             refused: None,
         })
     }
@@ -145,6 +154,17 @@ impl Watching {
     /// What there is to see.
     pub fn view(&self) -> &View {
         self.driver.view()
+    }
+
+    /// What is shown of it, and around it.
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// Shows it so from now on.
+    pub fn set_layout(&mut self, layout: Layout) {
+        self.layout = layout;
+        self.commands.push(Command::ShowContacts(layout.marks.forces));
     }
 
     /// What there is to see, and a link to the beginning of its scene.
@@ -166,10 +186,13 @@ impl Watching {
     /// Lets the physics go on by the time since the last picture.
     pub fn advance(&mut self, ui: &Ui) {
         let wall_seconds = ui.input(|input| f64::from(input.unstable_dt));
+        self.clock = ui.input(|input| input.time);
         let began = Instant::now();
         let time_is_up = || began.elapsed().as_secs_f64() > INLINE_BUDGET;
         if self.driver.update(wall_seconds, time_is_up) {
             self.news += 1;
+            let framing = self.viewpoint.framing(&self.driver.view().scene);
+            self.departures.note(self.driver.view(), framing);
         }
         let playback = &self.view().playback;
         if playback.playing || self.view().seeking.is_some() || playback.blend < 1.0 {
@@ -186,7 +209,10 @@ impl Watching {
             Action::PlayOrPause => self.commands.push(Command::Play),
             Action::Step => self.commands.push(Command::Step),
             Action::StepBack => self.commands.push(Command::StepBack),
-            Action::Restart => self.commands.push(Command::Restart),
+            Action::Restart => self.restart(false),
+            Action::RestartWithValues => self.restart(true),
+            Action::Undo => self.commands.push(Command::Undo),
+            Action::Redo => self.commands.push(Command::Redo),
             Action::Faster | Action::Slower => {
                 let next = transport::next_speed(speed, action == Action::Faster);
                 self.commands.push(Command::Speed(next));
@@ -196,35 +222,48 @@ impl Watching {
             Action::TopCamera => self.viewpoint.look_from(Preset::Top),
             Action::Fit => self.viewpoint.toggle_fit(),
             Action::Follow => self.viewpoint.toggle_follow(self.picked_place()),
-            Action::Inspector => self.panels.inspector ^= true,
-            Action::Plots => self.panels.plots ^= true,
-            Action::Impacts => self.panels.impacts ^= true,
-            Action::Velocities => self.marks.velocities ^= true,
-            Action::Contacts => self.marks.contacts ^= true,
+            Action::Inspector | Action::Plots | Action::Impacts => self.toggle_panel(action),
+            Action::Velocities => self.layout.marks.velocities ^= true,
+            Action::Contacts => self.layout.marks.contacts ^= true,
             Action::Forces => {
-                self.marks.forces ^= true;
-                self.commands.push(Command::ShowContacts(self.marks.forces));
+                self.layout.marks.forces ^= true;
+                self.commands.push(Command::ShowContacts(self.layout.marks.forces));
             }
             Action::Compare => self.compare(),
             _ => {}
         }
     }
 
-    /// The same scene under two rules, from the start; or again under its own.
+    /// Back to the beginning, and says what becomes of edits.
+    fn restart(&mut self, with_values: bool) {
+        self.commands.push(if with_values { Command::RestartWithValues } else { Command::Restart });
+        let is_edited = self.view().edits.last().is_some_and(|time| *time > 0.0);
+        self.restarted = is_edited.then_some(Restarted { with_values, at: self.clock });
+    }
+
+    fn toggle_panel(&mut self, action: Action) {
+        let Panels { inspector, plots, impacts } = &mut self.layout.panels;
+        let panels =
+            [(Action::Inspector, inspector), (Action::Plots, plots), (Action::Impacts, impacts)];
+        for (of, is_open) in panels {
+            if of == action {
+                *is_open ^= true;
+            } else if self.is_narrow {
+                // There is room for one.
+                *is_open = false;
+            }
+        }
+    }
+
+    /// The same scene under two rules; or again under one.
     fn compare(&mut self) {
         let view = self.driver.view();
-        let mut scene = view.setup.scene(&view.scene);
-        scene.spheres = view.scene.spheres.clone();
-        // Their colliders are among those of the setup already.
-        let of_spheres = view.scene.generators.iter().filter(|it| it.collider().is_none());
-        scene.generators = of_spheres.cloned().collect();
-        self.commands.push(if view.other.is_some() {
-            Command::Open(Box::new(scene))
-        } else {
-            let own = scene.simulation.rule;
-            let other = if own == Rule::Exact { Rule::Discrete } else { Rule::Exact };
-            Command::Compare(Box::new(scene), [own, other])
+        let own = view.setup.simulation.clone();
+        let pair = view.other.is_none().then(|| {
+            let rule = if own.rule == Rule::Exact { Rule::Discrete } else { Rule::Exact };
+            Box::new([own.clone(), Simulation { rule, ..own }])
         });
+        self.commands.push(Command::Compare(pair));
     }
 
     fn picked_place(&self) -> Option<DVec3> {
@@ -235,10 +274,12 @@ impl Watching {
 
     /// The panels around the picture. Returns the actions of their buttons.
     pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
-        if self.drawn[0].is_none() && is_narrow(ui) {
-            self.panels.inspector = false;
+        self.is_narrow = is_narrow(ui);
+        if self.drawn[0].is_none() && self.is_narrow {
+            self.layout.panels = Panels { inspector: false, plots: false, impacts: false };
         }
-        let Self { driver, commands, panels, plots, throw, .. } = self;
+        let Self { driver, commands, layout, throw, departures, wanted, .. } = self;
+        let Layout { panels, plots, .. } = layout;
         let view = driver.view();
         let transport = egui::Panel::bottom("transport").show(ui, |ui| {
             ui.add_space(3.0);
@@ -246,22 +287,19 @@ impl Watching {
             ui.add_space(3.0);
             actions
         });
-        if panels.inspector {
-            egui::Panel::right("inspector")
-                .default_size(290.0)
-                .size_range(240.0..=460.0)
-                .show(ui, |ui| inspector::show(ui, view, throw, commands));
-        }
-        if panels.plots {
-            egui::Panel::left("plots")
-                .default_size(330.0)
-                .size_range(220.0..=700.0)
-                .show(ui, |ui| plots::show(ui, view, plots));
-        }
+        let whole = ui.available_size();
+        let mut room = 0.5 * whole.x;
+        INSPECTOR.show(ui, &mut room, &mut panels.inspector, |ui| {
+            inspector::show(ui, view, throw, commands);
+        });
+        PLOTS.show(ui, &mut room, &mut panels.plots, |ui| {
+            *wanted = plots::show(ui, view, departures.since(), plots);
+        });
         if panels.impacts {
             egui::Panel::bottom("impacts")
                 .resizable(true)
-                .default_size(170.0)
+                .default_size(170.0_f32.min(0.4 * whole.y))
+                .size_range(60.0..=0.5 * whole.y)
                 .show(ui, |ui| impact_list::show(ui, view, commands));
         }
         transport.inner
@@ -270,8 +308,8 @@ impl Watching {
     /// Buttons for what is shown, for the bar at the upper edge.
     pub fn switches(&self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
-        let Panels { inspector, plots, impacts } = self.panels;
-        let Marks { velocities, contacts, forces, .. } = self.marks;
+        let Panels { inspector, plots, impacts } = self.layout.panels;
+        let Marks { velocities, contacts, forces, .. } = self.layout.marks;
         let switches = [
             ("Inspector", inspector, Action::Inspector),
             ("Plots", plots, Action::Plots),
@@ -332,13 +370,18 @@ impl Watching {
     fn hints(&mut self, ui: &mut Ui, picture: Rect) -> Vec<Action> {
         let Some(orbit) = self.viewpoint.orbit() else { return Vec::new() };
         let camera = orbit.camera.in_picture(f64::from(picture.width() / picture.height()));
-        let Self { driver, commands, way, .. } = self;
+        let Self { driver, commands, way, restarted, .. } = self;
         *way = Way::of(driver.view(), *way);
-        hints::show(ui, picture, driver.view(), way.as_ref(), &camera, commands)
+        let told = hints::Told {
+            way: way.as_ref(),
+            restarted: *restarted,
+            seconds_at_work: driver.seconds_at_work(),
+        };
+        hints::show(ui, picture, driver.view(), told, &camera, commands)
     }
 
     fn look(&self, manner: Manner) -> Look {
-        Look { marks: self.marks, dark: manner.dark, blend: self.driver.blend() }
+        Look { marks: self.layout.marks, dark: manner.dark, blend: self.driver.blend() }
     }
 
     /// Draws the picture of one of the rules, where anything in it has changed.
@@ -367,21 +410,7 @@ impl Watching {
             Image::new((texture, rect.size())).paint_at(ui, rect);
         }
         if self.view().other.is_some() {
-            let view = side_of(self.view(), side);
-            let rule = view.setup.simulation.rule.to_string();
-            let painter = ui.painter_at(rect);
-            let place = rect.left_top() + Vec2::new(12.0, 10.0);
-            let font = egui::FontId::proportional(20.0);
-            let color =
-                if manner.dark { egui::Color32::WHITE } else { egui::Color32::from_gray(30) };
-            painter.text(place, egui::Align2::LEFT_TOP, rule, font, color);
-            if side == 1 {
-                painter.vline(
-                    rect.left(),
-                    rect.y_range(),
-                    egui::Stroke::new(2.0, egui::Color32::GRAY),
-                );
-            }
+            sides::show(ui, rect, self.driver.view(), side, &mut self.commands);
         }
     }
 

@@ -147,3 +147,25 @@ fn a_scene_changed_on_the_disk_is_read_anew() {
     assert!(desk.state().notices().any_error());
     assert_eq!(scene(&desk).view().spheres.radii, [0.75], "what was there stays");
 }
+
+#[test]
+fn a_path_that_is_typed_in_the_chooser_opens_and_is_found_under_recent() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.toml");
+    std::fs::write(&path, BALL).expect("written");
+    let mut desk = desk(setup());
+    desk.event(egui::Event::Text(path.display().to_string()));
+    desk.run_steps(3);
+    press(&mut desk, Key::Enter);
+    desk.run_steps(3);
+    assert_eq!(scene(&desk).view().scene.name, "one");
+    press(&mut desk, Key::Enter);
+    desk.get_by_label("Recent");
+    // It is the first of all.
+    press(&mut desk, Key::Enter);
+    assert_eq!(scene(&desk).view().scene.name, "one");
+    // A file that is gone is no longer offered.
+    std::fs::remove_file(&path).expect("removed");
+    press(&mut desk, Key::Enter);
+    assert!(desk.query_by_label("Recent").is_none());
+}

@@ -33,6 +33,8 @@ impl Host for Listener {
         inbox.put(ReadFile { path: file.path().to_owned(), content: file.bytes() });
     }
 
+    fn open_file(&mut self, _: &Inbox) {}
+
     fn begin_film(
         &mut self,
         name: &str,

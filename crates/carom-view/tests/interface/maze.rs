@@ -56,3 +56,27 @@ fn the_end_wall_wins_and_play_again_starts_anew() {
     assert_eq!((game.state(), game.collected()), (GameState::Rolling, 0));
     assert_eq!(game.best(), Some(time));
 }
+
+#[test]
+fn a_maze_that_is_won_leads_to_the_next_one() {
+    let mut desk = playing(Maze::from_text(SHORT, "short").expect("a maze"));
+    win(&mut desk);
+    desk.get_by_label("Next maze").click();
+    desk.run_steps(3);
+    let app = desk.state();
+    let name = &app.maze().expect("another game").game().scene().name;
+    assert_ne!(name, "short");
+    assert!(!app.maze().is_some_and(|it| it.is_won()));
+}
+
+#[test]
+fn the_help_says_how_to_tilt_a_maze_only_where_there_is_one() {
+    let mut desk = playing(Maze::course().expect("the course's maze"));
+    desk.key_press(Key::F1);
+    desk.run_steps(3);
+    desk.get_by_label("arrow keys, or W A S D");
+    let mut desk = crate::desk::watching("tutorial1");
+    desk.key_press(Key::F1);
+    desk.run_steps(3);
+    assert!(desk.query_by_label("arrow keys, or W A S D").is_none());
+}

@@ -2,10 +2,11 @@
 
 use carom_scene::{Library, Source};
 use carom_view::{Setup, Start};
+use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 
-use crate::desk::{Desk, desk_of, setup};
+use crate::desk::{Desk, desk_of, press, setup};
 
 const TELEPHONE: [f32; 2] = [390.0, 760.0];
 
@@ -38,4 +39,32 @@ fn the_menu_has_what_the_bar_has_elsewhere() {
     desk.get_by_label("Inspector").click();
     desk.run_steps(3);
     desk.get_by_label("rule");
+}
+
+#[test]
+fn in_small_windows_the_picture_keeps_half_of_the_room_beside_two_panels() {
+    for size in [[800.0, 600.0], [640.0, 640.0], [1000.0, 620.0]] {
+        let (simtest, _) = Library::new().find("simtest3", &[]).expect("a built-in scene");
+        let start = Some(Start::Scene(Box::new(simtest), Source::BuiltIn));
+        let mut desk = desk_of(size, Setup { start, ..setup() });
+        press(&mut desk, Key::G);
+        // Both are there, over the picture where there is no room beside it.
+        desk.get_by_label("rule");
+        assert!(desk.query_by_label_contains("Energy, J").is_some(), "{size:?}");
+        let picture = desk.get_by_role_and_label(Role::Image, "Scene").rect();
+        assert!(picture.width() >= 0.49 * size[0], "{size:?}: {picture}");
+        assert!(picture.height() >= 0.75 * size[1], "{size:?}: {picture}");
+    }
+}
+
+#[test]
+fn on_a_telephone_one_sheet_at_a_time_lies_over_the_foot_of_the_picture() {
+    let mut desk = on_a_telephone();
+    press(&mut desk, Key::I);
+    let rule = desk.get_by_label("rule").rect();
+    assert!(rule.top() > 0.5 * TELEPHONE[1] && rule.right() <= TELEPHONE[0], "{rule}");
+    press(&mut desk, Key::G);
+    assert!(desk.query_by_label("rule").is_none());
+    let energy = desk.get_by_label_contains("Energy, J").rect();
+    assert!(energy.top() > 0.5 * TELEPHONE[1], "{energy}");
 }

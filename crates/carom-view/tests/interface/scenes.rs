@@ -208,6 +208,29 @@ fn every_shortcut_is_in_the_help() {
 }
 
 #[test]
+fn the_help_opens_while_a_number_is_being_typed() {
+    let mut desk = watching("simtest1");
+    desk.get_all_by_label("Restitution of PlaneCollider").last().unwrap().click();
+    desk.run_steps(2);
+    press(&mut desk, Key::F1);
+    desk.get_by_label("Keys and mouse");
+}
+
+#[test]
+fn panels_that_were_opened_stay_open_in_the_next_scene() {
+    let mut desk = watching("simtest1");
+    press(&mut desk, Key::I);
+    press(&mut desk, Key::L);
+    press(&mut desk, Key::Enter);
+    desk.event(egui::Event::Text("tutorial1".to_owned()));
+    desk.run_steps(3);
+    press(&mut desk, Key::Enter);
+    assert_eq!(scene(&desk).view().scene.name, "tutorial1");
+    desk.get_by_label("Approach, m/s");
+    assert!(desk.query_by_label("rule").is_none());
+}
+
+#[test]
 fn a_ball_that_is_clicked_is_picked_and_one_is_thrown_with_control() {
     let mut desk = watching("tutorial1");
     let balls = scene(&desk).view().spheres.ids.len();

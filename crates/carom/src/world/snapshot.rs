@@ -1,7 +1,9 @@
 //! The state of a world as a value: to return to, and to compare by.
 
 use super::World;
+use crate::bodies::Sphere;
 use crate::hash::{self, StateHash};
+use crate::id::SphereId;
 use crate::state::State;
 
 /// The state of a world at one moment, to return to.
@@ -23,6 +25,19 @@ use crate::state::State;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Snapshot(State);
+
+impl Snapshot {
+    /// Time of the world then \[s\].
+    pub fn time(&self) -> f64 {
+        self.0.clock.seconds()
+    }
+
+    /// A sphere as it was then; `None` if it was not in the world.
+    pub fn sphere(&self, id: SphereId) -> Option<Sphere> {
+        let spheres = &self.0.spheres;
+        spheres.index_of(id).map(|index| spheres.get(index))
+    }
+}
 
 impl World {
     /// The state as one number, to compare worlds to the bit.

@@ -1,0 +1,77 @@
+//! What is measured of spheres as of the molecules of a gas: temperature and pressure.
+
+use carom::{BodyPair, Boundary, ColliderId, DVec3, Shape, Sides, StepReport, World};
+
+/// Temperature times Boltzmann's constant \[J\]: the mean of `m v²` along one direction, of the motion
+/// relative to that of all together, over the directions in which there is any. 0 without spheres.
+pub(crate) fn thermal_energy(world: &World) -> f64 {
+    let spheres = world.spheres();
+    let moving = || spheres.masses().iter().zip(spheres.velocities());
+    let (mass, momentum) = moving()
+        .fold((0.0, DVec3::ZERO), |(mass, momentum), (m, v)| (mass + m, momentum + *m * *v));
+    if spheres.is_empty() {
+        return 0.0;
+    }
+    let drift = momentum / mass;
+    let along: DVec3 = moving().map(|(m, v)| *m * (*v - drift) * (*v - drift)).sum();
+    // Less than this part of the rest is rounding.
+    const NOTHING: f64 = 1e-20;
+    let least = NOTHING * along.max_element();
+    let directions = along.to_array().iter().filter(|energy| **energy > least).count();
+    along.element_sum() / (spheres.len() * directions.max(1)) as f64
+}
+
+/// Where spheres are shut in, so that they have a pressure.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Enclosure {
+    /// In a closed container with an inner surface of `area` \[m²\].
+    Container { collider: ColliderId, area: f64 },
+    /// In a periodic box of `volume` \[m³\].
+    Periodic { volume: f64 },
+}
+
+impl Enclosure {
+    /// That of a world: its periodic box, or its first container that is closed.
+    pub fn of(world: &World) -> Option<Self> {
+        if let Boundary::Periodic { size } = world.settings().boundary {
+            return size.is_finite().then(|| Self::Periodic { volume: size.element_product() });
+        }
+        world.colliders().find_map(|(collider, it)| match it.shape {
+            Shape::Container { size, open: Sides::NONE } => {
+                let area = 2.0 * size.dot(DVec3::new(size.y, size.z, size.x));
+                Some(Self::Container { collider, area })
+            }
+            _ => None,
+        })
+    }
+
+    /// What the impacts of a step add to the pressure: impulses on the container \[N s\], in a
+    /// periodic box the virial `r J` of the impacts \[N m s\], r being the distance of the centres.
+    pub fn pressing(&self, report: &StepReport, world: &World) -> f64 {
+        let radius = |id| world.sphere(id).map_or(0.0, |sphere| sphere.radius);
+        let impacts = report.impacts.iter();
+        impacts
+            .map(|impact| match (self, impact.between) {
+                (Self::Container { collider, .. }, BodyPair::Collider { collider: hit, .. })
+                    if *collider == hit =>
+                {
+                    impact.impulse
+                }
+                (Self::Periodic { .. }, BodyPair::Spheres(first, second)) => {
+                    (radius(first) + radius(second)) * impact.impulse
+                }
+                _ => 0.0,
+            })
+            .sum()
+    }
+
+    /// Pressure \[Pa\] where [`Self::pressing`] grows by `rate` a second, of `count` spheres with this
+    /// thermal energy \[J\]: force by area on a container; in a periodic box, by the virial theorem,
+    /// `(N k T + Σ r J / (3 t)) / V`.
+    pub fn pressure(&self, rate: f64, count: usize, thermal_energy: f64) -> f64 {
+        match self {
+            Self::Container { area, .. } => rate / area,
+            Self::Periodic { volume } => (count as f64 * thermal_energy + rate / 3.0) / volume,
+        }
+    }
+}

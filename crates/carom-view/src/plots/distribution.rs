@@ -1,0 +1,102 @@
+//! How the speeds of all balls are distributed, beside what a gas would have.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use carom::DVec3;
+use carom_session::View;
+
+use super::figure::{BLUE, Curve, Figure, RED};
+
+/// Bars, at most.
+const MOST_BARS: usize = 40;
+/// Points of a line.
+const POINTS: usize = 120;
+
+/// How many balls have which speed now, and how many would have by Maxwell and Boltzmann at the
+/// temperature they have.
+pub fn speeds(view: &View) -> Figure {
+    let spheres = &view.spheres;
+    let speeds: Vec<f64> = spheres.velocities.iter().map(|it| it.length()).collect();
+    let fastest = speeds.iter().copied().fold(0.0, f64::max);
+    let bars = (2.0 * (speeds.len() as f64).sqrt()).clamp(8.0, MOST_BARS as f64) as usize;
+    let width = if fastest > 0.0 { 1.0001 * fastest / bars as f64 } else { 1.0 };
+    let mut counts = vec![0_u32; bars];
+    for speed in &speeds {
+        counts[((speed / width) as usize).min(bars - 1)] += 1;
+    }
+    let heights = counts.iter().enumerate();
+    let heights = heights.map(|(i, count)| ((i as f64 + 0.5) * width, f64::from(*count)));
+    let mut curves = vec![Curve::bars("balls", BLUE, width, heights)];
+    let thermal_energy = view.now.thermal_energy;
+    if thermal_energy > 0.0 {
+        let directions = directions(&spheres.velocities);
+        let masses = counted(&spheres.masses);
+        let step = 1.1 * fastest / POINTS as f64;
+        let places: Vec<f64> = (0..=POINTS).map(|i| i as f64 * step).collect();
+        let expected = |speed: f64| {
+            let of_mass = |(mass, count): (f64, usize)| {
+                count as f64 * density(speed, mass, thermal_energy, directions)
+            };
+            (speed, width * masses.iter().copied().map(of_mass).sum::<f64>())
+        };
+        curves.push(Curve::line("Maxwell-Boltzmann", RED, &places, |speed| expected(*speed)));
+    }
+    Figure::over("Balls by speed", "", ("speed", "m/s"), curves)
+}
+
+/// In how many directions there is any motion worth the name.
+fn directions(velocities: &[DVec3]) -> usize {
+    const NOTHING: f64 = 1e-9;
+    let largest = velocities.iter().fold(DVec3::ZERO, |largest, it| largest.max(it.abs()));
+    let least = NOTHING * largest.max_element();
+    largest.to_array().iter().filter(|it| **it > least).count()
+}
+
+/// How often each number is there.
+fn counted(numbers: &[f64]) -> Vec<(f64, usize)> {
+    let mut counts = BTreeMap::new();
+    // Positive numbers are in the order of their bits.
+    numbers.iter().for_each(|it| *counts.entry(it.to_bits()).or_insert(0) += 1);
+    counts.into_iter().map(|(bits, count)| (f64::from_bits(bits), count)).collect()
+}
+
+/// Probability density of a speed \[s/m\] by Maxwell and Boltzmann, of molecules of a mass \[kg\] that
+/// move in so many directions at a temperature of `heat` = k T \[J\].
+fn density(speed: f64, mass: f64, heat: f64, directions: usize) -> f64 {
+    let along = mass / heat;
+    let weight = (-0.5 * along * speed * speed).exp();
+    match directions {
+        0 | 1 => (2.0 * along / PI).sqrt() * weight,
+        2 => along * speed * weight,
+        _ => (2.0 / PI).sqrt() * along.powf(1.5) * speed * speed * weight,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_molecules_have_some_speed_and_their_energy_is_that_of_the_temperature() {
+        let (mass, heat, step) = (0.3, 0.7, 1e-3);
+        for directions in 1..=3 {
+            let moment = |power: i32| -> f64 {
+                let term = |i: u32| {
+                    let speed = (f64::from(i) + 0.5) * step;
+                    speed.powi(power) * density(speed, mass, heat, directions) * step
+                };
+                (0..20_000).map(term).sum()
+            };
+            // Sums at the midpoints have an error of the square of the step.
+            assert!((moment(0) - 1.0).abs() < 1e-6, "{directions}");
+            let energy = 0.5 * mass * moment(2);
+            assert!((energy - 0.5 * heat * directions as f64).abs() < 1e-6, "{directions}");
+        }
+    }
+
+    #[test]
+    fn masses_are_counted() {
+        assert_eq!(counted(&[2.0, 0.5, 2.0]), [(0.5, 1), (2.0, 2)]);
+    }
+}

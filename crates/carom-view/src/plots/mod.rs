@@ -1,0 +1,216 @@
+//! Plots of what is measured.
+
+mod distribution;
+mod figure;
+
+use carom::StageCounts;
+use carom_session::View;
+use egui::{Rect, ScrollArea, Ui};
+use serde::{Deserialize, Serialize};
+
+use figure::{BLUE, Curve, Figure, GREEN, GREY, RED};
+
+/// Which plots are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Shown {
+    /// Kinetic, potential and total energy.
+    pub energy: bool,
+    /// Parts and size of the momentum.
+    pub momentum: bool,
+    /// Impacts per second.
+    pub impacts: bool,
+    /// Height and speed of the picked ball, and its way through phase space.
+    pub picked: bool,
+    /// Speeds of all balls, their temperature and pressure.
+    pub gas: bool,
+    /// Work of each frame, by stage.
+    pub work: bool,
+    /// The direction of the plot in phase space: 0, 1, 2 for x, y, z.
+    pub direction: usize,
+}
+
+impl Default for Shown {
+    fn default() -> Self {
+        Self {
+            energy: true,
+            momentum: true,
+            impacts: true,
+            picked: true,
+            gas: false,
+            work: false,
+            direction: 1,
+        }
+    }
+}
+
+/// What is to be saved of the plots.
+pub enum Wanted {
+    /// A table in a file whose name ends with this.
+    Table { name: String, csv: String },
+    /// A picture of this part of the window, in points.
+    Picture(Rect),
+}
+
+/// All plots that are switched on, below each other. From `left` on \[s\] some balls have left: what
+/// they do then sets no scale. Returns what is to be saved.
+pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut Shown) -> Option<Wanted> {
+    let place = ui.max_rect();
+    let mut wanted = None;
+    ui.horizontal_wrapped(|ui| {
+        ui.checkbox(&mut shown.energy, "Energy");
+        ui.checkbox(&mut shown.momentum, "Momentum");
+        ui.checkbox(&mut shown.impacts, "Impacts");
+        ui.checkbox(&mut shown.picked, "Picked ball");
+        ui.checkbox(&mut shown.gas, "Gas");
+        ui.checkbox(&mut shown.work, "Work");
+        if ui.small_button("PNG").on_hover_text("Save a picture of these plots").clicked() {
+            wanted = Some(Wanted::Picture(place));
+        }
+    });
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let mut draw = |ui: &mut Ui, figures: Vec<Figure>| {
+            for mut figure in figures {
+                if figure.mark.is_some() {
+                    figure.scale_until = left;
+                }
+                if figure.show(ui) {
+                    let name = figure.title.to_lowercase().replace(' ', "-");
+                    wanted = Some(Wanted::Table { name, csv: figure.to_csv() });
+                }
+            }
+        };
+        draw(ui, over_time(view, shown));
+        if shown.gas {
+            draw(ui, gas(view));
+        }
+        if shown.picked {
+            if view.picked.is_none() {
+                ui.weak("Click on a ball to plot its height and speed.");
+            } else {
+                draw(ui, picked(view));
+                ui.horizontal(|ui| {
+                    for (i, name) in DIRECTIONS.iter().enumerate() {
+                        ui.selectable_value(&mut shown.direction, i, *name);
+                    }
+                    ui.weak("phase space");
+                });
+                draw(ui, vec![phase_space(view, shown.direction)]);
+            }
+        }
+        if shown.work {
+            draw(ui, work(view));
+        }
+    });
+    wanted
+}
+
+const DIRECTIONS: [&str; 3] = ["x", "y", "z"];
+
+/// What all balls have together.
+fn over_time(view: &View, shown: &Shown) -> Vec<Figure> {
+    let mut figures = Vec::new();
+    if view.other.is_some() {
+        figures.push(distances(view));
+    }
+    if shown.energy {
+        figures.push(energies(view));
+    }
+    if shown.momentum {
+        figures.push(momenta(view));
+    }
+    if shown.impacts {
+        let rate = Curve::line("all", BLUE, &view.readings, |it| (it.time, it.impact_rate));
+        figures.push(Figure::over_time("Impacts per second", "", view.time, vec![rate]));
+    }
+    figures
+}
+
+fn energies(view: &View) -> Figure {
+    let readings = &view.readings;
+    let mut curves = vec![
+        Curve::line("kinetic", RED, readings, |it| (it.time, it.kinetic_energy)),
+        Curve::line("potential", GREEN, readings, |it| (it.time, it.potential_energy)),
+        Curve::line("total", BLUE, readings, |it| (it.time, it.total_energy())),
+    ];
+    if let Some(other) = &view.other {
+        for curve in &mut curves {
+            curve.name = format!("{}, {}", curve.name, view.setup.simulation.rule);
+        }
+        let name = format!("total, {}", other.setup.simulation.rule);
+        curves.push(Curve::line(name, GREY, &other.readings, |it| (it.time, it.total_energy())));
+    }
+    Figure::over_time("Energy", "J", view.time, curves)
+}
+
+fn momenta(view: &View) -> Figure {
+    let readings = &view.readings;
+    let curves = vec![
+        Curve::line("x", RED, readings, |it| (it.time, it.momentum.x)),
+        Curve::line("y", GREEN, readings, |it| (it.time, it.momentum.y)),
+        Curve::line("z", BLUE, readings, |it| (it.time, it.momentum.z)),
+        Curve::line("size", GREY, readings, |it| (it.time, it.momentum.length())),
+    ];
+    Figure::over_time("Momentum", "kg m/s", view.time, curves)
+}
+
+/// Speeds of all balls now; temperature, and pressure where there is one, until now.
+fn gas(view: &View) -> Vec<Figure> {
+    let readings = &view.readings;
+    let heat = Curve::line("k T", RED, readings, |it| (it.time, it.thermal_energy));
+    let mut figures = vec![
+        distribution::speeds(view),
+        Figure::over_time("Temperature, as k T", "J", view.time, vec![heat]),
+    ];
+    if view.now.pressure.is_some() {
+        let pressure = |it: &carom_session::Reading| (it.time, it.pressure.unwrap_or_default());
+        let pressure = vec![Curve::line("p", BLUE, readings, pressure)];
+        figures.push(Figure::over_time("Pressure of impacts", "Pa", view.time, pressure));
+    }
+    figures
+}
+
+fn picked(view: &View) -> Vec<Figure> {
+    let Some(id) = view.picked else { return Vec::new() };
+    let readings = &view.picked_readings;
+    let height = vec![Curve::line("height", GREEN, readings, |it| (it.time, it.position.y))];
+    let speed = vec![Curve::line("speed", RED, readings, |it| (it.time, it.velocity.length()))];
+    vec![
+        Figure::over_time(format!("Height of ball {id}"), "m", view.time, height),
+        Figure::over_time(format!("Speed of ball {id}"), "m/s", view.time, speed),
+    ]
+}
+
+/// The way of the picked ball through phase space along one direction.
+fn phase_space(view: &View, direction: usize) -> Figure {
+    // What was kept from another start may be anything.
+    let direction = direction.min(DIRECTIONS.len() - 1);
+    let point = |it: &carom_session::PickedReading| {
+        (it.position.to_array()[direction], it.velocity.to_array()[direction])
+    };
+    let path = vec![Curve::line("path", BLUE, &view.picked_readings, point)];
+    let name = DIRECTIONS[direction];
+    Figure::over(format!("Velocity along {name}"), "m/s", (format!("position {name}"), "m"), path)
+}
+
+/// Work of each frame by stage, a figure for each: the numbers differ by orders of magnitude.
+fn work(view: &View) -> Vec<Figure> {
+    let figure = |title, color, count: fn(&StageCounts) -> u64| {
+        let curve =
+            Curve::line("all", color, &view.readings, |it| (it.time, count(&it.work) as f64));
+        Figure::over_time(title, "", view.time, vec![curve])
+    };
+    vec![
+        figure("Pair tests per frame", BLUE, |it| it.pair_tests),
+        figure("Events per frame", GREEN, |it| it.events),
+        figure("Solver iterations per frame", RED, |it| it.solver_iterations),
+    ]
+}
+
+fn distances(view: &View) -> Figure {
+    let curves = vec![
+        Curve::line("largest", RED, &view.distances, |it| (it.time, it.largest)),
+        Curve::line("root mean square", BLUE, &view.distances, |it| (it.time, it.root_mean_square)),
+    ];
+    Figure::over_time("Distance of the two", "m", view.time, curves)
+}

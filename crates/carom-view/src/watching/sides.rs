@@ -1,0 +1,57 @@
+//! What is said over the halves of a comparison, and chosen there.
+
+use carom_scene::scene::{Rule, Simulation};
+use carom_session::{Command, View};
+use egui::{ComboBox, Frame, Rect, Stroke, Ui, UiBuilder, Vec2};
+
+use super::side_of;
+use crate::inspector;
+
+const RULES: [Rule; 4] = [Rule::Exact, Rule::Contact, Rule::Bisect, Rule::Discrete];
+
+/// The rule of one half, which lies here, and its settings; each can be changed.
+pub(super) fn show(ui: &mut Ui, rect: Rect, view: &View, side: usize, commands: &mut Vec<Command>) {
+    if side == 1 {
+        let painter = ui.painter_at(rect);
+        painter.vline(rect.left(), rect.y_range(), Stroke::new(2.0, egui::Color32::GRAY));
+    }
+    let present = &side_of(view, side).setup.simulation;
+    let mut own = present.clone();
+    let upper =
+        Rect::from_min_size(rect.min + Vec2::splat(8.0), Vec2::new(rect.width() - 16.0, 30.0));
+    ui.scope_builder(UiBuilder::new().max_rect(upper).id_salt(("side", side)), |ui| {
+        Frame::popup(ui.style()).inner_margin(4.0).show(ui, |ui| {
+            ui.horizontal(|ui| {
+                let text = format!("Rule of the {} picture", ["left", "right"][side]);
+                let combo = ComboBox::from_id_salt("rule").selected_text(own.rule.to_string());
+                let shown = combo.show_ui(ui, |ui| {
+                    for rule in RULES {
+                        ui.selectable_value(&mut own.rule, rule, rule.to_string());
+                    }
+                });
+                shown.response.widget_info(|| {
+                    let rule = present.rule.to_string();
+                    egui::WidgetInfo {
+                        current_text_value: Some(rule),
+                        ..egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &text)
+                    }
+                });
+                ui.menu_button("Settings", |ui| {
+                    ui.set_min_width(240.0);
+                    inspector::simulation::edit(ui, &mut own);
+                });
+            });
+        });
+    });
+    if own != *present {
+        commands.push(Command::Compare(Some(Box::new(pair(view, side, own)))));
+    }
+}
+
+/// Both simulations, where that of one side is another one.
+fn pair(view: &View, side: usize, own: Simulation) -> [Simulation; 2] {
+    let mut pair = [0, 1].map(|side| side_of(view, side).setup.simulation.clone());
+    pair[1 - side].frame_time = own.frame_time;
+    pair[side] = own;
+    pair
+}
