@@ -6,11 +6,13 @@ use carom_scene::Library;
 use clap::{Parser, Subcommand};
 
 use crate::choice::{Changes, Choice, RULES};
+use crate::config::Config;
 use crate::failure::Failure;
 use crate::length::{Length, positive};
 use crate::link::Link;
 #[cfg(feature = "pictures")]
 use crate::pictures::args::{Maze, Picture, Record};
+use crate::replacing::Replacing;
 #[cfg(feature = "view")]
 use crate::window::View;
 
@@ -20,7 +22,8 @@ use crate::window::View;
 #[command(name = "carom", version, propagate_version = true)]
 pub struct Args {
     /// Folder with scene files of your own; may be given several times. The folders in
-    /// $CAROM_SCENES are searched after these, the built-in scenes last.
+    /// $CAROM_SCENES are searched after these, then those of the configuration file, the built-in
+    /// scenes last.
     #[arg(long, global = true, value_name = "DIR")]
     scenes: Vec<PathBuf>,
     /// What to do.
@@ -48,12 +51,13 @@ impl Args {
 pub struct Folders(Vec<PathBuf>);
 
 impl Folders {
-    /// All scenes that can be found.
-    pub fn library(&self) -> Result<Library, Failure> {
+    /// All scenes that can be found, those in the folders of a user's configuration, too.
+    pub fn library(&self, config: &Config) -> Result<Library, Failure> {
         let mut library = Library::new();
         let from_environment = std::env::var_os("CAROM_SCENES").unwrap_or_default();
         let from_environment = std::env::split_paths(&from_environment);
         let folders = self.0.iter().cloned().chain(from_environment);
+        let folders = folders.chain(config.scenes.iter().cloned());
         for folder in folders.filter(|folder| !folder.as_os_str().is_empty()) {
             library.add_folder(&folder).map_err(|error| Failure::Usage(error.to_string()))?;
         }
@@ -74,7 +78,7 @@ pub enum Command {
     New(New),
     /// Check scene files; says what is wrong, and in which line.
     Check {
-        /// Scene files.
+        /// Scene files; `-` is the standard input.
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
     },
@@ -122,9 +126,9 @@ pub enum Command {
 pub struct New {
     /// What the scene is called; the file is NAME.toml.
     pub name: PathBuf,
-    /// Replace a file that is there already.
-    #[arg(long)]
-    pub force: bool,
+    /// Whether a file that is there is replaced.
+    #[command(flatten)]
+    pub replacing: Replacing,
 }
 
 /// Write what shells read to complete words of the command line.
@@ -148,7 +152,7 @@ pub struct Show {
 /// Run a scene.
 #[derive(Debug, clap::Args)]
 pub struct Run {
-    /// Name or title of a scene, or a scene file.
+    /// Name or title of a scene, or a scene file; `-` reads the file from the standard input.
     #[arg(required_unless_present = "link")]
     pub scene: Option<String>,
     /// What is different.
@@ -161,14 +165,15 @@ pub struct Run {
     pub link: Option<String>,
     /// Step rule, instead of the scene's own. `bisect` winds back only the spheres that meet
     /// unless the scene says simulation.bisect.wind_back = "all", the tutorial's way.
-    #[arg(long, value_parser = RULES)]
+    #[arg(long, short, value_parser = RULES)]
     pub rule: Option<String>,
     /// How long, in which frames.
     #[command(flatten)]
     pub length: Length,
     /// Write the trajectory; the ending tells the format: .csv, .npz (NumPy), or .pvd (a series
-    /// of .vtp files for ParaView).
-    #[arg(long, value_name = "PATH")]
+    /// of .vtp files for ParaView, in a folder beside it). `-` writes CSV to the standard output, and
+    /// the summary to the standard error stream.
+    #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,
     /// Write only every N-th frame of the trajectory.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
@@ -180,6 +185,12 @@ pub struct Run {
     /// before and after. Kept by the rule `exact` only.
     #[arg(long, value_name = "PATH")]
     pub ledger: Option<PathBuf>,
+    /// Whether files that are there are replaced.
+    #[command(flatten)]
+    pub replacing: Replacing,
+    /// Run again whenever the scene file is changed, until Ctrl-C; files are written anew each time.
+    #[arg(long, short, conflicts_with = "link")]
+    pub watch: bool,
     /// Print the summary as JSON.
     #[arg(long)]
     pub json: bool,
@@ -215,8 +226,11 @@ pub struct Compare {
     #[command(flatten)]
     pub length: Length,
     /// Write a row for each frame to a .csv file.
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,
+    /// Whether a file that is there is replaced.
+    #[command(flatten)]
+    pub replacing: Replacing,
     /// Print JSON instead of a table.
     #[arg(long)]
     pub json: bool,

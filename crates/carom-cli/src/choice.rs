@@ -3,6 +3,7 @@
 use carom_scene::{Library, Override, Scene, Source};
 
 use crate::failure::Failure;
+use crate::standard_input::{self, STANDARD};
 
 /// Names of the step rules.
 pub const RULES: [&str; 4] = carom_scene::scene::Rule::NAMES;
@@ -10,7 +11,7 @@ pub const RULES: [&str; 4] = carom_scene::scene::Rule::NAMES;
 /// Which scene, and what is different in it.
 #[derive(Debug, clap::Args)]
 pub struct Choice {
-    /// Name or title of a scene, or a scene file.
+    /// Name or title of a scene, or a scene file; `-` reads the file from the standard input.
     scene: String,
     /// What is different.
     #[command(flatten)]
@@ -56,7 +57,13 @@ impl Changes {
         scene: &str,
         more: impl IntoIterator<Item = String>,
     ) -> Result<(Scene, Source), Failure> {
-        Ok(library.find(scene, &self.overrides(more)?)?)
+        let overrides = self.overrides(more)?;
+        if scene == STANDARD {
+            let text = standard_input::text()?;
+            let scene = Scene::from_toml_with(text, standard_input::NAME, &overrides)?;
+            return Ok((scene, Source::Registered));
+        }
+        Ok(library.find(scene, &overrides)?)
     }
 
     /// These changes, and then those of `more`.

@@ -30,6 +30,7 @@ pub fn compare(library: &Library, args: &Compare) -> Result<(), Failure> {
         runs.push(Run::new(rule, scene.world()?));
         name = scene.name;
     }
+    args.replacing.check(args.out.as_deref())?;
     let mut rows = args.out.as_deref().map(|path| Rows::create(path, &args.rules)).transpose()?;
     for _ in 0..frames {
         for run in &mut runs {

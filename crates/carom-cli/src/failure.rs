@@ -27,17 +27,24 @@ impl Failure {
     pub fn report(self) -> u8 {
         match self {
             Self::Usage(message) => {
-                complain(&format!("carom: {message}"));
+                refuse(&message);
                 USAGE
             }
             Self::Fault(message) => {
-                complain(&format!("carom: {message}"));
+                refuse(&message);
                 1
             }
             Self::OutputClosed => 0,
             Self::Interrupted => 130,
         }
     }
+}
+
+/// Says why the command stops; in colour where a terminal shows it, unless `NO_COLOR` or another of
+/// the usual variables says otherwise.
+fn refuse(message: &str) {
+    let red = clap::builder::styling::AnsiColor::Red.on_default().bold();
+    writeln!(anstream::stderr(), "{red}carom:{red:#} {message}").ok();
 }
 
 /// Writes a line to the standard error stream. If that is gone too, the line is lost.

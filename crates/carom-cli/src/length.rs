@@ -9,10 +9,10 @@ pub struct Length {
     #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
     frame_time: Option<f64>,
     /// How long to run, instead of the scene's own duration; taken up to whole frames.
-    #[arg(long, conflicts_with = "frames", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, short, conflicts_with = "frames", value_parser = positive, allow_negative_numbers = true)]
     seconds: Option<f64>,
     /// How many frames to run.
-    #[arg(long)]
+    #[arg(long, short = 'n')]
     frames: Option<u64>,
 }
 

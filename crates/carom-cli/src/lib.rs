@@ -6,8 +6,10 @@
 mod advice;
 mod args;
 mod bench;
+mod changed_file;
 mod choice;
 mod compare;
+mod config;
 mod contact_totals;
 mod failure;
 mod gas;
@@ -21,9 +23,11 @@ mod numbers;
 #[cfg(feature = "pictures")]
 pub mod pictures;
 mod progress;
+mod replacing;
 mod run;
 mod scenes;
 mod stage_work;
+mod standard_input;
 mod summary;
 mod table;
 mod verify;
@@ -37,6 +41,7 @@ use carom_scene::{Library, Scene};
 use clap::Parser;
 
 use args::{Args, Command};
+use config::Config;
 use failure::Failure;
 
 /// Does what `arguments` say, the name of the program first, and returns with which code the
@@ -58,8 +63,9 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, registered: Vec<Scene
 
 fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
     let (folders, command) = args.split();
+    let config = Config::load()?;
     let library = || -> Result<Library, Failure> {
-        let mut library = folders.library()?;
+        let mut library = folders.library(&config)?;
         registered.into_iter().try_for_each(|scene| library.register(scene))?;
         Ok(library)
     };
@@ -69,7 +75,7 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
         Command::Check { files } => scenes::check(files),
         Command::Show(show) => scenes::show(&library()?, show),
         Command::Run(run) => run::run(&library()?, run),
-        Command::Link(link) => link::link(&library()?, link),
+        Command::Link(link) => link::link(&library()?, link, &config),
         Command::Verify(verify) => verify::verify(verify),
         Command::Compare(compare) => compare::compare(&library()?, compare),
         Command::Bench(bench) => bench::bench(bench),
@@ -80,8 +86,8 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
         #[cfg(feature = "pictures")]
         Command::Record(record) => pictures::record(&library()?, record),
         #[cfg(feature = "pictures")]
-        Command::Maze(maze) => pictures::maze(library()?, maze),
+        Command::Maze(maze) => pictures::maze(library()?, maze, &config),
         #[cfg(feature = "view")]
-        Command::View(view) => window::view(library()?, view),
+        Command::View(view) => window::view(library()?, view, &config),
     }
 }

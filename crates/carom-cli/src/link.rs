@@ -7,8 +7,10 @@ use carom_scene::{Library, Source};
 use carom_session::{LOCAL_PAGE, LinkSource, Replay};
 
 use crate::choice::{Choice, RULES};
+use crate::config::Config;
 use crate::failure::Failure;
 use crate::length::whole_frames;
+use crate::standard_input::{self, STANDARD};
 
 /// Print a link.
 #[derive(Debug, clap::Args)]
@@ -17,14 +19,14 @@ pub struct Link {
     #[command(flatten)]
     choice: Choice,
     /// Step rule, instead of the scene's own.
-    #[arg(long, value_parser = RULES)]
+    #[arg(long, short, value_parser = RULES)]
     rule: Option<String>,
     /// Time that the run has come to when it is opened; taken up to whole frames. Without it, the
     /// page opens the scene at its beginning, and `carom run` runs it for its own duration.
     #[arg(long, visible_alias = "time", value_parser = non_negative, allow_negative_numbers = true)]
     seconds: Option<f64>,
-    /// Address of the page that opens the link; $CAROM_PAGE or that of `cargo xtask web --serve`,
-    /// unless given.
+    /// Address of the page that opens the link; $CAROM_PAGE, that of the configuration file, or that
+    /// of `cargo xtask web --serve`, unless given.
     #[arg(long, value_name = "URL")]
     page: Option<String>,
 }
@@ -37,11 +39,15 @@ fn non_negative(text: &str) -> Result<f64, String> {
 }
 
 /// Prints a link to a run of a scene.
-pub fn link(library: &Library, args: &Link) -> Result<(), Failure> {
+pub fn link(library: &Library, args: &Link, config: &Config) -> Result<(), Failure> {
     let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
-    let overrides = args.choice.changes().overrides(rule)?;
-    let (scene, source) = library.find(args.choice.scene(), &overrides)?;
+    let overrides = args.choice.changes().overrides(rule.clone())?;
+    let (scene, source) = args.choice.changes().find(library, args.choice.scene(), rule)?;
     let link = match source {
+        _ if args.choice.scene() == STANDARD => {
+            let (name, text) = (format!("{}.toml", scene.name), standard_input::text()?.to_owned());
+            carom_session::Link::new(LinkSource::File { name, text }).with_overrides(overrides)
+        }
         Source::BuiltIn => {
             // As it is called without overrides, which may change its name, too.
             let name = library.find(args.choice.scene(), &[])?.0.name;
@@ -57,7 +63,7 @@ pub fn link(library: &Library, args: &Link) -> Result<(), Failure> {
         }
         None => link,
     };
-    writeln!(io::stdout().lock(), "{}#{link}", page(args)?)?;
+    writeln!(io::stdout().lock(), "{}#{link}", page(args.page.as_deref(), config)?)?;
     Ok(())
 }
 
@@ -69,20 +75,17 @@ fn file(path: &Path) -> Result<LinkSource, Failure> {
     Ok(LinkSource::File { name, text })
 }
 
-/// Address of the page that opens links.
-fn page(args: &Link) -> Result<String, Failure> {
-    let page = args.page.clone().unwrap_or_else(usual_page);
+/// Address of the page that opens links: the one that is given, that of the environment or the
+/// configuration file, or the one on this machine.
+pub fn page(given: Option<&str>, config: &Config) -> Result<String, Failure> {
+    let from_environment = || std::env::var("CAROM_PAGE").ok().filter(|page| !page.is_empty());
+    let page = given.map(str::to_owned).or_else(from_environment).or_else(|| config.page.clone());
+    let page = page.unwrap_or_else(|| LOCAL_PAGE.to_owned());
     if page.contains('#') {
         let message = format!("the address of a page must have no #, as {page} has");
         return Err(Failure::Usage(message));
     }
     Ok(page)
-}
-
-/// The page that opens links by default.
-pub fn usual_page() -> String {
-    let from_environment = std::env::var("CAROM_PAGE").ok().filter(|page| !page.is_empty());
-    from_environment.unwrap_or_else(|| LOCAL_PAGE.to_owned())
 }
 
 /// What a link leads to, at the beginning of its run, and how many frames of it to take.
@@ -105,9 +108,5 @@ pub fn read(link: &str) -> Result<carom_session::Link, Failure> {
 
 /// A link as it is written: `-` stands for the standard input.
 fn written(link: &str) -> Result<String, Failure> {
-    if link != "-" {
-        return Ok(link.to_owned());
-    }
-    io::read_to_string(io::stdin())
-        .map_err(|error| Failure::Fault(format!("cannot read the link: {error}")))
+    Ok(if link == STANDARD { standard_input::text()?.to_owned() } else { link.to_owned() })
 }

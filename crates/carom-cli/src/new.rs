@@ -6,6 +6,7 @@ use std::path::Path;
 
 use crate::args::New;
 use crate::failure::Failure;
+use crate::replacing::already_there;
 
 /// The scene, called `NAME`.
 const TEMPLATE: &str = include_str!("new.toml");
@@ -22,7 +23,7 @@ pub fn new(new: &New) -> Result<(), Failure> {
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     // A name may hold what ends a text in TOML.
     let name = toml_text(&name);
-    write(&file, &TEMPLATE.replace("\"NAME\"", &name), new.force)?;
+    write(&file, &TEMPLATE.replace("\"NAME\"", &name), new.replacing.force)?;
     let mut out = io::stdout().lock();
     writeln!(out, "{file} is there: change it, and run it with", file = file.display())?;
     writeln!(out, "    carom view {}", file.display())?;
@@ -44,9 +45,7 @@ fn write(file: &Path, content: &str, replaces: bool) -> Result<(), Failure> {
         options.create_new(true);
     }
     let mut writing = options.open(file).map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => {
-            Failure::Usage(format!("{} is there already; --force replaces it", file.display()))
-        }
+        ErrorKind::AlreadyExists => already_there(file),
         _ => Failure::Fault(format!("cannot write {}: {error}", file.display())),
     })?;
     let written = writing.write_all(content.as_bytes());

@@ -1,22 +1,60 @@
 //! The command `run`: steps a scene, records it, sums it up.
 
-use std::sync::atomic::Ordering;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use carom::{StopRequest, World};
-use carom_scene::Library;
-use carom_scene::recording::{ImpactTable, LedgerTable, Trajectory};
+use carom_scene::recording::{ImpactTable, LedgerTable, RecordingError, Trajectory};
 use carom_scene::scene::Rule;
+use carom_scene::{Library, Source};
 use carom_session::Replay;
 
 use crate::args::Run;
-use crate::failure::Failure;
+use crate::changed_file::ChangedFile;
+use crate::failure::{Failure, complain};
 use crate::interruption::interruption;
 use crate::link;
 use crate::progress::Progress;
+use crate::standard_input::STANDARD;
 use crate::summary::{Observer, Summary};
 
-/// Runs a scene and prints what became of it.
+/// Runs a scene and prints what became of it; again and again, if its file is watched.
 pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
+    let files = [&args.out, &args.impacts, &args.ledger];
+    args.replacing.check(files.into_iter().flatten().map(PathBuf::as_path))?;
+    let interrupted = interruption()?;
+    if !args.watch {
+        return once(library, args, &interrupted);
+    }
+    let mut file = ChangedFile::new(&watched(library, args)?);
+    loop {
+        match once(library, args, &interrupted) {
+            Err(failure @ (Failure::Interrupted | Failure::OutputClosed)) => return Err(failure),
+            Err(failure) => _ = failure.report(),
+            Ok(()) => {}
+        }
+        complain(&format!("carom: waiting for a change of {}; Ctrl-C ends", file.path().display()));
+        if !file.wait(&interrupted) {
+            return Err(Failure::Interrupted);
+        }
+    }
+}
+
+/// The file that is watched.
+fn watched(library: &Library, args: &Run) -> Result<PathBuf, Failure> {
+    let scene = args.scene.as_deref().unwrap_or_default();
+    match args.changes.find(library, scene, []) {
+        Ok((_, Source::File(path))) => Ok(path),
+        Ok(_) => Err(Failure::Usage(format!("--watch needs a scene file, which {scene} is not"))),
+        // What is wrong with it may be mended while it is watched.
+        Err(_) if Path::new(scene).is_file() => Ok(PathBuf::from(scene)),
+        Err(failure) => Err(failure),
+    }
+}
+
+fn once(library: &Library, args: &Run, interrupted: &Arc<AtomicBool>) -> Result<(), Failure> {
     let (mut replay, frames) = match (&args.link, &args.scene) {
         (Some(link), _) => link::begin(link)?,
         // Without a link there is a scene: the command line demands it.
@@ -24,7 +62,6 @@ pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
     };
 
     let mut outputs = Outputs::create(args, replay.simulation().rule)?;
-    let interrupted = interruption()?;
     replay.set_stop_request(Some(StopRequest::from(interrupted.clone())));
     let mut observer = Observer::new(replay.world());
     let progress = Progress::new(frames);
@@ -49,7 +86,12 @@ pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
     let finished = outputs.finish();
     result?;
     finished?;
-    Summary::new(&replay, observer).print(args.json)?;
+    let summary = Summary::new(&replay, observer);
+    if is_standard(args.out.as_deref()) {
+        summary.print(&mut io::stderr().lock(), args.json)?;
+    } else {
+        summary.print(&mut io::stdout().lock(), args.json)?;
+    }
     if interrupted.load(Ordering::Relaxed) { Err(Failure::Interrupted) } else { Ok(()) }
 }
 
@@ -60,6 +102,18 @@ fn begin(library: &Library, scene: &str, args: &Run) -> Result<(Replay, u64), Fa
     let simulation = &scene.simulation;
     let frames = args.length.frames(simulation.duration, simulation.frame_time)?;
     Ok((Replay::new(scene)?, frames))
+}
+
+/// Whether this stands for the standard output.
+fn is_standard(path: Option<&Path>) -> bool {
+    path.is_some_and(|path| path.as_os_str() == STANDARD)
+}
+
+fn trajectory(path: &Path) -> Result<Trajectory, RecordingError> {
+    if is_standard(Some(path)) {
+        return Ok(Trajectory::csv(io::stdout(), STANDARD));
+    }
+    Trajectory::create(path)
 }
 
 /// The files of a run.
@@ -85,7 +139,7 @@ impl Outputs {
             return Err(Failure::Usage(message.to_owned()));
         }
         Ok(Self {
-            trajectory: args.out.as_deref().map(Trajectory::create).transpose()?,
+            trajectory: args.out.as_deref().map(trajectory).transpose()?,
             impacts: args.impacts.as_deref().map(ImpactTable::create).transpose()?,
             ledger: args.ledger.as_deref().map(LedgerTable::create).transpose()?,
             every: args.every,

@@ -3,11 +3,12 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use carom_scene::{Entry, Library, Scene};
+use carom_scene::{Entry, Fault, Library, Scene};
 use serde_json::json;
 
 use crate::args::Show;
 use crate::failure::{Failure, complain};
+use crate::standard_input::{self, STANDARD};
 
 /// Lists every scene found.
 pub fn list(library: &Library, json: bool) -> Result<(), Failure> {
@@ -56,10 +57,23 @@ pub fn check(files: &[PathBuf]) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let mut broken = 0;
     for file in files {
-        match Scene::from_file(file, &[]) {
-            Ok(scene) => writeln!(out, "{}: ok, \"{}\"", file.display(), scene.name)?,
-            Err(error) => {
-                complain(&error.to_string());
+        let (name, text) = if file.as_os_str() == STANDARD {
+            (standard_input::NAME.to_owned(), Ok(standard_input::text()?.to_owned()))
+        } else {
+            (file.display().to_string(), std::fs::read_to_string(file))
+        };
+        let faults = match text {
+            Ok(text) => Scene::from_toml(&text, &name).map_err(|error| {
+                let faults = Scene::faults(&text, &name);
+                // What a single fault says is the error itself.
+                if faults.len() > 1 { lines(&faults) } else { error.to_string() }
+            }),
+            Err(error) => Err(format!("cannot read {name}: {error}")),
+        };
+        match faults {
+            Ok(scene) => writeln!(out, "{name}: ok, \"{}\"", scene.name)?,
+            Err(faults) => {
+                complain(&faults);
                 broken += 1;
             }
         }
@@ -68,6 +82,11 @@ pub fn check(files: &[PathBuf]) -> Result<(), Failure> {
         0 => Ok(()),
         _ => Err(Failure::Fault(format!("{broken} of {} scene files are broken", files.len()))),
     }
+}
+
+/// Each on a line of its own.
+fn lines(faults: &[Fault]) -> String {
+    faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// Prints a scene as TOML.

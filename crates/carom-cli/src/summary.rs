@@ -199,8 +199,7 @@ impl Summary {
     }
 
     /// Prints the figures as a table, or as JSON.
-    pub fn print(&self, json: bool) -> io::Result<()> {
-        let mut out = io::stdout().lock();
+    pub fn print(&self, mut out: &mut dyn Write, json: bool) -> io::Result<()> {
         if json {
             serde_json::to_writer_pretty(&mut out, self)?;
             return writeln!(out);

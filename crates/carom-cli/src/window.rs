@@ -8,8 +8,9 @@ use carom_scene::{Library, Scene, Source};
 use carom_view::{Desktop, Setup, Start, default_folder, window};
 
 use crate::choice::{Changes, RULES};
+use crate::config::Config;
 use crate::failure::Failure;
-use crate::link::{self, usual_page};
+use crate::link;
 use crate::pictures::args::quality;
 
 /// Watch a scene.
@@ -25,34 +26,40 @@ pub struct View {
     #[command(flatten)]
     changes: Changes,
     /// Step rule, instead of the scene's own.
-    #[arg(long, value_parser = RULES, requires = "scene")]
+    #[arg(long, short, value_parser = RULES, requires = "scene")]
     rule: Option<String>,
     /// Watch a scene that is a maze, too, instead of playing in it.
     #[arg(long, requires = "scene")]
     watch: bool,
     /// Folder for pictures and films; Pictures/carom in your own folder, unless given.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Address of the page that opens links; $CAROM_PAGE, that of the configuration file, or that of
+    /// `cargo xtask web --serve`, unless given.
+    #[arg(long, value_name = "URL")]
+    page: Option<String>,
     /// How much work goes into the pictures; `draft` is for slow machines.
     #[arg(long, value_parser = quality(), default_value = "good")]
     quality: Quality,
 }
 
 /// Opens the window with a scene, or to choose one.
-pub fn view(library: Library, args: &View) -> Result<(), Failure> {
+pub fn view(library: Library, args: &View, config: &Config) -> Result<(), Failure> {
     let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
     let found = args.scene.as_deref().map(|scene| args.changes.find(&library, scene, rule));
     let start = match &args.link {
         Some(link) => Some(Start::Link(Box::new(link::read(link)?))),
         None => found.transpose()?.map(|(scene, source)| start(scene, source, args.watch)),
     };
-    let folder = args.out.clone();
-    open(library, start, folder, args.quality)
+    let folder = args.out.clone().or_else(|| config.pictures.clone());
+    let page = link::page(args.page.as_deref(), config)?;
+    open(library, start, desktop(folder, page), args.quality)
 }
 
 /// Opens the window with the maze game.
-pub fn play(library: Library, maze: Maze) -> Result<(), Failure> {
-    open(library, Some(Start::Maze(Box::new(maze))), None, Quality::default())
+pub fn play(library: Library, maze: Maze, config: &Config) -> Result<(), Failure> {
+    let desktop = desktop(config.pictures.clone(), link::page(None, config)?);
+    open(library, Some(Start::Maze(Box::new(maze))), desktop, Quality::default())
 }
 
 /// A scene with a maze in it is played, unless it is to be watched.
@@ -64,13 +71,17 @@ fn start(scene: Scene, source: Source, watch: bool) -> Start {
     }
 }
 
+/// The desktop, with this folder for pictures and this page for links.
+fn desktop(folder: Option<PathBuf>, page: String) -> Desktop {
+    Desktop::new(folder.unwrap_or_else(default_folder)).with_page(page)
+}
+
 fn open(
     library: Library,
     start: Option<Start>,
-    folder: Option<PathBuf>,
+    desktop: Desktop,
     quality: Quality,
 ) -> Result<(), Failure> {
-    let desktop = Desktop::new(folder.unwrap_or_else(default_folder)).with_page(usual_page());
     let host = Box::new(desktop);
     let setup = Setup { library, start, host, quality, threaded: true };
     window::open(setup).map_err(|error| Failure::Fault(error.to_string()))

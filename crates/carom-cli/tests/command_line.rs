@@ -157,8 +157,8 @@ fn the_trajectory_as_vtk_is_a_series_with_a_list_of_its_times() {
     let list = std::fs::read_to_string(&file).unwrap();
     let listed: Vec<&str> = list.lines().filter(|line| line.contains("<DataSet")).collect();
     assert_eq!(listed.len(), 2);
-    assert!(listed[1].contains("timestep=\"0.16666666666666666\" file=\"run_000001.vtp\""));
-    let frame = vtkio::Vtk::import(folder.path().join("run_000001.vtp")).unwrap();
+    assert!(listed[1].contains("timestep=\"0.16666666666666666\" file=\"run_frames/000001.vtp\""));
+    let frame = vtkio::Vtk::import(folder.path().join("run_frames/000001.vtp")).unwrap();
     let vtkio::model::DataSet::PolyData { pieces, .. } = frame.data else { panic!("poly data") };
     let vtkio::model::Piece::Inline(piece) = &pieces[0] else { panic!("inline") };
     assert_eq!(piece.points.len(), 3 * 10);
@@ -291,11 +291,12 @@ fn a_full_disk_is_one_clear_line_in_every_format() {
         let text = bad_line(&["run", "simtest1", "--out", file], 1);
         assert!(text.contains("cannot write") && text.contains("No space left"), "{text}");
     }
-    let frame = folder.path().join("v_000000.vtp");
+    std::fs::create_dir(folder.path().join("v_frames")).unwrap();
+    let frame = folder.path().join("v_frames/000000.vtp");
     std::os::unix::fs::symlink("/dev/full", &frame).unwrap();
     let series = folder.path().join("v.pvd");
     let text = bad_line(&["run", "simtest1", "--out", series.to_str().unwrap()], 1);
-    assert!(text.contains("v.pvd: v_000000.vtp: No space left"), "{text}");
+    assert!(text.contains("v.pvd: v_frames/000000.vtp: No space left"), "{text}");
     let impacts = folder.path().join("i.csv");
     std::os::unix::fs::symlink("/dev/full", &impacts).unwrap();
     let text = bad_line(&["run", "simtest1", "--impacts", impacts.to_str().unwrap()], 1);

@@ -20,6 +20,7 @@ mod builtin;
 mod check;
 mod error;
 mod expand;
+mod faults;
 mod force;
 mod formula;
 mod generate;

@@ -14,7 +14,8 @@ use crate::wording::{in_plain_words, suggestion, with_names};
 use crate::world;
 
 impl Scene {
-    /// Reads a scene from TOML; `source_name` is what errors call it.
+    /// Reads a scene from TOML; `source_name` is what errors call it, and without its ending the name of
+    /// a scene that has none.
     ///
     /// ```
     /// use carom_scene::Scene;
@@ -52,8 +53,8 @@ impl Scene {
             let line = error.span().map(|span| line_at(text, span.start));
             fault(source_name, line, "", error.message())
         })?;
-        let original: Table =
-            toml::from_str(text).map_err(|error| fault(source_name, None, "", error.message()))?;
+        let original = named(text, source_name)
+            .map_err(|error| fault(source_name, None, "", error.message()))?;
         let mut table = original.clone();
         for changed in overrides {
             changed.apply(&mut table)?;
@@ -104,6 +105,16 @@ impl Scene {
     }
 }
 
+/// A scene's table as it is written, with the name of the file where it has none.
+pub(crate) fn named(text: &str, source_name: &str) -> Result<Table, toml::de::Error> {
+    let mut table: Table = toml::from_str(text)?;
+    let file = Path::new(source_name).file_stem().unwrap_or_default();
+    if !(table.contains_key("name") || file.is_empty()) {
+        table.insert("name".to_owned(), file.to_string_lossy().into_owned().into());
+    }
+    Ok(table)
+}
+
 /// The names of the parameters that a file has.
 fn parameter_names<'a>(document: &'a Spanned<DeTable>) -> impl Iterator<Item = &'a str> {
     let table = document.get_ref().get(parameters::TABLE);
@@ -112,7 +123,7 @@ fn parameter_names<'a>(document: &'a Spanned<DeTable>) -> impl Iterator<Item = &
 }
 
 /// A scene from its table, or the first problem with it.
-fn read(mut table: Table) -> Result<Scene, Problem> {
+pub(crate) fn read(mut table: Table) -> Result<Scene, Problem> {
     parameters::resolve(&mut table)?;
     let scene: Scene = serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
         let path = error.path().to_string();
@@ -147,7 +158,7 @@ impl Heading {
     }
 }
 
-fn fault(source_name: &str, line: Option<usize>, field: &str, problem: &str) -> Fault {
+pub(crate) fn fault(source_name: &str, line: Option<usize>, field: &str, problem: &str) -> Fault {
     Fault {
         source_name: source_name.to_owned(),
         line,
@@ -159,7 +170,7 @@ fn fault(source_name: &str, line: Option<usize>, field: &str, problem: &str) -> 
 
 /// Line of what a problem is about: the field itself, or the nearest thing around it that is
 /// written in the file.
-fn line_of(document: &Spanned<DeTable>, text: &str, problem: &Problem) -> Option<usize> {
+pub(crate) fn line_of(document: &Spanned<DeTable>, text: &str, problem: &Problem) -> Option<usize> {
     let mut path = segments(&problem.field);
     // "unknown field `x`" is reported at the table that holds x.
     path.extend(problem.problem.split('`').nth(1).map(str::to_owned));
@@ -184,6 +195,6 @@ fn line_of(document: &Spanned<DeTable>, text: &str, problem: &Problem) -> Option
     Some(line)
 }
 
-fn line_at(text: &str, offset: usize) -> usize {
+pub(crate) fn line_at(text: &str, offset: usize) -> usize {
     text.as_bytes().iter().take(offset).filter(|&&byte| byte == b'\n').count() + 1
 }

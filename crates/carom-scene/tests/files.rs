@@ -206,9 +206,12 @@ fn what_one_rule_reads_stands_in_its_table_alone() {
 }
 
 #[test]
-fn a_missing_name_is_told_without_a_line() {
-    let text = refusal(&GOOD.replacen("name = \"test\"", "", 1));
-    assert_eq!(text, "test.toml: missing field `name`");
+fn a_scene_without_a_name_has_that_of_its_file() {
+    let text = GOOD.replacen("name = \"test\"", "", 1);
+    let scene = Scene::from_toml(&text, "some/folder/drop.toml").unwrap();
+    assert_eq!(scene.name, "drop");
+    let text = refusal(&GOOD.replacen("name = \"test\"", "name = \"\"", 1));
+    assert!(text.contains("name: must not be empty"), "{text}");
 }
 
 #[test]

@@ -78,7 +78,7 @@ fn a_ball_that_turns_is_recorded_with_its_rotation() {
     assert_eq!((orientations.len(), rates.len()), (40, 30));
     assert_eq!([&orientations[36..], &rates[27..]].concat(), is);
 
-    let names = attributes(&path("t_000009.vtp"));
+    let names = attributes(&path("t_frames/000009.vtp"));
     assert!(names.iter().any(|it| it == "orientation"), "{names:?}");
     assert!(names.iter().any(|it| it == "angular_velocity"), "{names:?}");
 
@@ -100,7 +100,7 @@ fn recordings_without_rotation_stay_as_they_are() {
         record(&frictionless, &path("t.npz"));
         assert_eq!(arrays(&path("t.npz")), 5);
         record(&frictionless, &path("t.pvd"));
-        assert_eq!(attributes(&path("t_000009.vtp")).len(), 4);
+        assert_eq!(attributes(&path("t_frames/000009.vtp")).len(), 4);
     }
 }
 

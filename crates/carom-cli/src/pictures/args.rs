@@ -8,6 +8,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use super::viewpoint::Viewpoint;
 use crate::choice::{Changes, Choice, RULES};
 use crate::length::positive;
+use crate::replacing::Replacing;
 
 /// How a scene is seen.
 #[derive(Debug, Clone, clap::Args)]
@@ -35,7 +36,7 @@ pub struct Picture {
     #[command(flatten)]
     pub choice: Choice,
     /// Step rule, instead of the scene's own.
-    #[arg(long, value_parser = RULES)]
+    #[arg(long, short, value_parser = RULES)]
     pub rule: Option<String>,
     /// When: the frame of the scene nearest to this time. The start, unless given.
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = not_negative)]
@@ -45,8 +46,11 @@ pub struct Picture {
     #[command(flatten)]
     pub look: Look,
     /// The picture, .png.
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, short, value_name = "PATH")]
     pub out: PathBuf,
+    /// Whether a file that is there is replaced.
+    #[command(flatten)]
+    pub replacing: Replacing,
 }
 
 /// Film a scene.
@@ -59,11 +63,11 @@ pub struct Record {
     #[command(flatten)]
     pub changes: Changes,
     /// Step rule, instead of the scene's own.
-    #[arg(long, value_parser = RULES, requires = "scene")]
+    #[arg(long, short, value_parser = RULES, requires = "scene")]
     pub rule: Option<String>,
     /// How long; unless given, the scene's own duration, all of a recording, or until a game is
     /// won.
-    #[arg(long, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, short, value_parser = positive, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
     /// Frames per second: 24, 25, 30, 50, 60, 120 or another divisor of 90,000 up to 240.
     #[arg(long, default_value_t = 30)]
@@ -84,8 +88,11 @@ pub struct Record {
     #[arg(long, conflicts_with_all = ["scene", "overrides", "rule", "from", "play"])]
     pub all: bool,
     /// The film, .mp4; with --all, a folder.
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, short, value_name = "PATH")]
     pub out: PathBuf,
+    /// Whether files that are there are replaced.
+    #[command(flatten)]
+    pub replacing: Replacing,
 }
 
 /// Play the maze game.

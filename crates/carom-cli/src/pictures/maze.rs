@@ -7,20 +7,21 @@ use carom_maze::random_text;
 use carom_scene::Library;
 
 use super::args;
+use crate::config::Config;
 use crate::failure::Failure;
 
 /// Plays the maze game in a window, or prints a random maze.
-pub fn maze(library: Library, args: &args::Maze) -> Result<(), Failure> {
+pub fn maze(library: Library, args: &args::Maze, config: &Config) -> Result<(), Failure> {
     if let Some(seed) = args.random.filter(|_| args.print) {
         let [columns, rows] = args.size;
         io::stdout().lock().write_all(random_text(seed, columns, rows)?.as_bytes())?;
         return Ok(());
     }
-    play(library, args)
+    play(library, args, config)
 }
 
 #[cfg(feature = "view")]
-fn play(library: Library, args: &args::Maze) -> Result<(), Failure> {
+fn play(library: Library, args: &args::Maze, config: &Config) -> Result<(), Failure> {
     use carom_maze::Maze;
 
     let [columns, rows] = args.size;
@@ -29,11 +30,11 @@ fn play(library: Library, args: &args::Maze) -> Result<(), Failure> {
         (None, Some(seed)) => Maze::random(seed, columns, rows)?,
         (None, None) => Maze::course()?,
     };
-    crate::window::play(library, maze)
+    crate::window::play(library, maze, config)
 }
 
 #[cfg(not(feature = "view"))]
-fn play(_: Library, _: &args::Maze) -> Result<(), Failure> {
+fn play(_: Library, _: &args::Maze, _: &Config) -> Result<(), Failure> {
     let message = "this build has no window (feature `view`); --random SEED --print prints a maze";
     Err(Failure::Usage(message.to_owned()))
 }

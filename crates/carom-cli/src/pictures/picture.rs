@@ -14,6 +14,7 @@ use crate::progress::Progress;
 /// Draws a scene at a time.
 pub fn picture(library: &Library, args: &Picture) -> Result<(), Failure> {
     check_ending(&args.out, "png")?;
+    args.replacing.check([args.out.as_path()])?;
     let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
     let scene = args.choice.find(library, rule)?;
     let h = scene.simulation.frame_time;

@@ -43,6 +43,7 @@ pub fn record(library: &Library, args: &Record) -> Result<(), Failure> {
         return record_all(args);
     };
     check_ending(&args.out, "mp4")?;
+    args.replacing.check([args.out.as_path()])?;
     let take = take(library, args, scene)?;
     let interrupted = interruption()?;
     shoot(order(args, &args.out), take, &mut Studio::new(args.look.clone())?, &interrupted)
@@ -51,6 +52,9 @@ pub fn record(library: &Library, args: &Record) -> Result<(), Failure> {
 /// One film after the other; those that are finished stay, whatever becomes of the next.
 fn record_all(args: &Record) -> Result<(), Failure> {
     let library = Library::new();
+    let films = ALL.iter().map(|(file, _)| *file).chain([GAME]);
+    let films: Vec<_> = films.map(|file| args.out.join(file)).collect();
+    args.replacing.check(films.iter().map(|film| film.as_path()))?;
     let interrupted = interruption()?;
     let mut studio = Studio::new(args.look.clone())?;
     for (file, scene) in ALL {

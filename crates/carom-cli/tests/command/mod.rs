@@ -8,10 +8,11 @@ use tempfile::TempDir;
 /// Path of the program.
 pub const CAROM: &str = env!("CARGO_BIN_EXE_carom");
 
-/// The command, in an environment that says nothing of scenes and pages.
+/// The command, in an environment that says nothing of scenes and pages, and without a configuration.
 pub fn carom() -> Command {
     let mut command = Command::new(CAROM);
     command.env_remove("CAROM_SCENES").env_remove("CAROM_PAGE");
+    command.env_remove("CAROM_CONFIG").env("XDG_CONFIG_HOME", "/nowhere");
     // Wayland's library complains aloud where this is missing.
     command.env("XDG_RUNTIME_DIR", std::env::temp_dir());
     command

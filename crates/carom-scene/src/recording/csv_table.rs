@@ -1,7 +1,7 @@
 //! Trajectories as CSV: one row per sphere and frame.
 
 use std::fs::File;
-use std::io;
+use std::io::{self, Write};
 use std::path::Path;
 
 use carom::World;
@@ -21,15 +21,18 @@ pub(super) const ORIENTATION: [&str; 4] = ["qx", "qy", "qz", "qw"];
 const ANGULAR_VELOCITY: [&str; 3] = ["wx", "wy", "wz"];
 
 pub(super) struct CsvTable {
-    writer: csv::Writer<File>,
+    writer: csv::Writer<Box<dyn Write + Send>>,
     /// Whether there are the columns of rotation; unknown before the first frame.
     has_rotation: Option<bool>,
 }
 
 impl CsvTable {
     pub fn create(path: &Path) -> io::Result<Self> {
-        let writer = csv::Writer::from_writer(File::create(path)?);
-        Ok(Self { writer, has_rotation: None })
+        Ok(Self::new(Box::new(File::create(path)?)))
+    }
+
+    pub fn new(out: Box<dyn Write + Send>) -> Self {
+        Self { writer: csv::Writer::from_writer(out), has_rotation: None }
     }
 
     /// Writes the names of the columns, unless they are there; returns whether rotation is among

@@ -75,6 +75,12 @@ impl Trajectory {
         Ok(Self { path: path.to_owned(), format })
     }
 
+    /// Writes CSV to `out`, which errors call `name`.
+    pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Self {
+        let format = Box::new(csv_table::CsvTable::new(Box::new(out)));
+        Self { path: PathBuf::from(name), format }
+    }
+
     /// Writes the spheres as they are now, in order of their numbers.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ use vtkio::model::{
 use super::format::Format;
 use super::rotation::{angular_velocity, orientation};
 
-/// Files `NAME.pvd` and `NAME_000000.vtp`, `NAME_000001.vtp`, ...
+/// The file `NAME.pvd`, and `000000.vtp`, `000001.vtp`, ... in the folder `NAME_frames` beside it.
 pub(super) struct Series {
     path: PathBuf,
     times: Vec<f64>,
@@ -26,12 +26,18 @@ impl Series {
         let series =
             Self { path: path.with_extension("pvd"), times: Vec::new(), has_rotation: false };
         series.write_list()?;
+        std::fs::create_dir_all(series.path.with_file_name(series.folder()))?;
         Ok(series)
     }
 
-    fn frame_path(&self, frame: usize) -> PathBuf {
-        let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
-        self.path.with_file_name(format!("{stem}_{frame:06}.vtp"))
+    /// Name of the folder of the frames.
+    fn folder(&self) -> String {
+        format!("{}_frames", self.path.file_stem().unwrap_or_default().to_string_lossy())
+    }
+
+    /// The file of a frame, as seen from the list.
+    fn frame_file(&self, frame: usize) -> String {
+        format!("{}/{frame:06}.vtp", self.folder())
     }
 
     fn write_list(&self) -> io::Result<()> {
@@ -40,8 +46,7 @@ impl Series {
         writeln!(list, r#"<VTKFile type="Collection" version="0.1">"#)?;
         writeln!(list, "  <Collection>")?;
         for (frame, time) in self.times.iter().enumerate() {
-            let path = self.frame_path(frame);
-            let file = path.file_name().unwrap_or_default().to_string_lossy();
+            let file = self.frame_file(frame);
             let file = file.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
             writeln!(list, r#"    <DataSet timestep="{time}" file="{file}"/>"#)?;
         }
@@ -55,13 +60,12 @@ impl Format for Series {
         if self.times.is_empty() {
             self.has_rotation = world.has_spin();
         }
-        let path = self.frame_path(self.times.len());
+        let name = self.frame_file(self.times.len());
+        let path = self.path.with_file_name(&name);
         let mut text = Vec::new();
         frame(world, self.has_rotation).write_xml(&mut text).map_err(io::Error::other)?;
-        std::fs::write(&path, text).map_err(|error| {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            io::Error::new(error.kind(), format!("{name}: {error}"))
-        })?;
+        std::fs::write(&path, text)
+            .map_err(|error| io::Error::new(error.kind(), format!("{name}: {error}")))?;
         self.times.push(world.time());
         Ok(())
     }

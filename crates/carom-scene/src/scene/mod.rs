@@ -32,7 +32,8 @@ pub use values::{Color, Quaternion, Vector};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Short name, as typed on the command line.
+    /// Short name, as typed on the command line; that of the file without its ending, unless given.
+    #[serde(default)]
     pub name: String,
     /// Name as shown to people; the scene is found by it too.
     #[serde(default, skip_serializing_if = "String::is_empty")]

@@ -1,0 +1,71 @@
+//! What a user has settled for all calls: the configuration file.
+
+use std::path::PathBuf;
+
+use serde::Deserialize;
+
+use crate::failure::Failure;
+
+/// The configuration file. What the command line or the environment says comes before it.
+#[derive(Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Config {
+    /// Folders with scene files.
+    pub scenes: Vec<PathBuf>,
+    /// Address of the page that opens links.
+    pub page: Option<String>,
+    /// Folder for pictures and films of the window.
+    pub pictures: Option<PathBuf>,
+}
+
+impl Config {
+    /// Reads the file, if there is one: that which $CAROM_CONFIG names, else `carom/config.toml` in the
+    /// folder of configurations.
+    pub fn load() -> Result<Self, Failure> {
+        let named = std::env::var_os("CAROM_CONFIG").filter(|it| !it.is_empty());
+        let is_named = named.is_some();
+        let Some(path) = named.map(PathBuf::from).or_else(usual_path) else {
+            return Ok(Self::default());
+        };
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(_) if !is_named => return Ok(Self::default()),
+            Err(error) => {
+                return Err(Failure::Usage(format!("cannot read {}: {error}", path.display())));
+            }
+        };
+        Self::read(&text).map_err(|(line, problem)| {
+            let line = line.map(|line| format!(":{line}")).unwrap_or_default();
+            Failure::Usage(format!("{}{line}: {problem}", path.display()))
+        })
+    }
+
+    /// Reads its text; an error has the line, where it has one.
+    fn read(text: &str) -> Result<Self, (Option<usize>, String)> {
+        toml::from_str(text).map_err(|error| {
+            let line = error.span().map(|span| 1 + text[..span.start].matches('\n').count());
+            (line, error.message().to_owned())
+        })
+    }
+}
+
+/// Where the file is unless another one is named.
+fn usual_path() -> Option<PathBuf> {
+    let folder = |name| std::env::var_os(name).filter(|it| !it.is_empty()).map(PathBuf::from);
+    let of_user = || folder("HOME").map(|home| home.join(".config"));
+    let configurations =
+        folder("XDG_CONFIG_HOME").or_else(|| folder("APPDATA")).or_else(of_user)?;
+    Some(configurations.join("carom").join("config.toml"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mistake_is_told_with_its_line() {
+        let (line, problem) = Config::read("page = \"x\"\nscnes = []\n").unwrap_err();
+        assert_eq!(line, Some(2));
+        assert!(problem.contains("scnes") && problem.contains("scenes"), "{problem}");
+    }
+}

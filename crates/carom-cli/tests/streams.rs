@@ -1,0 +1,159 @@
+//! Where a command reads from and writes to: standard streams, files that are there already, a file
+//! that is watched, and the configuration of a user.
+
+mod command;
+
+use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
+use std::process::{Child, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use command::{bad_line, carom, good, path};
+
+/// Longer than anything here takes on a machine that is shared.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+const DROP: &str = "spheres = [{ position = [0, 1, 0], radius = 0.5 }]\n\
+                    forces = [{ gravity = { acceleration = [0, -9.81, 0] } }]\n";
+
+/// Runs the command with this on its standard input.
+fn fed(arguments: &[&str], input: &str) -> Output {
+    let mut command = carom();
+    let piped = command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = piped.stderr(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+fn text(stream: &[u8]) -> &str {
+    std::str::from_utf8(stream).unwrap()
+}
+
+#[test]
+fn a_dash_reads_the_scene_from_the_standard_input() {
+    let run = ["run", "-", "--seconds", "0.1", "--set", "spheres.0.radius=0.25"];
+    let run = fed(&run, DROP);
+    assert!(run.status.success(), "{}", text(&run.stderr));
+    assert!(text(&run.stdout).starts_with("scene            stdin\n"));
+    // What `show` prints can be run.
+    let shown = good(&["show", "tutorial1"]);
+    let (piped, direct) =
+        (fed(&["run", "-", "--json"], &shown), good(&["run", "tutorial1", "--json"]));
+    let hash = |json: &str| json.split("state_hash").nth(1).map(str::to_owned);
+    assert_eq!(hash(text(&piped.stdout)), hash(&direct));
+    let checked = fed(&["check", "-"], "nmae = 'x'\n");
+    assert!(text(&checked.stderr).contains("stdin:1: nmae: unknown field"));
+    let link = fed(&["link", "-", "--page", "https://example.org/"], DROP);
+    let link = text(&link.stdout).trim().to_owned();
+    assert!(good(&["run", "--link", &link, "--json"]).contains("\"stdin\""));
+}
+
+#[test]
+fn a_dash_writes_the_trajectory_to_the_standard_output_and_the_summary_beside_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "t.csv");
+    let run = ["run", "simtest1", "--seconds", "1", "--out"];
+    good(&[&run[..], &[&file]].concat());
+    let piped = command::run(&[&run[..], &["-"]].concat());
+    assert_eq!(text(&piped.stdout), std::fs::read_to_string(&file).unwrap());
+    assert!(text(&piped.stderr).contains("state hash"), "{}", text(&piped.stderr));
+}
+
+#[test]
+fn a_file_that_is_there_is_replaced_only_by_force() {
+    let folder = tempfile::tempdir().unwrap();
+    for (option, name) in [("--out", "t.csv"), ("--impacts", "i.csv"), ("-o", "t.npz")] {
+        let file = path(&folder, name);
+        let run = ["run", "tutorial1", "--frames", "2", option, &file];
+        good(&run);
+        let before = std::fs::read(&file).unwrap();
+        let refused = bad_line(&run, 2);
+        assert!(refused.contains(&file) && refused.contains("--force"), "{refused}");
+        assert_eq!(std::fs::read(&file).unwrap(), before);
+        good(&[&run[..], &["-f"]].concat());
+    }
+    let table = path(&folder, "c.csv");
+    let compare = ["compare", "tutorial1", "--seconds", "0.1", "--out", &table];
+    good(&compare);
+    assert!(bad_line(&compare, 2).contains("--force"));
+    good(&[&compare[..], &["--force"]].concat());
+}
+
+/// A command at work, which is ended with the test.
+struct AtWork(Child);
+
+impl Drop for AtWork {
+    fn drop(&mut self) {
+        self.0.kill().ok();
+        self.0.wait().ok();
+    }
+}
+
+#[test]
+fn a_scene_file_that_is_watched_runs_again_when_it_is_changed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("drop.toml");
+    std::fs::write(&file, DROP).unwrap();
+    let mut command = carom();
+    command.args(["run", file.to_str().unwrap(), "--frames", "6", "--watch"]);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    let _at_work = AtWork(child);
+    let mut next = |title: &str| {
+        lines.by_ref().map(Result::unwrap).find(|line| line.starts_with(title)).expect("a summary")
+    };
+    let first = next("state hash");
+    // A mistake on the way ends nothing.
+    for text in ["spheres = [", &DROP.replace("1, 0]", "2, 0]")] {
+        // A file system may count time in steps of some milliseconds.
+        std::thread::sleep(Duration::from_millis(500));
+        std::fs::write(&file, text).unwrap();
+    }
+    let began = Instant::now();
+    assert_ne!(next("state hash"), first);
+    assert!(began.elapsed() < PATIENCE);
+    assert!(bad_line(&["run", "tutorial1", "--watch"], 2).contains("needs a scene file"));
+}
+
+/// Runs the command with this configuration file.
+fn configured(config: &Path, arguments: &[&str]) -> Output {
+    carom().env("CAROM_CONFIG", config).args(arguments).output().unwrap()
+}
+
+#[test]
+fn a_configuration_file_names_folders_and_the_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenes = folder.path().join("scenes");
+    std::fs::create_dir(&scenes).unwrap();
+    std::fs::write(scenes.join("drop.toml"), DROP).unwrap();
+    let config = folder.path().join("config.toml");
+    let content = format!("scenes = [{scenes:?}]\npage = \"https://example.org/carom/\"\n");
+    std::fs::write(&config, content).unwrap();
+    let run = configured(&config, &["run", "drop", "--frames", "1"]);
+    assert!(run.status.success(), "{}", text(&run.stderr));
+    let link = configured(&config, &["link", "tutorial1"]);
+    assert!(text(&link.stdout).starts_with("https://example.org/carom/#"));
+    // The command line comes first.
+    let link = configured(&config, &["link", "tutorial1", "--page", "https://other.org/"]);
+    assert!(text(&link.stdout).starts_with("https://other.org/#"));
+    std::fs::write(&config, "page = 3\n").unwrap();
+    let broken = configured(&config, &["scenes"]);
+    assert_eq!(broken.status.code(), Some(2));
+    assert!(text(&broken.stderr).contains("config.toml:1: "), "{}", text(&broken.stderr));
+}
+
+#[test]
+fn check_tells_all_faults_of_a_file_with_their_lines() {
+    let broken = "name = 'x'\n[simulation]\nframe_time = -1\nrule = 'exat'\n[[spheres]]\n\
+                  radus = 1\n[[spheres]]\nradius = 0.5\n[[spheres]]\nradius = -2\n\
+                  [[colliders]]\nshape = 'plane'\n";
+    let checked = fed(&["check", "-"], broken);
+    let told = text(&checked.stderr);
+    for line in [3, 4, 6, 10, 12] {
+        assert!(told.contains(&format!("stdin:{line}: ")), "{line}: {told}");
+    }
+    assert!(told.contains("spheres[2].radius"), "places are those of the file: {told}");
+    let of_syntax = fed(&["check", "-"], "a = \nb = \n");
+    let told = text(&of_syntax.stderr);
+    assert!(told.contains("stdin:1:") && told.contains("stdin:2:"), "{told}");
+}
