@@ -2,13 +2,13 @@
 //
 // MODULE_FOLDER is what `wasm-bindgen --target web` made. In OUT_FOLDER every file but index.html
 // bears a hash of its content in its name, so that browsers may keep it and never mix two versions;
-// beside each lies what gzip makes of it, for servers that give that.
+// beside each lie what gzip and Brotli make of it, for servers that give that.
 
 import { createHash } from "node:crypto";
 import { mkdir, readFile, readdir, rm, writeFile } from "node:fs/promises";
 import { extname, join, relative, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { constants, gzipSync } from "node:zlib";
+import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 
 import { build } from "esbuild";
 
@@ -28,6 +28,12 @@ export async function bundle(moduleFolder, out) {
   for (const name of ["style.css", "icon.svg"]) {
     names.set(name, await writeHashed(out, name, await readFile(join(PAGE, name))));
   }
+  const manifest = await readFile(join(PAGE, "manifest.webmanifest"), "utf8");
+  const named = manifest.replace('"icon.svg"', JSON.stringify(names.get("icon.svg")));
+  names.set(
+    "manifest.webmanifest",
+    await writeHashed(out, "manifest.webmanifest", Buffer.from(named)),
+  );
   const wasm = await readFile(join(moduleFolder, "carom_web_bg.wasm"));
   const wasmName = await writeHashed(out, "carom.wasm", wasm);
   const size = `data-bytes="${wasm.length}"`;
@@ -86,8 +92,9 @@ async function writeHashed(out, name, content) {
 async function compressAll(out) {
   for (const name of await readdir(out)) {
     const path = join(out, name);
-    const compressed = gzipSync(await readFile(path), { level: constants.Z_BEST_COMPRESSION });
-    await writeFile(`${path}.gz`, compressed);
+    const content = await readFile(path);
+    await writeFile(`${path}.gz`, gzipSync(content, { level: constants.Z_BEST_COMPRESSION }));
+    await writeFile(`${path}.br`, brotliCompressSync(content));
   }
 }
 

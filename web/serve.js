@@ -15,7 +15,14 @@ const TYPES = new Map([
   [".toml", "text/plain; charset=utf-8"],
   [".txt", "text/plain; charset=utf-8"],
   [".wasm", "application/wasm"],
+  [".webmanifest", "application/manifest+json"],
 ]);
+
+/** Compressed forms that may lie beside a file, the smallest first, and the ends of their names. */
+const ENCODINGS = [
+  ["br", ".br"],
+  ["gzip", ".gz"],
+];
 
 /** Names that `bundle.js` gave: what they hold never changes. */
 const HASHED = /-[0-9A-Za-z]{8}\.\w+$/;
@@ -60,21 +67,36 @@ async function answer(folder, request, response) {
   if (path === null || (await sizeOf(path)) === null) {
     return refuse(response, 404, "Not Found");
   }
-  const takesGzip = /\bgzip\b/.test(String(request.headers["accept-encoding"] ?? ""));
-  const compressedSize = takesGzip ? await sizeOf(`${path}.gz`) : null;
-  const isCompressed = compressedSize !== null;
+  const { ending, encoding, size } = await bestForm(path, request.headers["accept-encoding"]);
   response.writeHead(200, {
     "Content-Type": TYPES.get(extname(path)) ?? "application/octet-stream",
-    "Content-Length": String(isCompressed ? compressedSize : await sizeOf(path)),
+    "Content-Length": String(size),
     "Cache-Control": HASHED.test(path) ? "public, max-age=31536000, immutable" : "no-cache",
     "X-Content-Type-Options": "nosniff",
     Vary: "Accept-Encoding",
-    ...(isCompressed ? { "Content-Encoding": "gzip" } : {}),
+    ...(encoding ? { "Content-Encoding": encoding } : {}),
   });
   if (request.method === "HEAD") {
     return void response.end();
   }
-  createReadStream(isCompressed ? `${path}.gz` : path).pipe(response);
+  createReadStream(path + ending).pipe(response);
+}
+
+/**
+ * The smallest form of a file that there is and that a client takes.
+ *
+ * @param {string} path
+ * @param {string | string[] | undefined} accepted
+ * @returns {Promise<{ ending: string, encoding: string, size: number | null }>}
+ */
+async function bestForm(path, accepted) {
+  for (const [encoding, ending] of ENCODINGS) {
+    const size = await sizeOf(path + ending);
+    if (size !== null && new RegExp(`\\b${encoding}\\b`).test(String(accepted ?? ""))) {
+      return { ending, encoding, size };
+    }
+  }
+  return { ending: "", encoding: "", size: await sizeOf(path) };
 }
 
 /**

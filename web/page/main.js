@@ -7,6 +7,7 @@ import { watchForTheEnd } from "./end.js";
 import { fetchModule } from "./fetch_module.js";
 import { canDraw } from "./graphics.js";
 import { keepKeysFromScrolling } from "./keys.js";
+import { offerMirror } from "./mirror.js";
 import { loading } from "./loading.js";
 import { checkPixelSize } from "./pixel_size.js";
 import { services } from "./services.js";
@@ -34,6 +35,7 @@ async function start() {
   watchForTheEnd(canvas, loading.fail);
   // For scripts and the curious: `carom.status()` in the console.
   Object.assign(globalThis, { carom: page });
+  offerMirror(page);
   canvas.focus({ preventScroll: true });
   loading.finish();
 }

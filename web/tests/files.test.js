@@ -47,6 +47,41 @@ test("a broken scene file is refused with its line, and the page goes on", async
   await viewer.close();
 });
 
+test("a scene file that is chosen is opened", async () => {
+  const viewer = await desk.open();
+  const text = await readFile(SCENE, "utf8");
+  const asked = viewer.page.waitForEvent("filechooser");
+  await viewer.click("Open a file...");
+  const buffer = Buffer.from(text.replace('name = "simtest3"', ""));
+  await (await asked).setFiles({ name: "chosen.toml", mimeType: "application/toml", buffer });
+  // It says no name of its own.
+  await viewer.until(({ watching }) => watching?.scene === "chosen");
+  await viewer.close();
+});
+
+test("panels stay open when the page is loaded again", async () => {
+  const viewer = await desk.watch("simtest1");
+  await viewer.page.keyboard.press("l");
+  await viewer.widget("Approach, m/s", "Label");
+  const isKept = () => Object.values(localStorage).some((it) => it.includes("impacts:true"));
+  await viewer.page.waitForFunction(isKept);
+  await viewer.page.reload();
+  await viewer.page.waitForSelector("#loading.done", { state: "attached" });
+  await viewer.until(({ watching }) => watching?.scene === "simtest1");
+  await viewer.widget("Approach, m/s", "Label");
+  await viewer.close();
+});
+
+test("numbers of a figure are downloaded", async () => {
+  const viewer = await desk.watch("tutorial1");
+  await viewer.page.keyboard.press("g");
+  const download = viewer.page.waitForEvent("download");
+  await viewer.click("Save the numbers of Energy");
+  const table = await readFile(await (await download).path(), "utf8");
+  assert.ok(table.startsWith('"time, s","kinetic, J","potential, J","total, J"\n0,'), table);
+  await viewer.close();
+});
+
 test("a maze that is dropped is played", async () => {
   const viewer = await desk.open();
   await viewer.drop("short.txt", "#######\n#S o E#\n#######\n");

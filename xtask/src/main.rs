@@ -35,7 +35,8 @@ Usage: cargo xtask COMMAND
             package in Node.js, the Python package, the page in a browser; `test --full` adds
             the tests of the physics that take minutes
   web       make the page in web/dist and the JavaScript package; `web --serve [PORT]` makes the
-            page and serves it on this machine, `web --sizes` says what takes its space, `web --test`
+            page and serves it on this machine, `web --out DIR` puts it into a folder for a server of
+            static files, `web --sizes` says what takes its space, `web --test`
             tests it in a browser; `web --package` makes the package alone, `web --test-package`
             tests it in Node.js
   python    make the wheel of the Python package; `python --test` also installs and tests it
@@ -57,6 +58,7 @@ fn main() -> ExitCode {
         ["web"] => web::build().and_then(|()| js_package::build()).map(drop),
         ["web", "--serve"] => web::serve(web::PORT),
         ["web", "--serve", port] => web::serve(port),
+        ["web", "--out", folder] => web::publish(folder.as_ref()),
         ["web", "--sizes"] => web::sizes(),
         ["web", "--test"] => web::test(),
         ["web", "--package"] => js_package::build().map(drop),

@@ -30,6 +30,21 @@ pub fn serve(port: &str) -> Outcome {
     node(&["serve.js", "dist", port], &[])
 }
 
+/// Makes the page, and puts it into a folder, for any server of static files.
+pub fn publish(out: &Path) -> Outcome {
+    build()?;
+    let dist = folder().join("dist");
+    let copied = fs::create_dir_all(out).and_then(|()| {
+        fs::read_dir(&dist)?.try_for_each(|entry| {
+            let path = entry?.path();
+            fs::copy(&path, out.join(path.file_name().unwrap_or_default())).map(drop)
+        })
+    });
+    copied.map_err(|error| format!("cannot put the page into {}: {error}", out.display()))?;
+    println!("The page is in {}: any server of static files can serve it.", out.display());
+    Ok(())
+}
+
 /// Says what takes the space in the module.
 pub fn sizes() -> Outcome {
     npm_packages()?;

@@ -11,6 +11,19 @@ pub struct LinkDialog {
     open: bool,
     /// The link, and what it was made of.
     link: Option<(Option<Moment>, String)>,
+    /// When it was copied last, by the clock of the interface \[s\].
+    copied: Option<f64>,
+}
+
+/// How long it is said that the link was copied \[s\].
+const SAID: f64 = 3.0;
+
+/// Whether a link is of use on this machine alone.
+fn is_local(link: &str) -> bool {
+    let host = link.split_once("://").map_or(link, |(_, rest)| rest);
+    ["127.0.0.1", "localhost", "[::1]"]
+        .iter()
+        .any(|local| host.strip_prefix(local).is_some_and(|rest| rest.starts_with([':', '/', '#'])))
 }
 
 impl LinkDialog {
@@ -68,12 +81,28 @@ impl LinkDialog {
                         .desired_rows(3)
                         .code_editor(),
                 );
+                if is_local(link) {
+                    ui.weak(
+                        "The address leads to this machine alone, where `cargo xtask web --serve` \
+                         serves the page. `carom view --page URL`, $CAROM_PAGE or the configuration \
+                         file name one that others reach.",
+                    );
+                }
+                let now = ui.input(|input| input.time);
                 ui.horizontal(|ui| {
-                    if ui.button("Copy the link").clicked() {
-                        context.copy_text(link.clone());
+                    let command = || format!("carom run --link '{link}'");
+                    for (text, copy) in [
+                        ("Copy the link", &(|| link.clone()) as &dyn Fn() -> String),
+                        ("Copy as a command", &command),
+                    ] {
+                        if ui.button(text).clicked() {
+                            context.copy_text(copy());
+                            self.copied = Some(now);
+                        }
                     }
-                    if ui.button("Copy as a command").clicked() {
-                        context.copy_text(format!("carom run --link '{link}'"));
+                    if self.copied.is_some_and(|at| now - at < SAID) {
+                        ui.label("Copied.");
+                        ui.ctx().request_repaint_after_secs(SAID as f32);
                     }
                 });
                 let hash = view.and_then(|view| view.playback.state_hash);
@@ -81,5 +110,20 @@ impl LinkDialog {
                     ui.monospace(format!("state hash  {hash}"));
                 }
             });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_addresses_of_this_machine_are_local() {
+        for local in ["http://127.0.0.1:8042/#scene=x", "http://localhost/#a", "http://[::1]:1/"] {
+            assert!(is_local(local), "{local}");
+        }
+        for other in ["https://example.org/127.0.0.1/#x", "https://localhost.org/#x"] {
+            assert!(!is_local(other), "{other}");
+        }
     }
 }

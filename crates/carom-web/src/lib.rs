@@ -103,6 +103,17 @@ impl Page {
     pub fn widgets(&self) -> JsValue {
         parsed(serde_json::to_string(&Widgets::shown(&self.context)))
     }
+
+    /// Presses the part of the interface with this id, as `widgets` tells it; with the next picture.
+    pub fn press(&self, id: &str) {
+        Widgets::ask(&self.context, id, None);
+    }
+
+    /// Sets the number of the part of the interface with this id; with the next picture.
+    #[wasm_bindgen(js_name = setNumber)]
+    pub fn set_number(&self, id: &str, value: f64) {
+        Widgets::ask(&self.context, id, Some(value));
+    }
 }
 
 fn parsed(json: serde_json::Result<String>) -> JsValue {
@@ -143,6 +154,14 @@ fn follow(app: &mut App, fragment: &str) {
 struct Shown(Rc<RefCell<App>>);
 
 impl eframe::App for Shown {
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        self.0.borrow_mut().save(storage);
+    }
+
+    fn auto_save_interval(&self) -> std::time::Duration {
+        self.0.borrow().auto_save_interval()
+    }
+
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         self.0.borrow_mut().ui(ui, frame);
     }

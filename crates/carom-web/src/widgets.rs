@@ -1,22 +1,31 @@
-//! Where the parts of the interface are, as assistive technology learns it.
+//! Where the parts of the interface are, as assistive technology learns it, and what it asks of them.
 
-use egui::accesskit::{Node, Toggled};
-use egui::{Context, FullOutput, Plugin};
+use std::collections::{BTreeMap, BTreeSet};
+
+use egui::accesskit::{Action, ActionData, ActionRequest, Node, NodeId, Toggled, TreeId};
+use egui::{Context, Event, FullOutput, Plugin, RawInput};
 use serde::Serialize;
 
-/// Listens to what the interface tells assistive technology.
+/// Listens to what the interface tells assistive technology, and hands on what that asks for.
 #[derive(Default)]
 pub struct Widgets {
     shown: Vec<Widget>,
+    /// To be handed to the interface with its next picture.
+    requests: Vec<ActionRequest>,
 }
 
 /// A labelled part of the interface.
 #[derive(Debug, Clone, Serialize)]
 pub struct Widget {
+    /// By which it is asked for something; stays the same from picture to picture.
+    id: String,
     /// As AccessKit calls it, like `Button`.
     role: String,
     label: String,
     value: Option<String>,
+    /// From where to where a number goes.
+    range: Option<[f64; 2]>,
+    disabled: bool,
     /// Left edge \[CSS px\].
     x: f64,
     /// Upper edge \[CSS px\].
@@ -28,7 +37,7 @@ pub struct Widget {
 }
 
 impl Widgets {
-    /// What was shown last; begins to listen at the first call.
+    /// What was shown last, in the order in which it is read; begins to listen at the first call.
     pub fn shown(context: &Context) -> Vec<Widget> {
         let shown = context.with_plugin(|widgets: &mut Self| widgets.shown.clone());
         if shown.is_none() {
@@ -38,6 +47,20 @@ impl Widgets {
         context.request_repaint();
         shown.unwrap_or_default()
     }
+
+    /// Presses the widget with this id, or sets its value; nothing if it is gone, or before
+    /// [`Self::shown`] was called.
+    pub fn ask(context: &Context, id: &str, value: Option<f64>) {
+        let Ok(id) = id.parse() else { return };
+        let request = ActionRequest {
+            action: if value.is_some() { Action::SetValue } else { Action::Click },
+            target_tree: TreeId::ROOT,
+            target_node: NodeId(id),
+            data: value.map(ActionData::NumericValue),
+        };
+        context.with_plugin(|widgets: &mut Self| widgets.requests.push(request));
+        context.request_repaint();
+    }
 }
 
 impl Plugin for Widgets {
@@ -45,23 +68,43 @@ impl Plugin for Widgets {
         "widgets"
     }
 
+    fn input_hook(&mut self, _context: &Context, input: &mut RawInput) {
+        input.events.extend(self.requests.drain(..).map(Event::AccessKitActionRequest));
+    }
+
     fn output_hook(&mut self, context: &Context, output: &mut FullOutput) {
         let Some(update) = &output.platform_output.accesskit_update else { return };
         let zoom = f64::from(context.zoom_factor());
-        self.shown = update.nodes.iter().filter_map(|(_, node)| widget(node, zoom)).collect();
+        let nodes: BTreeMap<NodeId, &Node> =
+            update.nodes.iter().map(|(id, it)| (*id, it)).collect();
+        let inner: BTreeSet<NodeId> =
+            nodes.values().flat_map(|it| it.children()).copied().collect();
+        self.shown.clear();
+        // Depth first, children in their order.
+        let outer = update.nodes.iter().map(|(id, _)| *id).filter(|id| !inner.contains(id));
+        let mut waiting: Vec<NodeId> = outer.collect();
+        waiting.reverse();
+        while let Some(id) = waiting.pop() {
+            let Some(node) = nodes.get(&id) else { continue };
+            self.shown.extend(widget(id, node, zoom));
+            waiting.extend(node.children().iter().rev());
+        }
     }
 }
 
-fn widget(node: &Node, zoom: f64) -> Option<Widget> {
+fn widget(id: NodeId, node: &Node, zoom: f64) -> Option<Widget> {
     let bounds = node.bounds()?;
     let number = node.numeric_value().map(|value| value.to_string());
     let toggled = node.toggled().map(|toggled| (toggled == Toggled::True).to_string());
     let text = node.value().map(str::to_owned);
     let label = node.label().map(str::to_owned).or_else(|| text.clone())?;
     Some(Widget {
+        id: id.0.to_string(),
         role: format!("{:?}", node.role()),
         label,
         value: number.or(toggled).or(text),
+        range: node.min_numeric_value().zip(node.max_numeric_value()).map(<[f64; 2]>::from),
+        disabled: node.is_disabled(),
         x: bounds.x0 * zoom,
         y: bounds.y0 * zoom,
         width: bounds.width() * zoom,

@@ -5,6 +5,7 @@ use std::path::Path;
 use carom_maze::Maze;
 use carom_scene::Source;
 use carom_scene::scene::Scene;
+use egui::{Align2, Color32, FontId, Id, LayerId, Order, Stroke, StrokeKind};
 
 use super::{App, Screen};
 use crate::host::ReadFile;
@@ -29,6 +30,21 @@ impl App {
     pub(super) fn open_file(&mut self, path: &Path) {
         let content = std::fs::read(path).map_err(|error| error.to_string());
         self.inbox.put(ReadFile { path: path.to_owned(), content });
+    }
+
+    /// Shows where a file would go that is held over the window.
+    pub(super) fn drop_target(&self) {
+        if self.context.input(|input| input.raw.hovered_files.is_empty()) {
+            return;
+        }
+        let place = self.context.content_rect().shrink(12.0);
+        let layer = LayerId::new(Order::Foreground, Id::unique("drop target"));
+        let painter = self.context.layer_painter(layer);
+        let stroke = Stroke::new(3.0, self.context.global_style().visuals.selection.stroke.color);
+        painter.rect(place, 8, Color32::from_black_alpha(150), stroke, StrokeKind::Inside);
+        let font = FontId::proportional(26.0);
+        let text = "Drop it here: a scene (TOML) or a maze (text)";
+        painter.text(place.center(), Align2::CENTER_CENTER, text, font, Color32::WHITE);
     }
 
     /// Opens the text of a file.

@@ -454,6 +454,11 @@ impl eframe::App for App {
         self.kept.save(storage);
     }
 
+    fn auto_save_interval(&self) -> std::time::Duration {
+        // A page has no end at which it could be kept for sure.
+        std::time::Duration::from_secs(5)
+    }
+
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         self.cpu_seconds = frame.info().cpu_usage;
         let context = ui.ctx().clone();
@@ -485,6 +490,7 @@ impl eframe::App for App {
         let is_maze = self.maze().is_some();
         help::show(&context, &mut self.help, is_maze);
         self.links();
+        self.drop_target();
         self.notices.show(ui);
     }
 }

@@ -2,6 +2,7 @@
 
 use carom::{CombineRule, SphereId};
 use carom_session::{Command, Edit, View};
+use egui::accesskit::Action;
 use egui::{Slider, Ui};
 
 use super::friction;
@@ -66,6 +67,10 @@ fn slider(ui: &mut Ui, title: &str, text: &str, restitution: &mut f64) -> bool {
         let response = ui.add(Slider::new(restitution, 0.0..=1.0));
         let is_handled = response.dragged() || response.clicked() || response.has_focus();
         let is_handled = is_handled || response.lost_focus() || response.drag_stopped();
+        let is_asked =
+            |action| ui.input(|input| input.has_accesskit_action_request(response.id, action));
+        let is_handled = is_handled
+            || [Action::SetValue, Action::Increment, Action::Decrement].into_iter().any(is_asked);
         response.widget_info(|| egui::WidgetInfo::slider(true, *restitution, text));
         // A slider rounds what it shows; only a hand changes anything.
         is_handled && *restitution != before

@@ -1,0 +1,171 @@
+// The interface as elements of the document, for those who do not see the canvas: switched on by the
+// first button of the page, which a keyboard or a screen reader finds.
+
+/** Time between two looks at the interface [ms]. */
+const PAUSE = 250;
+
+/**
+ * @typedef {object} Widget what `Page.widgets` tells of a part of the interface, in CSS pixels
+ * @property {string} id
+ * @property {string} role
+ * @property {string} label
+ * @property {string | null} value
+ * @property {[least: number, largest: number] | null} range
+ * @property {boolean} disabled
+ * @property {number} x
+ * @property {number} y
+ * @property {number} width
+ * @property {number} height
+ */
+
+/** Roles of AccessKit that are pressed, and what the document calls them. */
+const PRESSED = new Map([
+  ["Button", "button"],
+  ["Link", "button"],
+  ["ComboBox", "button"],
+  ["MenuItem", "button"],
+  ["DisclosureTriangle", "button"],
+  ["CheckBox", "checkbox"],
+  ["RadioButton", "checkbox"],
+]);
+
+/**
+ * Lets the switch start the mirror of a page.
+ *
+ * @param {import("carom-web").Page} page
+ */
+export function offerMirror(page) {
+  const begin = /** @type {HTMLButtonElement} */ (document.getElementById("mirror-switch"));
+  begin.hidden = false;
+  nameTheField();
+  begin.addEventListener("click", () => {
+    begin.hidden = true;
+    start(page);
+  });
+}
+
+/** The interface has a field of its own into which keyboards on screens type: it needs a name. */
+function nameTheField() {
+  document
+    .querySelectorAll("body > input:not([aria-label])")
+    .forEach((field) => field.setAttribute("aria-label", "Text for the interface"));
+}
+
+/** @param {import("carom-web").Page} page */
+function start(page) {
+  const mirror = /** @type {HTMLElement} */ (document.getElementById("mirror"));
+  const news = /** @type {HTMLElement} */ (document.getElementById("news"));
+  const canvas = /** @type {HTMLElement} */ (document.getElementById("carom"));
+  mirror.hidden = false;
+  // Tab goes through the elements, and leaves the page after the last one.
+  canvas.tabIndex = -1;
+  canvas.setAttribute("aria-hidden", "true");
+  /** @type {Map<string, HTMLElement>} */
+  let elements = new Map();
+  const update = () => {
+    elements = show(page, mirror, elements);
+    // `undefined` while a picture is being made.
+    const notices = page.status()?.notices.join(" ");
+    if (notices !== undefined && notices !== news.textContent) news.textContent = notices;
+  };
+  update();
+  setInterval(update, PAUSE);
+  mirror.tabIndex = -1;
+  mirror.focus();
+}
+
+/**
+ * Brings the elements up to date; each stays the same as long as its widget is there, so that it
+ * keeps the focus.
+ *
+ * @param {import("carom-web").Page} page
+ * @param {HTMLElement} mirror
+ * @param {Map<string, HTMLElement>} before by the ids of their widgets
+ * @returns {Map<string, HTMLElement>}
+ */
+function show(page, mirror, before) {
+  /** @type {Map<string, HTMLElement>} */
+  const elements = new Map();
+  /** @type {Widget[]} */
+  const widgets = page.widgets();
+  let last = null;
+  for (const widget of widgets) {
+    const kind = kindOf(widget);
+    let element = before.get(widget.id);
+    if (element?.dataset.kind !== kind) element = make(page, widget.id, kind);
+    describe(element, widget, kind);
+    elements.set(widget.id, element);
+    const place = /** @type {Element | null} */ (last ? last.nextSibling : mirror.firstChild);
+    if (place !== element) mirror.insertBefore(element, place);
+    last = element;
+  }
+  for (const [id, element] of before) {
+    if (elements.get(id) !== element) element.remove();
+  }
+  return elements;
+}
+
+/** @param {Widget} widget */
+function kindOf({ role, range }) {
+  const pressed = PRESSED.get(role);
+  if (pressed) return pressed;
+  if (role === "Image") return "img";
+  return range && (role === "Slider" || role === "SpinButton") ? "slider" : "text";
+}
+
+/**
+ * @param {import("carom-web").Page} page
+ * @param {string} id
+ * @param {string} kind
+ * @returns {HTMLElement}
+ */
+function make(page, id, kind) {
+  const element = document.createElement(
+    kind === "slider" ? "input" : kind === "text" || kind === "img" ? "div" : "button",
+  );
+  element.dataset.kind = kind;
+  if (kind === "slider") {
+    const slider = /** @type {HTMLInputElement} */ (element);
+    slider.type = "range";
+    slider.addEventListener("input", () => page.setNumber(id, slider.valueAsNumber));
+  } else if (kind !== "text") {
+    element.setAttribute("role", kind);
+    if (kind !== "img") element.addEventListener("click", () => page.press(id));
+  }
+  return element;
+}
+
+/**
+ * @param {HTMLElement} element
+ * @param {Widget} widget
+ * @param {string} kind
+ */
+function describe(element, widget, kind) {
+  const { label, value, range, disabled, x, y, width, height } = widget;
+  element.style.translate = `${x}px ${y}px`;
+  element.style.width = `${width}px`;
+  element.style.height = `${height}px`;
+  if (kind === "text") {
+    if (element.textContent !== label) element.textContent = label;
+    return;
+  }
+  const isOn = value === "true";
+  const isSwitch = isOn || value === "false";
+  const name =
+    value && !isSwitch && kind === "button" && value !== label ? `${label}: ${value}` : label;
+  element.setAttribute("aria-label", name);
+  if (element instanceof HTMLInputElement && range) {
+    [element.min, element.max] = range.map(String);
+    element.step = "any";
+    if (document.activeElement !== element || element.valueAsNumber !== Number(value)) {
+      element.value = value ?? "";
+    }
+  } else if (kind === "checkbox") {
+    element.setAttribute("aria-checked", String(isOn));
+  } else if (kind === "button" && isSwitch) {
+    element.setAttribute("aria-pressed", String(isOn));
+  }
+  if (element instanceof HTMLButtonElement || element instanceof HTMLInputElement) {
+    element.disabled = disabled;
+  }
+}

@@ -1,0 +1,100 @@
+// The page without eyes and without a mouse: by keyboard, and as a screen reader finds it.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { after, before, test } from "node:test";
+
+import { Desk } from "./viewer.js";
+
+const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+
+/** @type {Desk} */
+let desk;
+
+before(async () => {
+  desk = await Desk.set("webgl2");
+});
+
+after(() => desk?.clear());
+
+/**
+ * What an audit finds that keeps people out.
+ *
+ * @param {import("playwright-core").Page} page
+ */
+async function faults(page) {
+  await page.addScriptTag({ content: await readFile(AXE, "utf8") });
+  const { violations } = await page.evaluate(() => /** @type {any} */ (globalThis).axe.run());
+  const isGrave = (/** @type {any} */ it) => ["serious", "critical"].includes(it.impact);
+  return violations.filter(isGrave).map((/** @type {any} */ it) => `${it.id}: ${it.help}`);
+}
+
+/**
+ * Opens a scene, and switches the mirror on by keyboard.
+ *
+ * @param {string} fragment
+ */
+async function mirrored(fragment) {
+  // The audit is a script from elsewhere, which the page's own policy refuses.
+  const viewer = await desk.open(fragment, { bypassCSP: true });
+  const { page } = viewer;
+  await page.locator("#mirror-switch").focus();
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("#mirror button");
+  return viewer;
+}
+
+test("an audit finds nothing grave, before the mirror is on and after", async () => {
+  const viewer = await desk.open("#scene=simtest1", { bypassCSP: true });
+  assert.deepEqual(await faults(viewer.page), []);
+  await viewer.close();
+  const other = await mirrored("#scene=simtest1");
+  assert.deepEqual(await faults(other.page), []);
+  await other.close();
+});
+
+test("buttons have their names and states, and do what those of the canvas do", async () => {
+  const viewer = await mirrored("#scene=simtest1");
+  const { page } = viewer;
+  await page.getByRole("button", { name: "Play", exact: true }).press("Enter");
+  await viewer.until(({ watching }) => watching.playing);
+  const pause = page.getByRole("button", { name: "Pause", exact: true });
+  await pause.waitFor();
+  await pause.press("Space");
+  await viewer.until(({ watching }) => !watching.playing);
+  const collide = page.getByRole("checkbox", { name: "balls collide with each other" });
+  assert.equal(await collide.getAttribute("aria-checked"), "false");
+  await collide.press("Enter");
+  await page.waitForSelector("#mirror [role=checkbox][aria-checked=true]");
+  await viewer.close();
+});
+
+test("a slider is set by its number", async () => {
+  const viewer = await mirrored("#scene=simtest1");
+  const slider = viewer.page.getByRole("slider", { name: "Restitution of PlaneCollider" });
+  await slider.first().evaluate((element) => {
+    /** @type {HTMLInputElement} */ (element).value = "0.25";
+    element.dispatchEvent(new Event("input"));
+  });
+  await viewer.until(({ watching }) => watching.restitutions[0] === 0.25);
+  await viewer.close();
+});
+
+test("Tab leaves the page after the last control, and what is told is heard", async () => {
+  const viewer = await mirrored("#scene=tutorial1");
+  const { page } = viewer;
+  const controls = await page.locator("#mirror button, #mirror input").count();
+  let places = 0;
+  const isInside = () =>
+    page.evaluate(() => document.getElementById("mirror")?.contains(document.activeElement));
+  do {
+    await page.keyboard.press("Tab");
+    places += 1;
+  } while ((await isInside()) && places < 2 * controls + 10);
+  assert.ok(places > 10 && places <= controls + 5, `${places} of ${controls}`);
+  await page.evaluate(() => (location.hash = "#scene=nowhere"));
+  await viewer.until(({ notices }) => notices.length > 0);
+  await page.waitForFunction(() => document.getElementById("news")?.textContent !== "");
+  await viewer.close();
+});
