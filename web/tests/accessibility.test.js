@@ -81,7 +81,7 @@ test("a slider is set by its number", async () => {
   await viewer.close();
 });
 
-test("Tab leaves the page after the last control, and what is told is heard", async () => {
+test("Tab leaves the page after the last control, and messages are heard", async () => {
   const viewer = await mirrored("#scene=tutorial1");
   const { page } = viewer;
   const controls = await page.locator("#mirror button, #mirror input").count();

@@ -9,7 +9,7 @@ use crate::error::{Fault, Problem, segments};
 use crate::load::{fault, line_at, line_of, named, read};
 use crate::scene::Scene;
 
-/// Faults of one file that are told: those after them are likely to follow from them.
+/// Faults of one file in a list, at most: those after them are likely to follow from them.
 const MOST: usize = 20;
 
 impl Scene {

@@ -17,7 +17,7 @@ pub struct Widgets {
 /// A labelled part of the interface.
 #[derive(Debug, Clone, Serialize)]
 pub struct Widget {
-    /// By which it is asked for something; stays the same from picture to picture.
+    /// Names it in requests; stays the same from picture to picture.
     id: String,
     /// As AccessKit calls it, like `Button`.
     role: String,

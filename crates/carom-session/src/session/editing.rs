@@ -72,10 +72,11 @@ impl Session {
     /// [`SessionError::Scene`] if the scene makes no sense under it, [`SessionError::Repeat`] for a
     /// change at the beginning that is refused.
     pub(crate) fn under(&self, simulation: &Simulation) -> Result<Self, SessionError> {
-        let edits = self.history.changes().iter().filter_map(|it| match &it.change {
-            Change::Edit(Edit::Simulation(_) | Edit::FrameTime(_)) | Change::FailedStep => None,
-            Change::Edit(_) => Some(it),
-        });
+        let is_of_simulation = |change: &Change| match change {
+            Change::Edit(edit) => matches!(edit, Edit::Simulation(_) | Edit::FrameTime(_)),
+            Change::FailedStep => true,
+        };
+        let edits = self.history.changes().iter().filter(|it| !is_of_simulation(&it.change));
         let frame_at = |frame| (self.history.time_of(frame) / simulation.frame_time).round() as u64;
         let changes =
             edits.map(|it| PastChange { frame: frame_at(it.frame), change: it.change.clone() });

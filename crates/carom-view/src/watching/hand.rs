@@ -4,7 +4,8 @@ use carom::Sphere;
 use carom_session::{Command, Edit};
 use egui::{Modifiers, PointerButton, Pos2, Rect, Response, Ui, Vec2};
 
-use super::{Watching, side_of};
+use super::Watching;
+use super::sides::side_of;
 use crate::inspector::Throw;
 use crate::look;
 use crate::orbit::zoom_asked;

@@ -39,7 +39,7 @@ pub(super) struct Told<'a> {
 /// A frame shorter than this is not spoken of \[s\].
 const LONG: f64 = 0.7;
 
-/// How long that is told \[s\].
+/// How long the card says so \[s\].
 const TOLD: f64 = 7.0;
 
 /// A way shorter than this is not spoken of \[s\].
@@ -149,18 +149,7 @@ pub(super) fn show(
             }
         });
     } else if is_at_start {
-        area(rect).show(ui.ctx(), |ui| {
-            let text = RichText::new("▶  Play").size(22.0).strong();
-            let large = Button::new(text)
-                .min_size(Vec2::new(150.0, 48.0))
-                .corner_radius(24)
-                .shortcut_text(Action::PlayOrPause.keys());
-            let response = ui.add(large);
-            response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Play the scene"));
-            if response.clicked() {
-                actions.push(Action::PlayOrPause);
-            }
-        });
+        actions.extend(large_play_button(ui, rect));
     } else if all_have_left(view, camera, aspect) {
         card(ui, rect, |ui| {
             ui.label("All balls have left the picture.");
@@ -169,6 +158,21 @@ pub(super) fn show(
         });
     }
     actions
+}
+
+/// The button that a newcomer looks for.
+fn large_play_button(ui: &Ui, rect: Rect) -> Option<Action> {
+    let shown = area(rect).show(ui.ctx(), |ui| {
+        let text = RichText::new("▶  Play").size(22.0).strong();
+        let large = Button::new(text)
+            .min_size(Vec2::new(150.0, 48.0))
+            .corner_radius(24)
+            .shortcut_text(Action::PlayOrPause.keys());
+        let response = ui.add(large);
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Play the scene"));
+        response.clicked()
+    });
+    shown.inner.then_some(Action::PlayOrPause)
 }
 
 fn area(rect: Rect) -> Area {

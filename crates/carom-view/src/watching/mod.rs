@@ -28,6 +28,7 @@ use crate::studio::{Canvas, Studio};
 use crate::{impact_list, transport};
 use departures::Departures;
 use hints::{Restarted, Way};
+use sides::side_of;
 use viewpoint::Viewpoint;
 
 /// A scene being watched.
@@ -447,11 +448,6 @@ impl Watching {
         }
         Ok(Snapshot { parts })
     }
-}
-
-/// The view of one of two rules, or of the only one.
-fn side_of(view: &View, side: usize) -> &View {
-    if side == 0 { view } else { view.other.as_deref().unwrap_or(view) }
 }
 
 fn driver(

@@ -4,10 +4,14 @@ use carom_scene::scene::{Rule, Simulation};
 use carom_session::{Command, View};
 use egui::{ComboBox, Frame, Rect, Stroke, Ui, UiBuilder, Vec2};
 
-use super::side_of;
 use crate::inspector;
 
 const RULES: [Rule; 4] = [Rule::Exact, Rule::Contact, Rule::Bisect, Rule::Discrete];
+
+/// The view of one of two rules, or of the only one.
+pub(super) fn side_of(view: &View, side: usize) -> &View {
+    if side == 0 { view } else { view.other.as_deref().unwrap_or(view) }
+}
 
 /// The rule of one half, which lies here, and its settings; each can be changed.
 pub(super) fn show(ui: &mut Ui, rect: Rect, view: &View, side: usize, commands: &mut Vec<Command>) {
