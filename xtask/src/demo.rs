@@ -24,9 +24,9 @@ pub fn demo() -> Outcome {
     setup::graphics()?;
     cargo(&["build", "--release", "--package", "carom-cli"])?;
     let carom = |arguments: &[&str]| carom("release", arguments);
-    carom(&["picture", "simtest1", "--at", "5", "--out", "out/simtest1.png"])?;
-    carom(&["picture", "tutorial3", "--at", "2.5", "--out", "out/tutorial3.png"])?;
-    carom(&["record", "simtest1", "--seconds", "6", "--out", "out/simtest1.mp4"])?;
+    carom(&["picture", "simtest1", "--at", "5", "--out", "out/simtest1.png", "-f"])?;
+    carom(&["picture", "tutorial3", "--at", "2.5", "--out", "out/tutorial3.png", "-f"])?;
+    carom(&["record", "simtest1", "--seconds", "6", "--out", "out/simtest1.mp4", "-f"])?;
     let displays = ["DISPLAY", "WAYLAND_DISPLAY"];
     let has_display = !cfg!(target_os = "linux")
         || displays.iter().any(|name| std::env::var_os(name).is_some_and(|it| !it.is_empty()));

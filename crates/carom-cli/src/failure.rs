@@ -70,6 +70,12 @@ impl From<RecordingError> for Failure {
         let message = error.to_string();
         match error {
             RecordingError::UnknownFormat { .. } => Self::Usage(message),
+            // The reader of the standard output has seen enough.
+            RecordingError::Unwritable { source, .. }
+                if source.kind() == io::ErrorKind::BrokenPipe =>
+            {
+                Self::OutputClosed
+            }
             _ => Self::Fault(message),
         }
     }

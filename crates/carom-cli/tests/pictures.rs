@@ -22,13 +22,13 @@ const HEIGHT: usize = 180;
 #[track_caller]
 fn picture(folder: &TempDir, arguments: &[&str]) -> Picture {
     let file = path(folder, "picture.png");
-    good(&[&["picture"], arguments, &SMALL, &["--out", &file]].concat());
+    good(&[&["picture"], arguments, &SMALL, &["--force", "--out", &file]].concat());
     Picture::from_png(&std::fs::read(&file).unwrap()).unwrap()
 }
 
 #[track_caller]
 fn film(file: &str, arguments: &[&str]) -> String {
-    good(&[&["record"], arguments, &SMALL, &["--out", file]].concat())
+    good(&[&["record"], arguments, &SMALL, &["--force", "--out", file]].concat())
 }
 
 fn output(program: &str, arguments: &[&str]) -> Vec<u8> {
@@ -160,7 +160,9 @@ fn a_film_of_a_recording_ends_with_it_and_can_be_shorter() {
         film(&file, &["tutorial1", "--from", &table, "--seconds", seconds]);
         assert_eq!(probe(&file), format!("h264,320,180,30/1,{count}"));
     }
-    let text = bad_line(&["record", "simtest1", "--from", "none.csv", "--out", &file], 1);
+    let again = ["record", "simtest1", "--from", "none.csv", "--out", &file];
+    assert!(bad_line(&again, 2).contains("--force"));
+    let text = bad_line(&[&again[..], &["-f"]].concat(), 1);
     assert!(text.contains("cannot read none.csv"), "{text}");
 }
 

@@ -79,6 +79,18 @@ fn a_file_that_is_there_is_replaced_only_by_force() {
     good(&[&compare[..], &["--force"]].concat());
 }
 
+#[test]
+fn a_reader_that_has_seen_enough_of_a_table_ends_the_run_without_a_word() {
+    let mut command = carom();
+    command.args(["run", "tutorial4", "--out", "-"]).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    assert!(lines.next().unwrap().unwrap().starts_with("t,ball,x"));
+    drop(lines);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), ""));
+}
+
 /// A command at work, which is ended with the test.
 struct AtWork(Child);
 
