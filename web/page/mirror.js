@@ -88,19 +88,24 @@ function show(page, mirror, before) {
   const elements = new Map();
   /** @type {Widget[]} */
   const widgets = page.widgets();
-  let last = null;
   for (const widget of widgets) {
     const kind = kindOf(widget);
     let element = before.get(widget.id);
     if (element?.dataset.kind !== kind) element = make(page, widget.id, kind);
     describe(element, widget, kind);
     elements.set(widget.id, element);
-    const place = /** @type {Element | null} */ (last ? last.nextSibling : mirror.firstChild);
-    if (place !== element) mirror.insertBefore(element, place);
-    last = element;
   }
+  // First: an element that is moved to make place loses the focus.
   for (const [id, element] of before) {
     if (elements.get(id) !== element) element.remove();
+  }
+  let place = mirror.firstChild;
+  for (const element of elements.values()) {
+    if (place === element) {
+      place = element.nextSibling;
+    } else {
+      mirror.insertBefore(element, place);
+    }
   }
   return elements;
 }
@@ -110,7 +115,8 @@ function kindOf({ role, range }) {
   const pressed = PRESSED.get(role);
   if (pressed) return pressed;
   if (role === "Image") return "img";
-  return range && (role === "Slider" || role === "SpinButton") ? "slider" : "text";
+  if (role === "SpinButton") return "number";
+  return role === "Slider" && range ? "slider" : "text";
 }
 
 /**
@@ -120,19 +126,34 @@ function kindOf({ role, range }) {
  * @returns {HTMLElement}
  */
 function make(page, id, kind) {
-  const element = document.createElement(
-    kind === "slider" ? "input" : kind === "text" || kind === "img" ? "div" : "button",
-  );
+  const isField = kind === "slider" || kind === "number";
+  const isText = kind === "text" || kind === "img";
+  const element = document.createElement(isField ? "input" : isText ? "div" : "button");
   element.dataset.kind = kind;
-  if (kind === "slider") {
-    const slider = /** @type {HTMLInputElement} */ (element);
-    slider.type = "range";
-    slider.addEventListener("input", () => page.setNumber(id, slider.valueAsNumber));
+  if (isField) {
+    const field = /** @type {HTMLInputElement} */ (element);
+    field.type = kind === "slider" ? "range" : "number";
+    field.step = "any";
+    field.addEventListener("change", () => setNumber(page, id, field));
+    if (kind === "slider") field.addEventListener("input", () => setNumber(page, id, field));
   } else if (kind !== "text") {
     element.setAttribute("role", kind);
-    if (kind !== "img") element.addEventListener("click", () => page.press(id));
+    if (kind !== "img") {
+      element.addEventListener("click", () => {
+        if (element.getAttribute("aria-disabled") !== "true") page.press(id);
+      });
+    }
   }
   return element;
+}
+
+/**
+ * @param {import("carom-web").Page} page
+ * @param {string} id
+ * @param {HTMLInputElement} field
+ */
+function setNumber(page, id, field) {
+  if (!Number.isNaN(field.valueAsNumber)) page.setNumber(id, field.valueAsNumber);
 }
 
 /**
@@ -146,7 +167,8 @@ function describe(element, widget, kind) {
   element.style.width = `${width}px`;
   element.style.height = `${height}px`;
   if (kind === "text") {
-    if (element.textContent !== label) element.textContent = label;
+    const text = value && value !== label ? `${label}: ${value}` : label;
+    if (element.textContent !== text) element.textContent = text;
     return;
   }
   const isOn = value === "true";
@@ -154,18 +176,15 @@ function describe(element, widget, kind) {
   const name =
     value && !isSwitch && kind === "button" && value !== label ? `${label}: ${value}` : label;
   element.setAttribute("aria-label", name);
-  if (element instanceof HTMLInputElement && range) {
-    [element.min, element.max] = range.map(String);
-    element.step = "any";
-    if (document.activeElement !== element || element.valueAsNumber !== Number(value)) {
-      element.value = value ?? "";
-    }
+  if (element instanceof HTMLInputElement) {
+    if (range) [element.min, element.max] = range.map(String);
+    // What is being set is not set back by what was shown a moment ago.
+    if (document.activeElement !== element) element.value = value ?? "";
   } else if (kind === "checkbox") {
     element.setAttribute("aria-checked", String(isOn));
   } else if (kind === "button" && isSwitch) {
     element.setAttribute("aria-pressed", String(isOn));
   }
-  if (element instanceof HTMLButtonElement || element instanceof HTMLInputElement) {
-    element.disabled = disabled;
-  }
+  // Not `disabled`, which would take the focus away.
+  if (kind !== "img") element.setAttribute("aria-disabled", String(disabled));
 }

@@ -34,6 +34,9 @@ pub fn serve(port: &str) -> Outcome {
 pub fn publish(out: &Path) -> Outcome {
     build()?;
     let dist = folder().join("dist");
+    if fs::canonicalize(out).ok() == fs::canonicalize(&dist).ok() {
+        return Ok(());
+    }
     let copied = fs::create_dir_all(out).and_then(|()| {
         fs::read_dir(&dist)?.try_for_each(|entry| {
             let path = entry?.path();

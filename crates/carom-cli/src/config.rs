@@ -1,5 +1,6 @@
 //! What a user has settled for all calls: the configuration file.
 
+use std::io::ErrorKind;
 use std::path::PathBuf;
 
 use serde::Deserialize;
@@ -29,7 +30,9 @@ impl Config {
         };
         let text = match std::fs::read_to_string(&path) {
             Ok(text) => text,
-            Err(_) if !is_named => return Ok(Self::default()),
+            Err(error) if !is_named && error.kind() == ErrorKind::NotFound => {
+                return Ok(Self::default());
+            }
             Err(error) => {
                 return Err(Failure::Usage(format!("cannot read {}: {error}", path.display())));
             }

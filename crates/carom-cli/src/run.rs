@@ -22,8 +22,10 @@ use crate::summary::{Observer, Summary};
 
 /// Runs a scene and prints what became of it; again and again, if its file is watched.
 pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
-    let files = [&args.out, &args.impacts, &args.ledger];
-    args.replacing.check(files.into_iter().flatten().map(PathBuf::as_path))?;
+    let series = args.out.as_deref().into_iter().flat_map(series);
+    let tables = [&args.out, &args.impacts, &args.ledger].into_iter().flatten().cloned();
+    let files: Vec<PathBuf> = tables.chain(series).collect();
+    args.replacing.check(files.iter().map(PathBuf::as_path))?;
     let interrupted = interruption()?;
     if !args.watch {
         return once(library, args, &interrupted);
@@ -49,8 +51,10 @@ fn watched(library: &Library, args: &Run) -> Result<PathBuf, Failure> {
         Ok((_, Source::File(path))) => Ok(path),
         Ok(_) => Err(Failure::Usage(format!("--watch needs a scene file, which {scene} is not"))),
         // What is wrong with it may be mended while it is watched.
-        Err(_) if Path::new(scene).is_file() => Ok(PathBuf::from(scene)),
-        Err(failure) => Err(failure),
+        Err(failure) => {
+            let files = [PathBuf::from(scene), PathBuf::from(format!("{scene}.toml"))];
+            files.into_iter().find(|file| file.is_file()).ok_or(failure)
+        }
     }
 }
 
@@ -102,6 +106,14 @@ fn begin(library: &Library, scene: &str, args: &Run) -> Result<(Replay, u64), Fa
     let simulation = &scene.simulation;
     let frames = args.length.frames(simulation.duration, simulation.frame_time)?;
     Ok((Replay::new(scene)?, frames))
+}
+
+/// What a series for ParaView is written to besides: its list, and the first of its frames.
+fn series(out: &Path) -> Vec<PathBuf> {
+    let is_one = out.extension().is_some_and(|it| it == "pvd" || it == "vtp");
+    let stem = out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let first = out.with_file_name(format!("{stem}_frames")).join("000000.vtp");
+    if is_one { vec![out.with_extension("pvd"), first] } else { Vec::new() }
 }
 
 /// Whether this stands for the standard output.

@@ -38,7 +38,7 @@ impl Scene {
             Err(error) => return vec![fault(source_name, None, "", error.message())],
         };
         let mut originals = originals(&table);
-        let mut faults: Vec<Fault> = Vec::new();
+        let (mut faults, mut taken): (Vec<Fault>, Vec<String>) = Default::default();
         while faults.len() < MOST
             && let Err(problem) = read(table.clone())
         {
@@ -46,11 +46,18 @@ impl Scene {
             let problem = Problem { field, ..problem };
             let line = line_of(&document, text, &problem);
             let found = fault(source_name, line, &problem.field, &problem.problem);
+            // What was taken out is missing now.
+            let is_our_doing = missing(&problem).is_some_and(|field| taken.contains(&field));
             let is_known = faults.contains(&found);
-            if !is_known {
+            if !(is_known || is_our_doing) {
                 faults.push(found);
             }
-            let is_gone = take_out(&mut table, &problem, &mut originals);
+            taken.push(problem.field.clone());
+            let is_gone = if problem.field == "name" {
+                table.insert("name".to_owned(), Value::from("any")).is_some()
+            } else {
+                take_out(&mut table, &problem, &mut originals)
+            };
             if is_known || !is_gone {
                 break;
             }
@@ -58,6 +65,16 @@ impl Scene {
         faults.sort_by_key(|fault| fault.line);
         faults
     }
+}
+
+/// The path of the field that is missing, where that is the problem.
+fn missing(problem: &Problem) -> Option<String> {
+    let name = problem.problem.strip_prefix("missing field `")?.split('`').next()?;
+    Some(if problem.field.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{}.{name}", problem.field)
+    })
 }
 
 /// For each list of the table, which elements of it are left, by their places in the file.
@@ -83,8 +100,10 @@ fn as_written(field: &str, originals: &Originals) -> String {
 /// whether there was anything.
 fn take_out(table: &mut Table, problem: &Problem, originals: &mut Originals) -> bool {
     let mut path = segments(&problem.field);
-    // "unknown field `x`" is reported at the table that holds x.
-    path.extend(problem.problem.split('`').nth(1).map(str::to_owned));
+    // "unknown field `x`" is reported at the table that holds x; of what lacks a field, all goes.
+    if missing(problem).is_none() {
+        path.extend(problem.problem.split('`').nth(1).map(str::to_owned));
+    }
     let Some(first) = path.first().cloned() else { return false };
     if let (Some(Value::Array(list)), Some(left)) =
         (table.get_mut(&first), originals.get_mut(&first))

@@ -92,6 +92,7 @@ impl Command {
             | (Self::Restart | Self::Seek(_), Self::Restart | Self::Seek(_))
             | (Self::Speed(_), Self::Speed(_))
             | (Self::Pick(_), Self::Pick(_))
+            | (Self::Compare(_), Self::Compare(_))
             | (Self::ShowStateHash(_), Self::ShowStateHash(_))
             | (Self::ShowContacts(_), Self::ShowContacts(_)) => Some(later.clone()),
             _ => None,

@@ -92,9 +92,10 @@ impl Comparison {
     /// # Errors
     /// As [`Session::step`]; neither has moved then.
     pub fn step(&mut self) -> Result<(), SessionError> {
-        self.first.step()?;
-        if let Err(error) = self.second.step() {
-            self.first.step_back()?;
+        let stepped = self.first.step().and_then(|()| self.second.step());
+        if let Err(error) = stepped {
+            // One may have moved, even one that refuses a change there.
+            self.stop_seeking()?;
             return Err(error);
         }
         self.measure();
@@ -144,8 +145,8 @@ impl Comparison {
         Ok(())
     }
 
-    /// Makes a change to both. Of the simulation, each keeps its own rule, and those parameters of
-    /// rules that are not changed.
+    /// Makes a change to both. Of the simulation, each keeps its own rule, and all that is not changed in
+    /// that of the first.
     ///
     /// # Errors
     /// As [`Session::edit`], if it is refused by one of them; neither changes then.
@@ -237,26 +238,25 @@ impl Comparison {
 fn own(edit: &Edit, before: &Simulation, session: &Session) -> Edit {
     let Edit::Simulation(edited) = edit else { return edit.clone() };
     let mut own = session.setup().simulation.clone();
-    let Simulation { exact, bisect, discrete, contact, .. } = &**edited;
-    let is_changed = [
-        *exact != before.exact,
-        *bisect != before.bisect,
-        *discrete != before.discrete,
-        *contact != before.contact,
-    ];
-    if is_changed[0] {
-        own.exact = exact.clone();
+    macro_rules! take_over_what_is_changed {
+        ($($field:ident),*) => {
+            $(if edited.$field != before.$field {
+                own.$field = edited.$field.clone();
+            })*
+        };
     }
-    if is_changed[1] {
-        own.bisect = bisect.clone();
-    }
-    if is_changed[2] {
-        own.discrete = discrete.clone();
-    }
-    if is_changed[3] {
-        own.contact = contact.clone();
-    }
-    let Simulation { rule, exact, bisect, discrete, contact, .. } = own;
-    let own = Simulation { rule, exact, bisect, discrete, contact, ..(**edited).clone() };
+    take_over_what_is_changed!(
+        frame_time,
+        duration,
+        spheres_collide,
+        combine_rule,
+        friction_combine_rule,
+        allow_overlap,
+        boundary,
+        exact,
+        bisect,
+        discrete,
+        contact
+    );
     Edit::Simulation(Box::new(own))
 }

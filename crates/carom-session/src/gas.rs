@@ -2,15 +2,24 @@
 
 use carom::{BodyPair, Boundary, ColliderId, DVec3, Shape, Sides, StepReport, World};
 
-/// Temperature times Boltzmann's constant \[J\]: the mean of `m v²` along one direction, of the motion
-/// relative to that of all together, over the directions in which there is any. 0 without spheres.
-pub(crate) fn thermal_energy(world: &World) -> f64 {
+/// Motion of spheres relative to that of all together.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ThermalMotion {
+    /// Temperature times Boltzmann's constant \[J\]: the mean of `m v²` along one direction, over those in
+    /// which there is any.
+    pub energy: f64,
+    /// In how many directions there is any.
+    pub directions: u8,
+}
+
+/// The motion of all spheres relative to that of all together.
+pub(crate) fn thermal_motion(world: &World) -> ThermalMotion {
     let spheres = world.spheres();
     let moving = || spheres.masses().iter().zip(spheres.velocities());
     let (mass, momentum) = moving()
         .fold((0.0, DVec3::ZERO), |(mass, momentum), (m, v)| (mass + m, momentum + *m * *v));
     if spheres.is_empty() {
-        return 0.0;
+        return ThermalMotion::default();
     }
     let drift = momentum / mass;
     let along: DVec3 = moving().map(|(m, v)| *m * (*v - drift) * (*v - drift)).sum();
@@ -18,7 +27,8 @@ pub(crate) fn thermal_energy(world: &World) -> f64 {
     const NOTHING: f64 = 1e-20;
     let least = NOTHING * along.max_element();
     let directions = along.to_array().iter().filter(|energy| **energy > least).count();
-    along.element_sum() / (spheres.len() * directions.max(1)) as f64
+    let energy = along.element_sum() / (spheres.len() * directions.max(1)) as f64;
+    ThermalMotion { energy, directions: directions as u8 }
 }
 
 /// Where spheres are shut in, so that they have a pressure.
@@ -65,13 +75,16 @@ impl Enclosure {
             .sum()
     }
 
-    /// Pressure \[Pa\] where [`Self::pressing`] grows by `rate` a second, of `count` spheres with this
-    /// thermal energy \[J\]: force by area on a container; in a periodic box, by the virial theorem,
-    /// `(N k T + Σ r J / (3 t)) / V`.
-    pub fn pressure(&self, rate: f64, count: usize, thermal_energy: f64) -> f64 {
+    /// Pressure \[Pa\] where [`Self::pressing`] grows by `rate` a second, of `count` spheres that move so:
+    /// force by area on a container; in a periodic box, by the virial theorem,
+    /// `(N k T + Σ r J / (d t)) / V`, along the d directions of the motion.
+    pub fn pressure(&self, rate: f64, count: usize, motion: ThermalMotion) -> f64 {
         match self {
             Self::Container { area, .. } => rate / area,
-            Self::Periodic { volume } => (count as f64 * thermal_energy + rate / 3.0) / volume,
+            Self::Periodic { volume } => {
+                let directions = f64::from(motion.directions.max(1));
+                (count as f64 * motion.energy + rate / directions) / volume
+            }
         }
     }
 }

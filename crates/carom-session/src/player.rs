@@ -153,10 +153,13 @@ impl Player {
     }
 
     fn edit(&mut self, edit: Edit) -> Result<(), SessionError> {
-        let before = self.last_edit.replace((edit.clone(), 0.0));
+        let before = self.last_edit.take();
         let goes_on =
             before.is_some_and(|(last, seconds)| seconds < GESTURE && last.merged(&edit).is_some());
-        if goes_on { self.watched.edit_further(edit) } else { self.watched.edit(edit) }
+        let made = edit.clone();
+        if goes_on { self.watched.edit_further(edit) } else { self.watched.edit(edit) }?;
+        self.last_edit = Some((made, 0.0));
+        Ok(())
     }
 
     /// Takes changes back, or makes them again.

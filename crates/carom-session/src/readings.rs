@@ -2,7 +2,7 @@
 
 use carom::{DVec3, Snapshot, SphereId, StageCounts, World};
 
-use crate::gas::{Enclosure, thermal_energy};
+use crate::gas::{Enclosure, thermal_motion};
 use crate::impacts::{LastImpacts, ListedImpact};
 use crate::series::Series;
 
@@ -28,6 +28,8 @@ pub struct Reading {
     /// Temperature times Boltzmann's constant \[J\]: the mean of `m v²` along one direction, of the
     /// motion relative to that of all together, over the directions in which there is any.
     pub thermal_energy: f64,
+    /// In how many directions there is any.
+    pub directions: u8,
     /// Of the impacts on the first closed container, or by the virial theorem in a periodic box, over
     /// the same time as the rate of impacts \[Pa\]; `None` where spheres are not shut in.
     pub pressure: Option<f64>,
@@ -111,11 +113,11 @@ impl Readings {
     /// What is measured at the present of the world.
     pub fn present(&self, frame: u64, world: &World) -> Reading {
         let (time, Tally { impacts, pressed }) = (world.time(), self.tally);
-        let thermal_energy = thermal_energy(world);
+        let motion = thermal_motion(world);
         let since = self.window(frame, time);
         let pressure = |enclosure: Enclosure| {
             let rate = rate(time, pressed, since.map(|it| (it.time, it.pressed)));
-            enclosure.pressure(rate, world.spheres().len(), thermal_energy)
+            enclosure.pressure(rate, world.spheres().len(), motion)
         };
         Reading {
             time,
@@ -124,7 +126,8 @@ impl Readings {
             momentum: world.momentum(),
             impacts,
             impact_rate: rate(time, impacts as f64, since.map(|it| (it.time, it.impacts as f64))),
-            thermal_energy,
+            thermal_energy: motion.energy,
+            directions: motion.directions,
             pressure: Enclosure::of(world).map(pressure),
             stepped: self.stepped,
             work: self.work,

@@ -35,6 +35,11 @@ impl Revisions {
         }
     }
 
+    /// Notes that a change by hand went on. What was taken back is lost.
+    pub fn go_on(&mut self) {
+        self.after.clear();
+    }
+
     /// What there was before the last change by hand, in the place of what there is.
     pub fn undo(&mut self, present: &Arc<Vec<PastChange>>) -> Option<Revision> {
         let found = self.before.pop()?;

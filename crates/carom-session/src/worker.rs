@@ -99,7 +99,7 @@ impl Worker {
 
     /// For how long the thread has been at work without looking up \[s\].
     pub fn seconds_at_work(&self) -> f64 {
-        let since = *lock(&self.shared.at_work);
+        let since = lock(&self.shared.at_work).filter(|_| !self.thread.is_finished());
         since.map_or(0.0, |since| since.elapsed().as_secs_f64())
     }
 

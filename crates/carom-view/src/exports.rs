@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 
 use carom_render::{Picture, stamp};
 use carom_scene::scene::Scene;
-use egui::{ColorImage, Context, Rect, ScreenshotCallback, ViewportCommand};
+use egui::{ColorImage, Context, Pos2, Rect, ScreenshotCallback, Vec2, ViewportCommand};
 
 use crate::host::Host;
 use crate::naming::{file_name, stamp_text};
@@ -45,7 +45,13 @@ impl Exports {
         let image = Arc::new(Mutex::new(None));
         let (inbox, waiting) = (image.clone(), context.clone());
         let callback = ScreenshotCallback::new(move |screen| {
-            if let Ok(mut inbox) = inbox.lock() {
+            // The window may have become smaller meanwhile.
+            let [width, height] = screen.size.map(|it| it as f32 / pixels_per_point);
+            let whole = Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height));
+            let part = part.intersect(whole);
+            if let Ok(mut inbox) = inbox.lock()
+                && part.is_positive()
+            {
                 *inbox = Some(screen.region(&part, Some(pixels_per_point)));
             }
             waiting.request_repaint();

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use carom_render::Picture;
 use carom_scene::Source;
 use carom_session::{LOCAL_PAGE, Link};
-use egui::{DroppedFileHandle, Vec2};
+use egui::{Context, DroppedFileHandle, Vec2};
 
 /// The program that the interface runs in. Texts of errors are for people.
 pub trait Host {
@@ -97,7 +97,11 @@ pub trait FilmMaker {
 
 /// Where files arrive that were dropped on the interface.
 #[derive(Debug, Clone, Default)]
-pub struct Inbox(Arc<Mutex<Vec<ReadFile>>>);
+pub struct Inbox {
+    files: Arc<Mutex<Vec<ReadFile>>>,
+    /// Draws anew when a file arrives.
+    context: Context,
+}
 
 /// A file that was read, or why it could not be.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -109,15 +113,21 @@ pub struct ReadFile {
 }
 
 impl Inbox {
+    /// Of this interface, which is drawn anew when a file arrives.
+    pub(crate) fn new(context: Context) -> Self {
+        Self { files: Arc::default(), context }
+    }
+
     /// Adds a file.
     pub fn put(&self, file: ReadFile) {
-        if let Ok(mut files) = self.0.lock() {
+        if let Ok(mut files) = self.files.lock() {
             files.push(file);
         }
+        self.context.request_repaint();
     }
 
     /// Takes out all files that have arrived.
     pub(crate) fn take(&self) -> Vec<ReadFile> {
-        self.0.lock().map(|mut files| std::mem::take(&mut *files)).unwrap_or_default()
+        self.files.lock().map(|mut files| std::mem::take(&mut *files)).unwrap_or_default()
     }
 }

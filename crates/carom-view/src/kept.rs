@@ -41,6 +41,11 @@ pub struct Panels {
     pub impacts: bool,
 }
 
+impl Panels {
+    /// No panel.
+    pub const NONE: Self = Self { inspector: false, plots: false, impacts: false };
+}
+
 impl Default for Panels {
     fn default() -> Self {
         Self { inspector: true, plots: false, impacts: false }

@@ -29,7 +29,12 @@ impl Session {
     /// # Errors
     /// What is wrong with it; nothing changes then.
     pub fn edit_further(&mut self, edit: Edit) -> Result<(), SessionError> {
-        if self.revisions.undoable() == 0 { self.edit(edit) } else { self.make(edit) }
+        if self.revisions.undoable() == 0 {
+            return self.edit(edit);
+        }
+        self.make(edit)?;
+        self.revisions.go_on();
+        Ok(())
     }
 
     /// Takes back the last change by hand, and sets out for the frame at which it was made, where all

@@ -98,7 +98,7 @@ impl App {
             context: host.egui_ctx.clone(),
             library: setup.library,
             host: setup.host,
-            inbox: Inbox::default(),
+            inbox: Inbox::new(host.egui_ctx.clone()),
             threaded: setup.threaded,
             studio: Studio::new(state, setup.quality),
             screen: Screen::Empty,
@@ -148,7 +148,10 @@ impl App {
         match Watching::new(scene, source, self.threaded, &self.context) {
             Ok(mut watching) => {
                 self.host.watch(&watching.source);
-                if let Source::File(path) = &watching.source {
+                // A page has no files to come back to.
+                if let Source::File(path) = &watching.source
+                    && cfg!(not(target_arch = "wasm32"))
+                {
                     self.kept.remember(path);
                 }
                 watching.set_layout(self.kept.layout);

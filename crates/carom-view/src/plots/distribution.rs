@@ -17,7 +17,8 @@ const POINTS: usize = 120;
 /// temperature they have.
 pub fn speeds(view: &View) -> Figure {
     let spheres = &view.spheres;
-    let speeds: Vec<f64> = spheres.velocities.iter().map(|it| it.length()).collect();
+    let drift = drift(&spheres.velocities, &spheres.masses);
+    let speeds: Vec<f64> = spheres.velocities.iter().map(|it| (*it - drift).length()).collect();
     let fastest = speeds.iter().copied().fold(0.0, f64::max);
     let bars = (2.0 * (speeds.len() as f64).sqrt()).clamp(8.0, MOST_BARS as f64) as usize;
     let width = if fastest > 0.0 { 1.0001 * fastest / bars as f64 } else { 1.0 };
@@ -30,27 +31,25 @@ pub fn speeds(view: &View) -> Figure {
     let mut curves = vec![Curve::bars("balls", BLUE, width, heights)];
     let thermal_energy = view.now.thermal_energy;
     if thermal_energy > 0.0 {
-        let directions = directions(&spheres.velocities);
         let masses = counted(&spheres.masses);
         let step = 1.1 * fastest / POINTS as f64;
         let places: Vec<f64> = (0..=POINTS).map(|i| i as f64 * step).collect();
         let expected = |speed: f64| {
             let of_mass = |(mass, count): (f64, usize)| {
-                count as f64 * density(speed, mass, thermal_energy, directions)
+                count as f64 * density(speed, mass, thermal_energy, view.now.directions)
             };
             (speed, width * masses.iter().copied().map(of_mass).sum::<f64>())
         };
         curves.push(Curve::line("Maxwell-Boltzmann", RED, &places, |speed| expected(*speed)));
     }
-    Figure::over("Balls by speed", "", ("speed", "m/s"), curves)
+    Figure::over("Balls by speed", "", ("speed relative to the mean motion", "m/s"), curves)
 }
 
-/// In how many directions there is any motion worth the name.
-fn directions(velocities: &[DVec3]) -> usize {
-    const NOTHING: f64 = 1e-9;
-    let largest = velocities.iter().fold(DVec3::ZERO, |largest, it| largest.max(it.abs()));
-    let least = NOTHING * largest.max_element();
-    largest.to_array().iter().filter(|it| **it > least).count()
+/// Velocity of all balls together \[m/s\].
+fn drift(velocities: &[DVec3], masses: &[f64]) -> DVec3 {
+    let momentum: DVec3 = velocities.iter().zip(masses).map(|(v, m)| *m * *v).sum();
+    let mass: f64 = masses.iter().sum();
+    if mass > 0.0 { momentum / mass } else { DVec3::ZERO }
 }
 
 /// How often each number is there.
@@ -63,7 +62,7 @@ fn counted(numbers: &[f64]) -> Vec<(f64, usize)> {
 
 /// Probability density of a speed \[s/m\] by Maxwell and Boltzmann, of molecules of a mass \[kg\] that
 /// move in so many directions at a temperature of `heat` = k T \[J\].
-fn density(speed: f64, mass: f64, heat: f64, directions: usize) -> f64 {
+fn density(speed: f64, mass: f64, heat: f64, directions: u8) -> f64 {
     let along = mass / heat;
     let weight = (-0.5 * along * speed * speed).exp();
     match directions {
@@ -91,7 +90,7 @@ mod tests {
             // Sums at the midpoints have an error of the square of the step.
             assert!((moment(0) - 1.0).abs() < 1e-6, "{directions}");
             let energy = 0.5 * mass * moment(2);
-            assert!((energy - 0.5 * heat * directions as f64).abs() < 1e-6, "{directions}");
+            assert!((energy - 0.5 * heat * f64::from(directions)).abs() < 1e-6, "{directions}");
         }
     }
 

@@ -110,7 +110,7 @@ pub(super) fn show(
             actions.push(action);
         }
     };
-    if seconds_at_work > LONG {
+    if seconds_at_work > LONG && view.seeking.is_none() && view.playback.playing {
         ui.ctx().request_repaint_after_secs(0.1);
         card(ui, rect, |ui| {
             let text = format!("Computing this frame: {seconds_at_work:.0} s");
@@ -138,10 +138,7 @@ pub(super) fn show(
                 ui.label("It begins with the values that were set.");
                 button(ui, "Undo", Action::Undo);
             } else {
-                let (count, s) = (view.edits.len(), if view.edits.len() == 1 { "" } else { "s" });
-                ui.label(format!(
-                    "{count} edit{s} will come again, at the mark{s} of the time line."
-                ));
+                ui.label("Edits will come again, at the marks of the time line.");
                 button(ui, "Begin with their values", Action::RestartWithValues);
             }
             if !view.playback.playing {

@@ -50,6 +50,8 @@ pub struct Watching {
     layout: Layout,
     /// Whether the window had little room at the last picture.
     is_narrow: bool,
+    /// What is open over the picture where it has little room.
+    sheet: Panels,
     throw: Throw,
     /// The picture, and beside it that of the other rule.
     canvases: [Canvas; 2],
@@ -142,6 +144,7 @@ impl Watching {
             clock: 0.0,
             layout: Layout::default(),
             is_narrow: false,
+            sheet: Panels::NONE,
             throw: Throw::default(),
             canvases: Default::default(),
             drawing: Drawing::default(),
@@ -212,8 +215,11 @@ impl Watching {
             Action::StepBack => self.commands.push(Command::StepBack),
             Action::Restart => self.restart(false),
             Action::RestartWithValues => self.restart(true),
-            Action::Undo => self.commands.push(Command::Undo),
-            Action::Redo => self.commands.push(Command::Redo),
+            Action::Undo | Action::Redo => {
+                self.restarted = None;
+                let is_undo = action == Action::Undo;
+                self.commands.push(if is_undo { Command::Undo } else { Command::Redo });
+            }
             Action::Faster | Action::Slower => {
                 let next = transport::next_speed(speed, action == Action::Faster);
                 self.commands.push(Command::Speed(next));
@@ -243,17 +249,17 @@ impl Watching {
     }
 
     fn toggle_panel(&mut self, action: Action) {
-        let Panels { inspector, plots, impacts } = &mut self.layout.panels;
-        let panels =
-            [(Action::Inspector, inspector), (Action::Plots, plots), (Action::Impacts, impacts)];
-        for (of, is_open) in panels {
-            if of == action {
-                *is_open ^= true;
-            } else if self.is_narrow {
-                // There is room for one.
-                *is_open = false;
-            }
-        }
+        // In a narrow window there is room for one; what is kept for wide ones stays as it is.
+        let before = if self.is_narrow { self.sheet } else { self.layout.panels };
+        let is_one = |of: Action, is_open: bool| {
+            if of == action { !is_open } else { is_open && !self.is_narrow }
+        };
+        let after = Panels {
+            inspector: is_one(Action::Inspector, before.inspector),
+            plots: is_one(Action::Plots, before.plots),
+            impacts: is_one(Action::Impacts, before.impacts),
+        };
+        *(if self.is_narrow { &mut self.sheet } else { &mut self.layout.panels }) = after;
     }
 
     /// The same scene under two rules; or again under one.
@@ -276,11 +282,9 @@ impl Watching {
     /// The panels around the picture. Returns the actions of their buttons.
     pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
         self.is_narrow = is_narrow(ui);
-        if self.drawn[0].is_none() && self.is_narrow {
-            self.layout.panels = Panels { inspector: false, plots: false, impacts: false };
-        }
-        let Self { driver, commands, layout, throw, departures, wanted, .. } = self;
+        let Self { driver, commands, layout, throw, departures, wanted, sheet, .. } = self;
         let Layout { panels, plots, .. } = layout;
+        let panels = if self.is_narrow { sheet } else { panels };
         let view = driver.view();
         let transport = egui::Panel::bottom("transport").show(ui, |ui| {
             ui.add_space(3.0);
@@ -309,7 +313,8 @@ impl Watching {
     /// Buttons for what is shown, for the bar at the upper edge.
     pub fn switches(&self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
-        let Panels { inspector, plots, impacts } = self.layout.panels;
+        let panels = if self.is_narrow { self.sheet } else { self.layout.panels };
+        let Panels { inspector, plots, impacts } = panels;
         let Marks { velocities, contacts, forces, .. } = self.layout.marks;
         let switches = [
             ("Inspector", inspector, Action::Inspector),

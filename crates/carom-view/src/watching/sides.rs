@@ -2,7 +2,7 @@
 
 use carom_scene::scene::{Rule, Simulation};
 use carom_session::{Command, View};
-use egui::{ComboBox, Frame, Rect, Stroke, Ui, UiBuilder, Vec2};
+use egui::{ComboBox, Frame, Id, Rect, Stroke, Ui, UiBuilder, Vec2};
 
 use crate::inspector;
 
@@ -20,7 +20,12 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, view: &View, side: usize, commands: 
         painter.vline(rect.left(), rect.y_range(), Stroke::new(2.0, egui::Color32::GRAY));
     }
     let present = &side_of(view, side).setup.simulation;
-    let mut own = present.clone();
+    // What is being dragged is taken when it is let go: each change computes the run anew.
+    let ids = [Id::unique(("settings", side)), Id::unique(("draft", side))];
+    let (mut is_open, draft) = ui.data_mut(|data| {
+        (data.get_temp(ids[0]).unwrap_or(false), data.get_temp::<Simulation>(ids[1]))
+    });
+    let mut own = draft.unwrap_or_else(|| present.clone());
     let upper =
         Rect::from_min_size(rect.min + Vec2::splat(8.0), Vec2::new(rect.width() - 16.0, 30.0));
     ui.scope_builder(UiBuilder::new().max_rect(upper).id_salt(("side", side)), |ui| {
@@ -40,14 +45,23 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, view: &View, side: usize, commands: 
                         ..egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &text)
                     }
                 });
-                ui.menu_button("Settings", |ui| {
-                    ui.set_min_width(240.0);
-                    inspector::simulation::edit(ui, &mut own);
-                });
+                ui.toggle_value(&mut is_open, "Settings");
             });
+            if is_open {
+                ui.set_max_width(300.0);
+                inspector::simulation::edit(ui, &mut own);
+            }
         });
     });
-    if own != *present {
+    let is_held = ui.input(|input| input.pointer.any_down()) || ui.ctx().text_edit_focused();
+    ui.data_mut(|data| {
+        data.insert_temp(ids[0], is_open);
+        data.remove::<Simulation>(ids[1]);
+        if is_held && own != *present {
+            data.insert_temp(ids[1], own.clone());
+        }
+    });
+    if !is_held && own != *present {
         commands.push(Command::Compare(Some(Box::new(pair(view, side, own)))));
     }
 }

@@ -48,7 +48,7 @@ fn a_restart_says_that_edits_come_again_and_offers_to_begin_with_their_values() 
     edit(&mut desk, 0.05);
     press(&mut desk, Key::Home);
     assert_eq!((restitution(&desk), scene(&desk).view().frame), (before, 0));
-    desk.get_by_label_contains("1 edit will come again");
+    desk.get_by_label_contains("Edits will come again");
     desk.get_by_label("Begin with their values").click();
     desk.run_steps(4);
     assert_eq!((restitution(&desk), scene(&desk).view().frame), (0.05, 0));

@@ -1,6 +1,7 @@
 //! Two pictures side by side, each with its own rule.
 
-use carom_scene::scene::Rule;
+use carom_scene::scene::{ImpactLaw, Rule};
+use carom_session::Command;
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 
@@ -42,4 +43,27 @@ fn curves_of_two_rules_say_whose_they_are() {
     }
     press(&mut desk, Key::L);
     desk.get_by_label_contains("Of the left picture");
+}
+
+#[test]
+fn settings_of_one_half_are_chosen_there_and_the_other_half_keeps_its_own() {
+    let mut desk = watching("tutorial1");
+    // Under `exact` alone, both halves of a pair have its settings.
+    let mut simulation = scene(&desk).view().setup.simulation.clone();
+    simulation.rule = Rule::Exact;
+    let pair = Box::new([simulation.clone(), simulation]);
+    desk.state_mut().command(Command::Compare(Some(pair)));
+    press(&mut desk, Key::I);
+    go_to(&mut desk, 0.5);
+    desk.get_all_by_label("Settings").last().expect("of the right half").click();
+    desk.run_steps(4);
+    desk.get_all_by_label("impact law").last().expect("a choice").click();
+    desk.run_steps(4);
+    desk.get_by_label("sequential").click();
+    desk.run_steps(30);
+    let view = scene(&desk).view();
+    let laws = [view, view.other.as_ref().expect("two")]
+        .map(|side| side.setup.simulation.exact.impact_law);
+    assert_eq!(laws, [ImpactLaw::default(), ImpactLaw::Sequential]);
+    assert_eq!(view.frame, 30, "time is kept");
 }
