@@ -220,3 +220,18 @@ fn edits_of_one_gesture_are_taken_back_together_and_those_apart_one_by_one() {
     driver.update(0.0, || false);
     assert_eq!(restitution(&driver), 0.2);
 }
+
+#[test]
+fn a_refused_edit_is_no_part_of_a_gesture() {
+    let mut driver = Driver::inline(busy());
+    let mut send = |command| {
+        driver.send(command).unwrap();
+        driver.update(0.0, || false);
+        (driver.view().undoable, driver.view().setup.forces.len())
+    };
+    let forces = 2;
+    assert_eq!(send(Command::Edit(moon())), (1, forces + 1));
+    assert_eq!(send(Command::Edit(Edit::FrameTime(-1.0))), (1, forces + 1));
+    assert_eq!(send(Command::Edit(Edit::FrameTime(0.01))), (2, forces + 1));
+    assert_eq!(send(Command::Undo), (1, forces + 1), "the force stays");
+}
