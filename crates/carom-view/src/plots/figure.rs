@@ -202,13 +202,19 @@ fn quoted(cell: &str) -> String {
     if is_plain { cell.to_owned() } else { format!("\"{}\"", cell.replace('"', "\"\"")) }
 }
 
-/// Round numbers along an axis, so few that there is room to write all of them.
+/// Round numbers along an axis: two at least, and so few that there is room to write all of them.
 fn marks(axis: GridInput) -> Vec<GridMark> {
     const PARTS: f64 = 4.0;
+    let found = round_numbers(axis.bounds, PARTS);
+    // About zero, one round number may have the axis to itself.
+    if found.len() == 1 { round_numbers(axis.bounds, 2.0 * PARTS) } else { found }
+}
+
+/// Round numbers in a range, at most so many parts apart.
+fn round_numbers((min, max): (f64, f64), parts: f64) -> Vec<GridMark> {
     // More than this, or numbers that steps no longer tell apart, would not end.
     const MOST: f64 = 20.0;
-    let (min, max) = axis.bounds;
-    let least = (max - min) / PARTS;
+    let least = (max - min) / parts;
     let power = 10f64.powf(least.log10().floor());
     let round = [1.0, 2.0, 5.0, 10.0].into_iter().find(|it| it * power >= least);
     let step_size = round.unwrap_or(10.0) * power;
@@ -256,6 +262,7 @@ mod tests {
     fn every_axis_has_round_numbers_and_few_of_them() {
         assert_eq!(values((0.0, 100.0)), [0.0, 50.0, 100.0]);
         assert_eq!(values((-3.1, 33.0)), [0.0, 10.0, 20.0, 30.0]);
+        assert_eq!(values((-45.0, 45.0)), [-40.0, -20.0, 0.0, 20.0, 40.0]);
         for (min, max) in [(0.0, 4e-9), (0.3, 0.31), (-1e9, 2.0), (5e3, 6.7e3), (-1.0, 1e-3)] {
             let count = values((min, max)).len();
             assert!((2..=6).contains(&count), "{min} to {max}: {count}");
