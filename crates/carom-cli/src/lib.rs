@@ -6,7 +6,6 @@
 mod advice;
 mod args;
 mod bench;
-mod changed_file;
 mod choice;
 mod compare;
 mod config;

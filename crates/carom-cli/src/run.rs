@@ -4,15 +4,15 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use carom::{StopRequest, World};
 use carom_scene::recording::{ImpactTable, LedgerTable, RecordingError, Trajectory};
 use carom_scene::scene::Rule;
-use carom_scene::{Library, Source};
+use carom_scene::{ChangedFile, Library, Source};
 use carom_session::Replay;
 
 use crate::args::Run;
-use crate::changed_file::ChangedFile;
 use crate::failure::{Failure, complain};
 use crate::interruption::interruption;
 use crate::link;
@@ -38,10 +38,24 @@ pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
             Ok(()) => {}
         }
         complain(&format!("carom: waiting for a change of {}; Ctrl-C ends", file.path().display()));
-        if !file.wait(&interrupted) {
+        if !wait_for_change(&mut file, &interrupted) {
             return Err(Failure::Interrupted);
         }
     }
+}
+
+/// How often a file that is watched is looked at.
+const INTERVAL: Duration = Duration::from_millis(200);
+
+/// Waits until a file is changed, or until `interrupted`. Returns whether it was changed.
+fn wait_for_change(file: &mut ChangedFile, interrupted: &AtomicBool) -> bool {
+    while !interrupted.load(Ordering::Relaxed) {
+        if file.look() {
+            return true;
+        }
+        std::thread::sleep(INTERVAL);
+    }
+    false
 }
 
 /// The file that is watched.

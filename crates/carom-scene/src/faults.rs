@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use toml::de::DeTable;
 use toml::{Table, Value};
 
-use crate::error::{Fault, Problem, segments};
-use crate::load::{fault, line_at, line_of, named, read};
+use crate::error::{Fault, Problem};
+use crate::load::{fault, line_at, line_of, named, place_of, read};
 use crate::scene::Scene;
 
 /// Faults of one file in a list, at most: those after them are likely to follow from them.
@@ -99,11 +99,8 @@ fn as_written(field: &str, originals: &Originals) -> String {
 /// Takes out what a problem is about: a whole element of a list, or else the field alone. Returns
 /// whether there was anything.
 fn take_out(table: &mut Table, problem: &Problem, originals: &mut Originals) -> bool {
-    let mut path = segments(&problem.field);
-    // "unknown field `x`" is reported at the table that holds x; of what lacks a field, all goes.
-    if missing(problem).is_none() {
-        path.extend(problem.problem.split('`').nth(1).map(str::to_owned));
-    }
+    // Of what lacks a field, all goes.
+    let path = place_of(problem);
     let Some(first) = path.first().cloned() else { return false };
     if let (Some(Value::Array(list)), Some(left)) =
         (table.get_mut(&first), originals.get_mut(&first))

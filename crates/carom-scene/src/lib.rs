@@ -17,6 +17,7 @@
 
 mod bodies;
 mod builtin;
+mod changed_file;
 mod check;
 mod error;
 mod expand;
@@ -43,6 +44,7 @@ mod wording;
 mod world;
 
 pub use builtin::FILES as BUILT_IN_FILES;
+pub use changed_file::ChangedFile;
 pub use error::{Fault, SceneError};
 pub use library::{Entry, Library, Source};
 pub use overrides::Override;

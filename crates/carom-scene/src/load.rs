@@ -168,12 +168,20 @@ pub(crate) fn fault(source_name: &str, line: Option<usize>, field: &str, problem
     }
 }
 
+/// The place in the file of what a problem is about, as names and indices.
+pub(crate) fn place_of(problem: &Problem) -> Vec<String> {
+    let mut place = segments(&problem.field);
+    // "unknown field `x`" is reported at the table that holds x; a field that is missing has no place.
+    if !problem.problem.starts_with("missing field") {
+        place.extend(problem.problem.split('`').nth(1).map(str::to_owned));
+    }
+    place
+}
+
 /// Line of what a problem is about: the field itself, or the nearest thing around it that is
 /// written in the file.
 pub(crate) fn line_of(document: &Spanned<DeTable>, text: &str, problem: &Problem) -> Option<usize> {
-    let mut path = segments(&problem.field);
-    // "unknown field `x`" is reported at the table that holds x.
-    path.extend(problem.problem.split('`').nth(1).map(str::to_owned));
+    let path = place_of(problem);
     let (first, rest) = path.split_first()?;
     let (key, mut place) = document.get_ref().get_key_value(first.as_str())?;
     let mut line = line_at(text, key.span().start);

@@ -70,8 +70,7 @@ impl Host for Desktop {
         // The window goes on while the user chooses.
         std::thread::spawn(move || {
             if let Some(file) = pollster::block_on(picked) {
-                let content = std::fs::read(file.path()).map_err(|error| error.to_string());
-                inbox.put(ReadFile { path: file.path().to_owned(), content });
+                inbox.put(ReadFile::from_disk(file.path()));
             }
         });
     }

@@ -1,6 +1,6 @@
 //! What the interface needs of the program it runs in: a window of the desktop, a page, a test.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use carom_render::Picture;
@@ -110,6 +110,14 @@ pub struct ReadFile {
     pub path: PathBuf,
     /// What is in it.
     pub content: Result<Vec<u8>, String>,
+}
+
+impl ReadFile {
+    /// Reads a file of the disk.
+    pub fn from_disk(path: &Path) -> Self {
+        let content = std::fs::read(path).map_err(|error| error.to_string());
+        Self { path: path.to_owned(), content }
+    }
 }
 
 impl Inbox {

@@ -1,9 +1,8 @@
 //! A scene file that is edited while it is watched.
 
 use std::path::PathBuf;
-use std::time::SystemTime;
 
-use carom_scene::Source;
+use carom_scene::{ChangedFile, Source};
 
 /// How often the file is looked at \[s\].
 pub const INTERVAL: f64 = 0.5;
@@ -11,7 +10,7 @@ pub const INTERVAL: f64 = 0.5;
 /// The file of the scene that is watched.
 #[derive(Debug, Default)]
 pub struct WatchedFile {
-    file: Option<(PathBuf, Option<SystemTime>)>,
+    file: Option<ChangedFile>,
     /// When it was looked at last, by the clock of the interface \[s\].
     looked: f64,
 }
@@ -20,7 +19,7 @@ impl WatchedFile {
     /// Watches the file of a scene; none for a scene that comes from elsewhere.
     pub fn watch(&mut self, source: &Source) {
         self.file = match source {
-            Source::File(path) => Some((path.clone(), changed(path))),
+            Source::File(path) => Some(ChangedFile::new(path)),
             _ => None,
         };
     }
@@ -36,17 +35,7 @@ impl WatchedFile {
             return None;
         }
         self.looked = now;
-        let (path, last) = self.file.as_mut()?;
-        let changed = changed(path);
-        // While an editor writes it anew, a file may be missing for a moment.
-        if changed.is_none() || changed == *last {
-            return None;
-        }
-        *last = changed;
-        Some(path.clone())
+        let file = self.file.as_mut()?;
+        file.look().then(|| file.path().to_owned())
     }
-}
-
-fn changed(path: &PathBuf) -> Option<SystemTime> {
-    std::fs::metadata(path).and_then(|about| about.modified()).ok()
 }

@@ -42,18 +42,14 @@ impl Session {
     /// of a link were not made by hand.
     pub fn undo(&mut self) -> bool {
         let found = self.revisions.undo(self.history.changes());
-        let is_one = found.is_some();
-        found.into_iter().for_each(|revision| self.rewrite(revision));
-        is_one
+        found.map(|revision| self.rewrite(revision)).is_some()
     }
 
     /// Makes the change by hand again that was taken back last, and sets out for its frame;
     /// [`Self::advance_seek`] goes there. Returns whether there was one.
     pub fn redo(&mut self) -> bool {
         let found = self.revisions.redo(self.history.changes());
-        let is_one = found.is_some();
-        found.into_iter().for_each(|revision| self.rewrite(revision));
-        is_one
+        found.map(|revision| self.rewrite(revision)).is_some()
     }
 
     /// Goes back to the beginning with the values that were changed in the whole run: forces, rule,

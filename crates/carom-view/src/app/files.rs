@@ -26,12 +26,6 @@ impl App {
         }
     }
 
-    /// Opens a file of the disk.
-    pub(super) fn open_file(&mut self, path: &Path) {
-        let content = std::fs::read(path).map_err(|error| error.to_string());
-        self.inbox.put(ReadFile { path: path.to_owned(), content });
-    }
-
     /// Shows where a file would go that is held over the window.
     pub(super) fn drop_target(&self) {
         if self.context.input(|input| input.raw.hovered_files.is_empty()) {

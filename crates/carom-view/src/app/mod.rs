@@ -19,7 +19,7 @@ use crate::address::Address;
 use crate::chooser::{Chooser, Chosen};
 use crate::exports::Exports;
 use crate::help;
-use crate::host::{Host, Inbox};
+use crate::host::{Host, Inbox, ReadFile};
 use crate::kept::Kept;
 use crate::link_dialog::LinkDialog;
 use crate::maze_screen::{MazeScreen, Wish};
@@ -486,7 +486,7 @@ impl eframe::App for App {
         }
         match self.chooser.show(&context, &mut self.studio) {
             Some(Chosen::Scene(scene, source)) => self.open(*scene, source),
-            Some(Chosen::File(path)) => self.open_file(&path),
+            Some(Chosen::File(path)) => self.inbox.put(ReadFile::from_disk(&path)),
             Some(Chosen::AnyFile) => self.host.open_file(&self.inbox),
             None => {}
         }

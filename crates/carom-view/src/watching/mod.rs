@@ -262,7 +262,7 @@ impl Watching {
         *(if self.is_narrow { &mut self.sheet } else { &mut self.layout.panels }) = after;
     }
 
-    /// The same scene under two rules; or again under one.
+    /// Shows the scene under two rules, or under one alone where there are two.
     fn compare(&mut self) {
         let view = self.driver.view();
         let own = view.setup.simulation.clone();
