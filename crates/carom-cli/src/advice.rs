@@ -1,4 +1,4 @@
-//! Which rule a run would have been better off with.
+//! What would have made a run better: another rule, or something that moves.
 
 use carom_scene::scene::Rule;
 
@@ -13,6 +13,8 @@ const IMPACT_RATE: f64 = 300.0;
 #[derive(Debug, Clone, Copy)]
 pub struct Conduct {
     pub rule: Rule,
+    /// Whether there are spheres, or emitters that may give some.
+    pub has_spheres: bool,
     /// Whether there are forces.
     pub has_forces: bool,
     /// Largest overlap at the end of a frame, as a part of the mean radius.
@@ -21,9 +23,14 @@ pub struct Conduct {
     pub impact_rate: f64,
 }
 
-/// The rule that would have been better, in a sentence; `None` where this one does.
+/// What would have been better, in a sentence; `None` where all is well.
 pub fn advice(conduct: Conduct) -> Option<String> {
-    let Conduct { rule, has_forces, overlap, impact_rate } = conduct;
+    let Conduct { rule, has_spheres, has_forces, overlap, impact_rate } = conduct;
+    if !has_spheres {
+        let text = "nothing can move: the scene has no spheres, generators of spheres or emitters; \
+                    `carom new NAME` writes one to start from";
+        return Some(text.to_owned());
+    }
     match rule {
         Rule::Discrete | Rule::Bisect if overlap > OVERLAP => Some(format!(
             "balls overlap by {overlap:.1} of a radius: `--rule contact` keeps them apart in heaps, \

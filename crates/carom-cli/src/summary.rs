@@ -133,7 +133,7 @@ pub struct Summary {
     wall_time: f64,
     stepping_time: f64,
     state_hash: String,
-    /// Which rule would have been better.
+    /// What would have made the run better.
     advice: Option<String>,
 }
 
@@ -144,6 +144,9 @@ impl Conduct {
         let radius = radii.iter().sum::<f64>() / spheres;
         Self {
             rule: replay.simulation().rule,
+            has_spheres: !world.spheres().is_empty()
+                || observer.retired > 0
+                || world.emitters().len() > 0,
             has_forces: !replay.scene().forces.is_empty(),
             overlap: if radius > 0.0 { observer.largest_overlap / radius } else { 0.0 },
             impact_rate: observer.impacts as f64 / (spheres * world.time().max(f64::MIN_POSITIVE)),

@@ -404,6 +404,24 @@ fn a_heap_under_another_rule_is_advised_to_use_contact() {
     assert!(summary(&["run", "simtest1"])["advice"].is_null());
 }
 
+#[test]
+fn a_scene_in_which_nothing_can_move_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let advice = |text: &str| {
+        let scene = path(&folder, "scene.toml");
+        std::fs::write(&scene, text).unwrap();
+        let figures = summary(&["run", &scene, "--seconds", "0.1"]);
+        figures["advice"].as_str().map(str::to_owned)
+    };
+    let table = "colliders = [{ shape = \"half-space\" }]\n";
+    for text in ["", table] {
+        let advice = advice(text).unwrap_or_default();
+        assert!(advice.contains("has no spheres"), "{text:?}: {advice}");
+    }
+    assert_eq!(advice("spheres = [{ radius = 1 }]"), None);
+    assert_eq!(advice("emitters = [{ period = 1, sphere = { radius = 1 } }]"), None);
+}
+
 /// A pile whose one frame would take minutes.
 #[cfg(unix)]
 const PILE: &str = r#"
