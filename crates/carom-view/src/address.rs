@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use carom_scene::scene::Scene;
-use carom_session::{Link, LinkSource, PastChange, View};
+use carom_session::{Eye, Link, LinkSource, PastChange, View};
 use egui::Context;
 
 use crate::host::Host;
@@ -28,18 +28,21 @@ pub struct Moment {
     scene: Arc<Scene>,
     frame: u64,
     changes: Arc<Vec<PastChange>>,
+    eye: Option<Eye>,
 }
 
 impl Moment {
-    /// The moment that a view shows.
-    pub fn of(view: &View) -> Self {
-        Self { scene: view.scene.clone(), frame: view.frame, changes: view.changes.clone() }
+    /// The moment that a view shows, seen from where a link to its scene says.
+    pub fn of(view: &View, base: &Link) -> Self {
+        let (scene, changes) = (view.scene.clone(), view.changes.clone());
+        Self { scene, frame: view.frame, changes, eye: base.eye() }
     }
 
     /// Whether a link to this is a link to the other, too.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.frame == other.frame
+            && self.eye == other.eye
             && Arc::ptr_eq(&self.changes, &other.changes)
     }
 }
@@ -52,7 +55,7 @@ impl Address {
         if !host.shows_links() || is_large || view.seeking.is_some() {
             return;
         }
-        let moment = Moment::of(view);
+        let moment = Moment::of(view, base);
         if self.told.as_ref().is_some_and(|told| told.is_same(&moment)) {
             return;
         }

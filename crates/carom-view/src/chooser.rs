@@ -24,6 +24,8 @@ pub struct Chooser {
     moved: bool,
     filter: String,
     selected: usize,
+    /// What went wrong before it opened.
+    trouble: Option<String>,
     cards: Vec<Card>,
 }
 
@@ -75,6 +77,7 @@ impl Chooser {
         self.just_opened = true;
         self.filter.clear();
         self.selected = 0;
+        self.trouble = None;
         let card = |entry: Entry, is_recent| {
             let thumbnail =
                 if entry.scene.is_ok() { Thumbnail::Missing } else { Thumbnail::Impossible };
@@ -90,6 +93,11 @@ impl Chooser {
         let all = library.entries()?.into_iter().map(|entry| card(entry, false));
         self.cards = recent.chain(all).collect();
         Ok(())
+    }
+
+    /// Says what went wrong before it opened.
+    pub fn complain(&mut self, why: &str) {
+        self.trouble = Some(why.to_owned());
     }
 
     /// Whether it is open.
@@ -133,6 +141,9 @@ impl Chooser {
                     }
                 });
             });
+            if let Some(why) = &self.trouble {
+                ui.colored_label(ui.visuals().error_fg_color, why);
+            }
             ui.separator();
             let height = (size.y - 160.0).clamp(120.0, 620.0);
             ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {

@@ -1,6 +1,6 @@
 //! The dialog with a link to what is shown, for people to copy.
 
-use carom_session::View;
+use carom_session::{Link, View};
 use egui::{Align2, Context, TextEdit, Window};
 
 use crate::address::Moment;
@@ -42,15 +42,15 @@ impl LinkDialog {
         self.open
     }
 
-    /// Shows the dialog while it is open, with a link to this view, or to something that stays the
-    /// same.
+    /// Shows the dialog while it is open, with a link to this view of a run whose beginning has
+    /// another link, or to something that stays the same.
     pub fn show(
         &mut self,
         context: &Context,
-        view: Option<&View>,
+        run: Option<(&View, &Link)>,
         make_link: impl FnOnce() -> String,
     ) {
-        let moment = view.map(Moment::of);
+        let moment = run.map(|(view, base)| Moment::of(view, base));
         let is_same = |(shown, _): &(Option<Moment>, String)| match (shown, &moment) {
             (Some(shown), Some(now)) => shown.is_same(now),
             (shown, now) => shown.is_none() && now.is_none(),
@@ -105,7 +105,7 @@ impl LinkDialog {
                         ui.ctx().request_repaint_after_secs(SAID as f32);
                     }
                 });
-                let hash = view.and_then(|view| view.playback.state_hash);
+                let hash = run.and_then(|(view, _)| view.playback.state_hash);
                 if let Some(hash) = hash {
                     ui.monospace(format!("state hash  {hash}"));
                 }

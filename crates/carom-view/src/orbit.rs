@@ -3,6 +3,7 @@
 use carom::{DQuat, DVec3};
 pub use carom_render::Preset;
 use carom_render::{Bounds, Camera};
+use carom_session::Eye;
 use egui::Ui;
 
 /// A camera and what it looks at.
@@ -29,6 +30,19 @@ impl Orbit {
     pub fn preset(preset: Preset, of_scene: Option<Camera>, bounds: &Bounds, aspect: f64) -> Self {
         // Narrower pictures are widened when they are drawn.
         Self::about(preset.camera(of_scene, bounds, aspect.max(16.0 / 9.0)), bounds)
+    }
+
+    /// At the place of a link, with the field of view of the scene's camera if it has one.
+    pub fn of_eye(eye: Eye, of_scene: Option<Camera>) -> Self {
+        let usual = Camera::VERTICAL_FOV_DEGREES.to_radians();
+        let vertical_fov = of_scene.map_or(usual, |camera| camera.vertical_fov);
+        let camera = Camera::looking_at(eye.position, eye.target, vertical_fov);
+        Self { camera, distance: eye.position.distance(eye.target) }
+    }
+
+    /// Its place, for a link.
+    pub fn eye(&self) -> Eye {
+        Eye { position: self.camera.position, target: self.target() }
     }
 
     /// The point about which it turns \[m\].

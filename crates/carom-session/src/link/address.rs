@@ -60,6 +60,9 @@ fn fragment(link: &Link) -> String {
     if let Some(time) = link.time {
         parts.push(("t", number(time)));
     }
+    if let Some(eye) = &link.eye {
+        parts.push(("eye", eye.written()));
+    }
     let parts: Vec<String> = parts.iter().map(|(name, value)| format!("{name}={value}")).collect();
     parts.join("&")
 }

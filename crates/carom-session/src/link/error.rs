@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::packed::PackedError;
 
 /// Names of the parts of a link.
-const PARTS: [&str; 7] = ["scene", "file", "name", "set", "rule", "edits", "t"];
+const PARTS: [&str; 8] = ["scene", "file", "name", "set", "rule", "edits", "t", "eye"];
 
 /// What is wrong with a link.
 #[derive(Debug, Error)]
@@ -55,6 +55,14 @@ pub enum LinkError {
         /// As it is written, shortened.
         found: String,
     },
+    /// It looks from nowhere.
+    #[error(
+        "the link says eye={found}; it must be six numbers in m: x,y,z to look from and x,y,z to look at"
+    )]
+    Eye {
+        /// As it is written, shortened.
+        found: String,
+    },
     /// A packed part cannot be unpacked.
     #[error("{part} of the link {source}")]
     Packed {
@@ -70,6 +78,11 @@ pub enum LinkError {
         problem: String,
     },
     /// Something is wrong with its scene, or an override of it.
-    #[error(transparent)]
+    #[error("{}", in_words_of_links(.0))]
     Scene(#[from] SceneError),
+}
+
+/// An error of a scene, whose overrides stand in a link and not on a command line.
+fn in_words_of_links(error: &SceneError) -> String {
+    error.to_string().replace("--set ", "set=")
 }

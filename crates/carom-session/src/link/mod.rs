@@ -2,6 +2,7 @@
 
 mod address;
 mod error;
+mod eye;
 mod packed;
 mod parse;
 mod present;
@@ -13,6 +14,7 @@ mod time;
 mod written;
 
 pub use error::LinkError;
+pub use eye::Eye;
 pub use packed::{MAX_UNPACKED, PackedError};
 pub use run::{Link, LinkSource};
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use percent_encoding::percent_decode_str;
 
 use super::error::LinkError;
+use super::eye::Eye;
 use super::packed::unpack;
 use super::quotation::quoted;
 use super::rule::rule_override;
@@ -23,6 +24,7 @@ struct Once<'a> {
     rule: Option<&'a str>,
     edits: Option<&'a str>,
     t: Option<&'a str>,
+    eye: Option<&'a str>,
 }
 
 impl Link {
@@ -64,6 +66,7 @@ fn link(text: &str) -> Result<Link, LinkError> {
             "rule" => ("rule", &mut once.rule),
             "edits" => ("edits", &mut once.edits),
             "t" => ("t", &mut once.t),
+            "eye" => ("eye", &mut once.eye),
             "set" => {
                 overrides.push(decoded("set", value)?.parse()?);
                 continue;
@@ -82,6 +85,7 @@ fn link(text: &str) -> Result<Link, LinkError> {
         overrides,
         changes: Arc::new(once.edits.map(edits).transpose()?.unwrap_or_default()),
         time: once.t.map(time).transpose()?,
+        eye: once.eye.map(eye).transpose()?,
     })
 }
 
@@ -113,6 +117,10 @@ fn edits(packed: &str) -> Result<Vec<PastChange>, LinkError> {
 fn time(text: &str) -> Result<f64, LinkError> {
     let seconds = text.parse().map_err(|_| LinkError::Time { found: quoted(text) })?;
     checked_time(seconds)
+}
+
+fn eye(text: &str) -> Result<Eye, LinkError> {
+    Eye::read(&decoded("eye", text)?)
 }
 
 fn unpacked(part: &'static str, packed: &str) -> Result<String, LinkError> {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use carom_scene::Override;
 
 use super::error::LinkError;
+use super::eye::Eye;
 use super::time::{checked_time, readable};
 use crate::change::PastChange;
 
@@ -23,6 +24,7 @@ use crate::change::PastChange;
 /// | `rule` | short for an override of `simulation.rule` |
 /// | `edits` | what was changed on the way, as TOML, packed |
 /// | `t` | the time \[s\] it has come to |
+/// | `eye` | six numbers \[m\]: a place to look from, and one to look at |
 ///
 /// Packed is text compressed by zlib in base64 with the alphabet for addresses, without padding.
 ///
@@ -44,6 +46,7 @@ pub struct Link {
     pub(super) changes: Arc<Vec<PastChange>>,
     /// \[s\]
     pub(super) time: Option<f64>,
+    pub(super) eye: Option<Eye>,
 }
 
 /// The scene of a link.
@@ -63,7 +66,7 @@ pub enum LinkSource {
 impl Link {
     /// To the beginning of a scene as it is.
     pub fn new(source: LinkSource) -> Self {
-        Self { source, overrides: Vec::new(), changes: Arc::default(), time: None }
+        Self { source, overrides: Vec::new(), changes: Arc::default(), time: None, eye: None }
     }
 
     /// This run with these values different in the scene, after those that were.
@@ -89,6 +92,12 @@ impl Link {
         self.with_time(readable(frame as f64 * frame_time, frame_time))
     }
 
+    /// This run, looked at from another place; from where its scene says without one.
+    pub fn with_eye(mut self, eye: Option<Eye>) -> Self {
+        self.eye = eye;
+        self
+    }
+
     /// Its scene.
     pub fn source(&self) -> &LinkSource {
         &self.source
@@ -107,5 +116,10 @@ impl Link {
     /// The time it has come to \[s\]; `None` where it leaves that open.
     pub fn time(&self) -> Option<f64> {
         self.time
+    }
+
+    /// Where it is looked at from; `None` where it leaves that open.
+    pub fn eye(&self) -> Option<Eye> {
+        self.eye
     }
 }

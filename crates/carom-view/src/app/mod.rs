@@ -198,12 +198,14 @@ impl App {
         }
     }
 
-    /// Says why a link cannot be followed.
+    /// Says why a link cannot be followed: in the chooser, where it opens for want of anything else.
     pub fn refuse_link(&mut self, why: &str) {
         if matches!(self.screen, Screen::Empty) {
             self.welcome();
+            self.chooser.complain(why);
+        } else {
+            self.notices.complain(why);
         }
-        self.notices.complain(why);
     }
 
     /// Fills the window with something else; a film of what was there before is complete.
@@ -327,7 +329,8 @@ impl App {
             Screen::Watching(watching) => {
                 let (view, base) = watching.linked();
                 address.tell(view, base, &mut **host, context);
-                link.show(context, Some(view), || format!("{}#{}", host.page(), base.at(view)));
+                let link_text = || format!("{}#{}", host.page(), base.at(view));
+                link.show(context, Some((view, base)), link_text);
             }
             Screen::Maze(screen) => {
                 link.show(context, None, || format!("{}#{}", host.page(), screen.link()));

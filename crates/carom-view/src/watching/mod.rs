@@ -120,6 +120,9 @@ impl Watching {
             LinkSource::File { .. } => Source::Registered,
         };
         let mut watching = Self::at(session, link.clone(), source, threaded, context)?;
+        if let Some(eye) = link.eye() {
+            watching.viewpoint = Viewpoint::at(eye, Camera::of_scene(&watching.view().scene));
+        }
         watching.commands.push(Command::ShowStateHash(true));
         Ok(watching)
     }
@@ -171,11 +174,15 @@ impl Watching {
         self.commands.push(Command::ShowContacts(layout.marks.forces));
     }
 
-    /// What there is to see, and a link to the beginning of its scene.
+    /// What there is to see, and a link to the beginning of its scene, seen from where it is now.
     pub fn linked(&mut self) -> (&View, &Link) {
         let view = self.driver.view();
         if !Arc::ptr_eq(&self.link.0, &view.scene) {
             self.link = (view.scene.clone(), Link::to_scene(&view.scene));
+        }
+        let eye = self.viewpoint.eye();
+        if self.link.1.eye() != eye {
+            self.link.1 = self.link.1.clone().with_eye(eye);
         }
         (view, &self.link.1)
     }

@@ -154,9 +154,44 @@ fn the_address_follows_what_is_shown_but_not_every_frame() {
 
 #[test]
 fn a_link_to_nowhere_is_told_and_a_scene_can_be_chosen() {
-    let (desk, _) = listened(link("scene=simtest7"));
-    assert!(desk.state().notices().texts().any(|text| text.contains("simtest7")));
+    let (mut desk, _) = listened(link("scene=simtest7"));
     assert!(desk.state().is_choosing());
+    desk.get_by_label_contains("simtest7");
+    assert!(!desk.state().notices().any_error(), "it is told once");
+    // What is chosen then has nothing to do with it.
+    press(&mut desk, Key::Enter);
+    press(&mut desk, Key::Enter);
+    assert!(desk.state().is_choosing());
+    assert!(desk.query_by_label_contains("simtest7").is_none());
+}
+
+#[test]
+fn a_link_holds_where_a_hand_has_put_the_camera() {
+    let eye = "eye=1,2.5,-12,0,1,0.25";
+    let (mut desk, told) = listened(link(&format!("scene=simtest1&t=1&{eye}")));
+    desk.run_steps(4);
+    let last = || told.borrow().links.last().cloned().expect("a link");
+    assert_eq!(last(), format!("scene=simtest1&t=1&{eye}"));
+    // Turned by hand, it is another; put back to the scene's camera, none.
+    let picture = desk.ctx.content_rect().center();
+    desk.drag_at(picture);
+    desk.hover_at(picture + egui::vec2(60.0, 10.0));
+    desk.drop_at(picture + egui::vec2(60.0, 10.0));
+    desk.run_steps(12);
+    let turned = last();
+    assert!(turned.contains("&eye=") && !turned.ends_with(eye), "{turned}");
+    let (mut again, _) = listened(link(&turned));
+    again.run_steps(4);
+    let [before, after] = [&mut desk, &mut again].map(|desk| {
+        desk.remove_cursor();
+        desk.run_steps(2);
+        let place = desk.state().place_of(0, desk.ctx.content_rect());
+        place.expect("the ball is seen")
+    });
+    assert!(before.distance(after) < 0.1, "{before} {after}");
+    press(&mut desk, Key::Num1);
+    desk.run_steps(12);
+    assert_eq!(last(), "scene=simtest1&t=1");
 }
 
 #[test]

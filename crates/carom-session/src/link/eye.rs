@@ -1,0 +1,55 @@
+//! Where a link looks from.
+
+use carom::DVec3;
+
+use super::error::LinkError;
+use super::quotation::quoted;
+
+/// A camera may be off by this part of its distance: a tenth of a pixel of a large picture.
+const SEEN: f64 = 3e-5;
+
+/// Where a run is looked at from, and which point is in the middle of the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Eye {
+    /// \[m\]
+    pub position: DVec3,
+    /// \[m\], elsewhere than the position.
+    pub target: DVec3,
+}
+
+impl Eye {
+    /// As it is written: position and target in so few digits that people can read them.
+    pub(super) fn written(&self) -> String {
+        let slack = SEEN * self.position.distance(self.target);
+        let places = self.position.to_array().into_iter().chain(self.target.to_array());
+        places.map(|place| short(place, slack)).collect::<Vec<_>>().join(",")
+    }
+
+    /// Reads what is written so.
+    ///
+    /// # Errors
+    /// [`LinkError::Eye`] unless these are six finite numbers, of two places apart.
+    pub(super) fn read(text: &str) -> Result<Self, LinkError> {
+        let wrong = || LinkError::Eye { found: quoted(text) };
+        let numbers: Result<Vec<f64>, _> = text.split(',').map(str::parse).collect();
+        let numbers: [f64; 6] = numbers.ok().and_then(|it| it.try_into().ok()).ok_or_else(wrong)?;
+        let [x, y, z, target_x, target_y, target_z] = numbers;
+        Self { position: DVec3::new(x, y, z), target: DVec3::new(target_x, target_y, target_z) }
+            .checked()
+            .ok_or_else(wrong)
+    }
+
+    /// This one, if it looks anywhere.
+    fn checked(self) -> Option<Self> {
+        let distance = self.position.distance(self.target);
+        (distance > 0.0 && distance.is_finite()).then_some(self)
+    }
+}
+
+/// A number in the fewest decimals that are nearer to it than `slack`.
+fn short(value: f64, slack: f64) -> String {
+    let rounded = (0..=15).map(|decimals| format!("{value:.decimals$}"));
+    let is_near = |text: &String| text.parse().is_ok_and(|it: f64| (it - value).abs() <= slack);
+    let text = rounded.into_iter().find(is_near).unwrap_or_else(|| format!("{value:?}"));
+    if text.trim_matches(['-', '0', '.']).is_empty() { "0".to_owned() } else { text }
+}
