@@ -35,9 +35,14 @@ pub fn desk_of(size: [f32; 2], setup: Setup) -> Desk {
 
 /// A desk on which a built-in scene is watched.
 pub fn watching(name: &str) -> Desk {
+    watching_at(SIZE, name)
+}
+
+/// A desk of this size in points on which a built-in scene is watched.
+pub fn watching_at(size: [f32; 2], name: &str) -> Desk {
     let (scene, _) = Library::new().find(name, &[]).expect("a built-in scene");
     let start = Some(Start::Scene(Box::new(scene), Source::BuiltIn));
-    desk(Setup { start, ..setup() })
+    desk_of(size, Setup { start, ..setup() })
 }
 
 /// The scene that is watched.

@@ -4,6 +4,7 @@
 
 mod contact_forces;
 mod desk;
+mod every_scene;
 mod files;
 mod hints;
 mod links;

@@ -15,7 +15,7 @@ use crate::maze::{SHORT, playing, win};
 /// moved, a ball elsewhere - changes several times as many.
 const PIXELS_THAT_MAY_DIFFER: usize = 620;
 
-fn compare(desk: &mut Desk, name: &str, results: &mut SnapshotResults) {
+pub fn compare(desk: &mut Desk, name: &str, results: &mut SnapshotResults) {
     desk.remove_cursor();
     desk.run_steps(3);
     let options = SnapshotOptions::new().max_failed_pixels(PIXELS_THAT_MAY_DIFFER);
@@ -23,7 +23,7 @@ fn compare(desk: &mut Desk, name: &str, results: &mut SnapshotResults) {
     results.extend_harness(desk);
 }
 
-fn set_theme(desk: &mut Desk, theme: Theme) {
+pub fn set_theme(desk: &mut Desk, theme: Theme) {
     desk.ctx.set_theme(theme);
     desk.run_steps(2);
 }

@@ -1,0 +1,46 @@
+//! Every built-in scene as it opens: something moves that is in view, in light and dark, against
+//! pictures that were looked at.
+
+use carom_scene::Library;
+use egui::Theme;
+use egui_kittest::SnapshotResults;
+
+use crate::desk::{go_to, watching_at};
+use crate::pictures::{compare, set_theme};
+
+/// In points: as small as a scene can be judged by.
+const SIZE: [f32; 2] = [440.0, 330.0];
+
+/// By then everybody has seen what a scene is about \[s\].
+const SOON: f64 = 1.0;
+
+/// Part of the pixels that change, at least, where something that moves is in view: a ball of a
+/// fiftieth of the width, that leaves one place for another.
+const MOVING: f64 = 5e-4;
+
+#[test]
+fn something_moves_in_view_within_seconds_in_light_and_dark() {
+    let mut results = SnapshotResults::new();
+    for entry in Library::new().entries().expect("built-in scenes") {
+        let mut desk = watching_at(SIZE, &entry.name);
+        set_theme(&mut desk, Theme::Light);
+        go_to(&mut desk, 0.0);
+        desk.remove_cursor();
+        desk.run_steps(3);
+        let start = desk.render().expect("a picture");
+        go_to(&mut desk, SOON);
+        compare(&mut desk, &format!("scenes/{}_light", entry.name), &mut results);
+        let then = desk.render().expect("a picture");
+        let of_picture = (start.height() - BELOW) as usize * start.width() as usize;
+        let pairs = start.pixels().zip(then.pixels()).take(of_picture);
+        let changed = pairs.filter(|(before, after)| before != after).count();
+        let part = changed as f64 / of_picture as f64;
+        assert!(part > MOVING, "{}: {part} of the pixels change", entry.name);
+        set_theme(&mut desk, Theme::Dark);
+        compare(&mut desk, &format!("scenes/{}_dark", entry.name), &mut results);
+    }
+    results.unwrap();
+}
+
+/// Height of the transport below the picture, where the time counts \[px\].
+const BELOW: u32 = 90;
