@@ -66,6 +66,11 @@ pub trait Host {
         None
     }
 
+    /// Whether it is pointed with something as coarse as a finger.
+    fn has_coarse_pointer(&self) -> bool {
+        false
+    }
+
     /// Right and down by a gamepad's stick or a tilted device, each in \[-1, 1\].
     fn stick(&mut self) -> Option<Vec2> {
         None

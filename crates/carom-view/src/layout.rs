@@ -1,6 +1,6 @@
 //! How much room there is, and what goes where.
 
-use egui::{Panel, Rect, Ui, Vec2, Window};
+use egui::{Context, Panel, Rect, Ui, Vec2, Window};
 
 /// Windows less wide than this are those of telephones, in points.
 const NARROW: f32 = 640.0;
@@ -12,6 +12,21 @@ const FREE: f32 = 0.55;
 /// seldom used waits in menus, and panels are sheets over the foot of the picture.
 pub fn is_narrow(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() < NARROW
+}
+
+/// Least edge of what fingers press, in points (Web Content Accessibility Guidelines 2.2, 2.5.5).
+const FINGER: f32 = 44.0;
+
+/// Makes all there is to press large enough for fingers.
+pub fn suit_fingers(context: &Context) {
+    context.all_styles_mut(|style| {
+        let spacing = &mut style.spacing;
+        spacing.interact_size = Vec2::splat(FINGER);
+        // Around a symbol of fifteen points.
+        spacing.button_padding.x = 15.0;
+        spacing.icon_width = 24.0;
+        spacing.icon_width_inner = 14.0;
+    });
 }
 
 /// A panel at a side of the picture.

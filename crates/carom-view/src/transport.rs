@@ -38,15 +38,18 @@ pub fn show(
         {
             ui.add_enabled_ui(count > 0, |ui| button(ui, symbol, text, action));
         }
-        speed(ui, view, commands);
         if !is_narrow {
+            speed(ui, view, commands);
             ui.separator();
             clock(ui, view, is_recording);
             way(ui, view, commands);
         }
     });
     if is_narrow {
-        ui.horizontal(|ui| clock(ui, view, is_recording));
+        ui.horizontal(|ui| {
+            speed(ui, view, commands);
+            clock(ui, view, is_recording);
+        });
         ui.horizontal(|ui| way(ui, view, commands));
     }
     actions

@@ -83,6 +83,11 @@ impl Host for PageHost {
         self.services.trouble()
     }
 
+    fn has_coarse_pointer(&self) -> bool {
+        let query = web_sys::window().and_then(|it| it.match_media("(pointer: coarse)").ok());
+        query.flatten().is_some_and(|query| query.matches())
+    }
+
     fn stick(&mut self) -> Option<Vec2> {
         match self.services.tilt()?[..] {
             [right, down] => Some(Vec2::new(right, down)),

@@ -1,7 +1,7 @@
 //! The bar above everything.
 
 use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
-use egui::Ui;
+use egui::{ScrollArea, Ui};
 
 use super::{App, Screen};
 use crate::action::Action;
@@ -82,7 +82,12 @@ impl App {
                 ui.separator();
             }
             if is_narrow(ui) {
-                let menu = ui.menu_button("Menu", |ui| self.switches(ui));
+                let height = ui.ctx().content_rect().height() - 2.0 * ui.spacing().interact_size.y;
+                let menu = ui.menu_button("Menu", |ui| {
+                    let area =
+                        ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+                    area.show(ui, |ui| self.switches(ui)).inner
+                });
                 actions.extend(menu.inner.unwrap_or_default());
             } else {
                 actions.extend(self.switches(ui));

@@ -2,6 +2,7 @@
 
 mod bar;
 mod files;
+mod links;
 mod saving;
 
 use std::sync::Arc;
@@ -21,6 +22,7 @@ use crate::exports::Exports;
 use crate::help;
 use crate::host::{Host, Inbox, ReadFile};
 use crate::kept::Kept;
+use crate::layout::suit_fingers;
 use crate::link_dialog::LinkDialog;
 use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
@@ -114,6 +116,9 @@ impl App {
             link: LinkDialog::default(),
             kept: Kept::load(host.storage),
         };
+        if app.host.has_coarse_pointer() {
+            suit_fingers(&app.context);
+        }
         match setup.start {
             Some(Start::Scene(scene, source)) => app.watch(*scene, source),
             Some(Start::Maze(maze)) => app.play(*maze),
@@ -174,37 +179,6 @@ impl App {
                 self.show(Screen::Maze(Box::new(screen)));
             }
             Err(error) => self.notices.complain(error),
-        }
-    }
-
-    /// Shows the run of a link: a maze without a past is played, anything else watched. Where it
-    /// cannot be, says so; the chooser opens if there is nothing else.
-    pub fn follow(&mut self, link: &Link) {
-        let scene = match link.open() {
-            Ok(scene) => scene,
-            Err(error) => return self.refuse_link(&error.to_string()),
-        };
-        let is_beginning = link.time().is_none() && link.changes().is_empty();
-        if is_beginning && let Ok(maze) = Maze::from_scene(&scene) {
-            self.play_linked(maze, link.clone());
-            return;
-        }
-        match Watching::replay(link, scene, self.threaded, &self.context) {
-            Ok(mut watching) => {
-                watching.set_layout(self.kept.layout);
-                self.show(Screen::Watching(Box::new(watching)));
-            }
-            Err(error) => self.refuse_link(&error.to_string()),
-        }
-    }
-
-    /// Says why a link cannot be followed: in the chooser, where it opens for want of anything else.
-    pub fn refuse_link(&mut self, why: &str) {
-        if matches!(self.screen, Screen::Empty) {
-            self.welcome();
-            self.chooser.complain(why);
-        } else {
-            self.notices.complain(why);
         }
     }
 
@@ -308,33 +282,6 @@ impl App {
         let has_dialog = self.help || self.link.is_open() || self.chooser.is_open();
         if !has_dialog && self.watching().is_some_and(|it| it.view().seeking.is_some()) {
             self.command(Command::StopSeeking);
-        }
-    }
-
-    /// Opens the dialog with a link to what is shown, which stands still meanwhile.
-    fn open_link(&mut self) {
-        self.link.toggle();
-        if let Screen::Watching(watching) = &mut self.screen
-            && self.link.is_open()
-        {
-            watching.commands.extend([Command::Pause, Command::ShowStateHash(true)]);
-        }
-    }
-
-    /// Tells the host the link to what is shown, and shows it in its dialog.
-    fn links(&mut self) {
-        let Self { address, link, host, context, screen, .. } = self;
-        match screen {
-            Screen::Empty => link.close(),
-            Screen::Watching(watching) => {
-                let (view, base) = watching.linked();
-                address.tell(view, base, &mut **host, context);
-                let link_text = || format!("{}#{}", host.page(), base.at(view));
-                link.show(context, Some((view, base)), link_text);
-            }
-            Screen::Maze(screen) => {
-                link.show(context, None, || format!("{}#{}", host.page(), screen.link()));
-            }
         }
     }
 

@@ -1,10 +1,10 @@
 //! Windows as narrow as telephones.
 
 use carom_scene::{Library, Source};
-use carom_view::{Setup, Start};
-use egui::Key;
+use carom_view::{FilmMaker, Host, Inbox, Setup, Start};
 use egui::accesskit::Role;
-use egui_kittest::kittest::Queryable;
+use egui::{DroppedFileHandle, Key, Rect};
+use egui_kittest::kittest::{By, Queryable};
 
 use crate::desk::{Desk, desk_of, press, setup};
 
@@ -25,6 +25,53 @@ fn nothing_to_press_lies_outside_and_the_picture_has_most_of_the_room() {
     }
     let picture = desk.get_by_role_and_label(Role::Image, "Scene").rect();
     assert!(picture.area() > 0.8 * TELEPHONE[0] * TELEPHONE[1], "{picture}");
+}
+
+/// A telephone, as its browser tells of it.
+struct Telephone;
+
+impl Host for Telephone {
+    fn save(&mut self, _: &str, _: &str, _: &[u8]) -> Result<String, String> {
+        Err("it keeps nothing".to_owned())
+    }
+
+    fn read(&mut self, _: &DroppedFileHandle, _: &Inbox) {}
+
+    fn open_file(&mut self, _: &Inbox) {}
+
+    fn begin_film(&mut self, _: &str, _: [u32; 2], _: u32) -> Result<Box<dyn FilmMaker>, String> {
+        Err("it makes no films".to_owned())
+    }
+
+    fn has_coarse_pointer(&self) -> bool {
+        true
+    }
+}
+
+#[test]
+fn what_fingers_press_is_large_enough_for_them_and_the_picture_keeps_half() {
+    let (scene, _) = Library::new().find("simtest3", &[]).expect("a built-in scene");
+    let start = Some(Start::Scene(Box::new(scene), Source::BuiltIn));
+    let mut desk = desk_of(TELEPHONE, Setup { start, host: Box::new(Telephone), ..setup() });
+    let assert_large = |desk: &Desk, least: usize| {
+        let all = desk.query_all(
+            By::new()
+                .predicate(|it| matches!(it.role(), Role::Button | Role::Slider | Role::CheckBox)),
+        );
+        let rects: Vec<Rect> = all.map(|it| it.rect()).collect();
+        assert!(rects.len() >= least, "{rects:?}");
+        for rect in rects {
+            // Places are rounded to pixels.
+            let is_large = rect.width() >= 43.5 && rect.height() >= 43.5;
+            assert!(is_large && rect.right() <= TELEPHONE[0], "{rect}");
+        }
+    };
+    assert_large(&desk, 8);
+    let picture = desk.get_by_role_and_label(Role::Image, "Scene").rect();
+    assert!(picture.area() > 0.5 * TELEPHONE[0] * TELEPHONE[1], "{picture}");
+    desk.get_by_label("Menu").click();
+    desk.run_steps(3);
+    assert_large(&desk, 20);
 }
 
 #[test]

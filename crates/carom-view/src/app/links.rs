@@ -1,0 +1,67 @@
+//! Links to what is shown, and links that are followed.
+
+use carom_maze::Maze;
+use carom_session::{Command, Link};
+
+use super::{App, Screen};
+use crate::watching::Watching;
+
+impl App {
+    /// Shows the run of a link: a maze without a past is played, anything else watched. Where it
+    /// cannot be, says so; the chooser opens if there is nothing else.
+    pub fn follow(&mut self, link: &Link) {
+        let scene = match link.open() {
+            Ok(scene) => scene,
+            Err(error) => return self.refuse_link(&error.to_string()),
+        };
+        let is_beginning = link.time().is_none() && link.changes().is_empty();
+        if is_beginning && let Ok(maze) = Maze::from_scene(&scene) {
+            self.play_linked(maze, link.clone());
+            return;
+        }
+        match Watching::replay(link, scene, self.threaded, &self.context) {
+            Ok(mut watching) => {
+                watching.set_layout(self.kept.layout);
+                self.show(Screen::Watching(Box::new(watching)));
+            }
+            Err(error) => self.refuse_link(&error.to_string()),
+        }
+    }
+
+    /// Says why a link cannot be followed: in the chooser, where it opens for want of anything else.
+    pub fn refuse_link(&mut self, why: &str) {
+        if matches!(self.screen, Screen::Empty) {
+            self.welcome();
+            self.chooser.complain(why);
+        } else {
+            self.notices.complain(why);
+        }
+    }
+
+    /// Opens the dialog with a link to what is shown, which stands still meanwhile.
+    pub(super) fn open_link(&mut self) {
+        self.link.toggle();
+        if let Screen::Watching(watching) = &mut self.screen
+            && self.link.is_open()
+        {
+            watching.commands.extend([Command::Pause, Command::ShowStateHash(true)]);
+        }
+    }
+
+    /// Tells the host the link to what is shown, and shows it in its dialog.
+    pub(super) fn links(&mut self) {
+        let Self { address, link, host, context, screen, .. } = self;
+        match screen {
+            Screen::Empty => link.close(),
+            Screen::Watching(watching) => {
+                let (view, base) = watching.linked();
+                address.tell(view, base, &mut **host, context);
+                let link_text = || format!("{}#{}", host.page(), base.at(view));
+                link.show(context, Some((view, base)), link_text);
+            }
+            Screen::Maze(screen) => {
+                link.show(context, None, || format!("{}#{}", host.page(), screen.link()));
+            }
+        }
+    }
+}
