@@ -166,6 +166,17 @@ fn the_trajectory_as_vtk_is_a_series_with_a_list_of_its_times() {
 }
 
 #[test]
+fn a_shorter_series_leaves_no_frame_of_a_longer_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "run.pvd");
+    let frames = || std::fs::read_dir(folder.path().join("run_frames")).unwrap().count();
+    for (count, expected) in [("10", 10), ("4", 4)] {
+        good(&["run", "tutorial2", "--frames", count, "--out", &file, "--force"]);
+        assert_eq!(frames(), expected);
+    }
+}
+
+#[test]
 fn the_impact_table_has_a_row_for_each_impact() {
     let folder = tempfile::tempdir().unwrap();
     let file = path(&folder, "impacts.csv");

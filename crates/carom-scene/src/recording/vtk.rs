@@ -71,7 +71,12 @@ impl Format for Series {
     }
 
     fn finish(self: Box<Self>) -> io::Result<()> {
-        self.write_list()
+        self.write_list()?;
+        // Of a longer series that was there before, the rest is left.
+        let later = (self.times.len()..).map(|frame| self.frame_file(frame));
+        let mut later = later.map(|name| self.path.with_file_name(name));
+        while std::fs::remove_file(later.next().unwrap_or_default()).is_ok() {}
+        Ok(())
     }
 }
 
