@@ -49,5 +49,6 @@ pub use error::{Fault, SceneError};
 pub use library::{Entry, Library, Source};
 pub use overrides::Override;
 pub use palette::Palette;
+pub use parameters::Parameter;
 pub use scene::Scene;
 pub use schema::json_schema;

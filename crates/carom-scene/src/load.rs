@@ -8,7 +8,7 @@ use toml::{Spanned, Table, Value};
 
 use crate::error::{Fault, Problem, SceneError, segments};
 use crate::overrides::Override;
-use crate::parameters;
+use crate::parameters::{self, Parameter};
 use crate::scene::Scene;
 use crate::wording::{in_plain_words, suggestion, with_names};
 use crate::world;
@@ -79,6 +79,22 @@ impl Scene {
             let fault = Box::new(fault(source_name, None, &field, &problem));
             SceneError::Overridden { overrides: cause.join(" "), fault }
         })
+    }
+
+    /// The numbers that a scene file gives names to (`[parameters]`), in its order, with some of its
+    /// values changed. `parameters.NAME=VALUE` as an override changes one.
+    ///
+    /// # Errors
+    /// As [`Self::from_toml_with`], for the parameters alone.
+    pub fn parameters(
+        text: &str,
+        source_name: &str,
+        overrides: &[Override],
+    ) -> Result<Vec<Parameter>, SceneError> {
+        let own = |problem: &str| fault(source_name, None, "", problem);
+        let mut table = named(text, source_name).map_err(|error| own(error.message()))?;
+        overrides.iter().try_for_each(|changed| changed.apply(&mut table))?;
+        Ok(parameters::list(&table).map_err(|it| own(&format!("{}: {}", it.field, it.problem)))?)
     }
 
     /// Reads a scene file.

@@ -25,6 +25,36 @@ const MARK: char = '=';
 /// Whole numbers up to this one are written as such: beyond, not every one is a number of 64 bits.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
+/// A number that a scene file gives a name to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// As formulas have it.
+    pub name: String,
+    /// In SI units.
+    pub value: f64,
+    /// Whether it follows from other parameters.
+    pub is_formula: bool,
+    /// Whether it is written as a whole number, as one that counts something is.
+    pub is_whole: bool,
+}
+
+/// The parameters in the table of a scene, in their order.
+pub(crate) fn list(scene: &Table) -> Result<Vec<Parameter>, Problem> {
+    let Some(Value::Table(table)) = scene.get(TABLE) else { return Ok(Vec::new()) };
+    let written = table.values().map(|value| {
+        let is_formula = value.as_str().is_some_and(|text| text.starts_with(MARK));
+        (is_formula, value.is_integer())
+    });
+    let known = values(table)?.into_iter().zip(written);
+    let list = known.map(|((name, value), (is_formula, is_whole))| Parameter {
+        name,
+        value,
+        is_formula,
+        is_whole,
+    });
+    Ok(list.collect())
+}
+
 /// Takes the parameters out of a scene, and puts numbers in the place of its formulas and of its numbers with
 /// units.
 pub(crate) fn resolve(scene: &mut Table) -> Result<(), Problem> {

@@ -194,3 +194,16 @@ fn described(schema: &serde_json::Value, fields: &mut Vec<(String, String)>) {
     }
     object.values().for_each(|it| described(it, fields));
 }
+
+#[test]
+fn parameters_are_listed_in_order_with_what_they_come_to() {
+    let overrides: Vec<Override> = vec!["parameters.r=0.5".parse().unwrap()];
+    let list = Scene::parameters(TEXT, "line.toml", &overrides).unwrap();
+    let listed: Vec<_> = list.iter().map(|it| (it.name.as_str(), it.value)).collect();
+    assert_eq!(listed, [("r", 0.5), ("count", 4.0), ("height", 4.0)]);
+    let kinds: Vec<_> = list.iter().map(|it| (it.is_formula, it.is_whole)).collect();
+    assert_eq!(kinds, [(false, false), (false, true), (true, false)]);
+    assert_eq!(Scene::parameters("name = 'x'", "x.toml", &[]).unwrap(), []);
+    let error = Scene::parameters("[parameters]\na = '=b'", "x.toml", &[]).unwrap_err().to_string();
+    assert!(error.contains("x.toml") && error.contains("parameters.a"), "{error}");
+}

@@ -38,6 +38,7 @@ mod watched_file;
 mod watching;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod window;
+mod written_scene;
 
 pub use action::{Action, SHORTCUTS, Shortcut};
 pub use app::{App, Setup, Start};

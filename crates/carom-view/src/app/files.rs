@@ -4,11 +4,11 @@ use std::path::Path;
 
 use carom_maze::Maze;
 use carom_scene::Source;
-use carom_scene::scene::Scene;
 use egui::{Align2, Color32, FontId, Id, LayerId, Order, Stroke, StrokeKind};
 
 use super::{App, Screen};
 use crate::host::ReadFile;
+use crate::written_scene::WrittenScene;
 
 impl App {
     /// Opens files that were dropped on the window: scenes, or mazes drawn with characters.
@@ -52,8 +52,13 @@ impl App {
             }
             return;
         }
-        match Scene::from_toml(text, &name) {
-            Ok(scene) => self.open(scene, Source::File(path.to_owned())),
+        match WrittenScene::new(&name, text, Vec::new()) {
+            Ok(written) => {
+                self.open(written.scene().clone(), Source::File(path.to_owned()));
+                if let Screen::Watching(watching) = &mut self.screen {
+                    watching.set_written(written);
+                }
+            }
             Err(error) => self.notices.complain(error),
         }
     }
@@ -66,8 +71,7 @@ impl App {
             self.context.request_repaint_after_secs(seconds as f32);
         }
         let Some(path) = self.host.changed_file(now) else { return };
-        let reloaded = Scene::from_file(&path, &[]).and_then(|scene| watching.reload(scene));
-        match reloaded {
+        match watching.read_anew(&path) {
             Ok(()) => {
                 self.notices.clear();
                 self.notices.tell(format!("{} was changed, and read anew", path.display()));

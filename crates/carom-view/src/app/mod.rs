@@ -29,6 +29,7 @@ use crate::notices::Notices;
 use crate::orbit::Preset;
 use crate::studio::Studio;
 use crate::watching::{Manner, Watching};
+use crate::written_scene::WrittenScene;
 
 /// What the interface starts with.
 pub struct Setup {
@@ -158,6 +159,9 @@ impl App {
                     && cfg!(not(target_arch = "wasm32"))
                 {
                     self.kept.remember(path);
+                    if let Ok(written) = WrittenScene::from_file(path) {
+                        watching.set_written(written);
+                    }
                 }
                 watching.set_layout(self.kept.layout);
                 self.show(Screen::Watching(Box::new(watching)));

@@ -5,17 +5,29 @@ mod collider;
 mod emitter;
 mod force;
 mod friction;
+mod parameters;
 pub mod simulation;
 mod value;
 
+use carom_scene::Parameter;
 use carom_session::{Command, View};
 use egui::{CollapsingHeader, ScrollArea, Ui};
 
 pub use ball::Throw;
 
-/// The panel beside the picture.
-pub fn show(ui: &mut Ui, view: &View, throw: &mut Throw, commands: &mut Vec<Command>) {
+/// The panel beside the picture. Returns a parameter of the scene's file that was given another value.
+pub fn show(
+    ui: &mut Ui,
+    view: &View,
+    parameters: &[Parameter],
+    throw: &mut Throw,
+    commands: &mut Vec<Command>,
+) -> Option<Parameter> {
+    let mut changed = None;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        if !parameters.is_empty() {
+            section(ui, "Parameters", true, |ui| changed = parameters::show(ui, parameters));
+        }
         section(ui, "Ball", true, |ui| ball::show(ui, view, commands));
         section(ui, "Simulation", true, |ui| simulation::show(ui, view, commands));
         section(ui, "Forces", true, |ui| force::show(ui, view, commands));
@@ -28,6 +40,7 @@ pub fn show(ui: &mut Ui, view: &View, throw: &mut Throw, commands: &mut Vec<Comm
         section(ui, "Throw", false, |ui| ball::show_throw(ui, throw));
         section(ui, "State", false, |ui| state(ui, view, commands));
     });
+    changed
 }
 
 fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {

@@ -6,6 +6,9 @@ use egui::{DragValue, Response, RichText, Ui};
 /// into scene files, not found with a mouse.
 const SMALLEST: f64 = 1e-9;
 
+/// Decimals of a number, at most.
+const MOST_DECIMALS: usize = 9;
+
 /// What numbers may be, and what they are called.
 #[derive(Clone, Copy)]
 pub(super) struct Field<'a> {
@@ -86,7 +89,7 @@ pub(super) fn number_at_last(ui: &mut Ui, field: Field, value: &mut f64) -> bool
     let id = ui.scope_id().with(field.name);
     row(ui, field, |ui| {
         let mut shown = ui.data(|data| data.get_temp(id)).unwrap_or(*value);
-        let response = dragged(ui, field, &mut shown);
+        let response = dragged(ui, field, &mut shown, MOST_DECIMALS);
         if response.drag_stopped() || response.lost_focus() {
             ui.data_mut(|data| data.remove::<f64>(id));
             let changed = shown != *value;
@@ -100,7 +103,7 @@ pub(super) fn number_at_last(ui: &mut Ui, field: Field, value: &mut f64) -> bool
     })
 }
 
-fn row(ui: &mut Ui, field: Field, contents: impl FnOnce(&mut Ui) -> bool) -> bool {
+fn row<R>(ui: &mut Ui, field: Field, contents: impl FnOnce(&mut Ui) -> R) -> R {
     ui.horizontal(|ui| {
         name(ui, field.name);
         let changed = contents(ui);
@@ -116,18 +119,37 @@ pub(super) fn name(ui: &mut Ui, name: &str) -> Response {
     ui.add_sized([84.0, ui.spacing().interact_size.y], label)
 }
 
+/// A row with a number that only follows from others.
+pub(super) fn shown(ui: &mut Ui, field: Field, value: f64) {
+    row(ui, field, |ui| ui.weak(format!("{value}")));
+}
+
+/// A row with a number that costs much to change: it is returned once it is settled.
+pub(super) fn quantity(ui: &mut Ui, field: Field, value: f64, is_whole: bool) -> Option<f64> {
+    let kept = ui.scope_id().with(("on its way", field.name));
+    let mut now = ui.data(|data| data.get_temp(kept)).unwrap_or(value);
+    let decimals = if is_whole { 0 } else { MOST_DECIMALS };
+    let response = row(ui, field, |ui| dragged(ui, field, &mut now, decimals));
+    if response.dragged() {
+        ui.data_mut(|data| data.insert_temp(kept, now));
+        return None;
+    }
+    ui.data_mut(|data| data.remove::<f64>(kept));
+    (now != value).then_some(now)
+}
+
 fn drag(ui: &mut Ui, field: Field, value: &mut f64) -> bool {
     let before = *value;
-    dragged(ui, field, value);
+    dragged(ui, field, value, MOST_DECIMALS);
     *value != before
 }
 
-fn dragged(ui: &mut Ui, field: Field, value: &mut f64) -> Response {
+fn dragged(ui: &mut Ui, field: Field, value: &mut f64, decimals: usize) -> Response {
     let speed = if *value == 0.0 { 0.01 } else { 0.01 * value.abs() };
     let drag = DragValue::new(value)
         .speed(speed)
         .range(field.min..=field.max)
-        .max_decimals(9)
+        .max_decimals(decimals)
         // Half a number is none yet.
         .update_while_editing(false);
     let response: Response = ui.add(drag);

@@ -4,14 +4,15 @@ mod departures;
 mod hand;
 mod hints;
 mod sides;
+mod text;
 mod viewpoint;
 
 use std::sync::Arc;
 
 use carom::DVec3;
 use carom_render::{Camera, Drawing, GpuError};
+use carom_scene::Source;
 use carom_scene::scene::{Rule, Scene, Simulation};
-use carom_scene::{SceneError, Source};
 use carom_session::{Command, Driver, Link, LinkSource, Session, SessionError, View, Watched};
 use egui::{Image, Pos2, Rect, Sense, Ui, Vec2};
 use web_time::Instant;
@@ -25,6 +26,7 @@ use crate::orbit::Preset;
 use crate::plots;
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
+use crate::written_scene::WrittenScene;
 use crate::{impact_list, transport};
 use departures::Departures;
 use hints::{Restarted, Way};
@@ -38,6 +40,8 @@ pub struct Watching {
     pub source: Source,
     /// A link to the beginning of the scene, and the scene that it was made of.
     link: (Arc<Scene>, Link),
+    /// The text that the scene was read from, where there is one.
+    written: Option<WrittenScene>,
     /// Commands of this picture, sent at its end.
     pub commands: Vec<Command>,
     viewpoint: Viewpoint,
@@ -120,6 +124,9 @@ impl Watching {
             LinkSource::File { .. } => Source::Registered,
         };
         let mut watching = Self::at(session, link.clone(), source, threaded, context)?;
+        if let LinkSource::File { name, text } = link.source() {
+            watching.written = WrittenScene::new(name, text, link.overrides().to_vec()).ok();
+        }
         if let Some(eye) = link.eye() {
             watching.viewpoint = Viewpoint::at(eye, Camera::of_scene(&watching.view().scene));
         }
@@ -139,6 +146,7 @@ impl Watching {
             link: (driver.view().scene.clone(), link),
             driver,
             source,
+            written: None,
             commands: Vec::new(),
             viewpoint: Viewpoint::new(),
             way: None,
@@ -178,20 +186,15 @@ impl Watching {
     pub fn linked(&mut self) -> (&View, &Link) {
         let view = self.driver.view();
         if !Arc::ptr_eq(&self.link.0, &view.scene) {
-            self.link = (view.scene.clone(), Link::to_scene(&view.scene));
+            let written = self.written.as_ref().filter(|it| *it.scene() == *view.scene);
+            let link = written.map_or_else(|| Link::to_scene(&view.scene), WrittenScene::link);
+            self.link = (view.scene.clone(), link);
         }
         let eye = self.viewpoint.eye();
         if self.link.1.eye() != eye {
             self.link.1 = self.link.1.clone().with_eye(eye);
         }
         (view, &self.link.1)
-    }
-
-    /// Opens another scene, or the same one as it is now, without losing camera and panels.
-    pub fn reload(&mut self, scene: Scene) -> Result<(), SceneError> {
-        scene.world()?;
-        self.commands.push(Command::Open(Box::new(scene)));
-        Ok(())
     }
 
     /// Lets the physics go on by the time since the last picture.
@@ -289,7 +292,9 @@ impl Watching {
     /// The panels around the picture. Returns the actions of their buttons.
     pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
         self.is_narrow = is_narrow(ui);
-        let Self { driver, commands, layout, throw, departures, wanted, sheet, .. } = self;
+        let Self { driver, written, commands, layout, throw, departures, wanted, sheet, .. } = self;
+        let parameters = written.as_ref().map_or(&[][..], |it| it.parameters());
+        let mut changed = None;
         let Layout { panels, plots, .. } = layout;
         let panels = if self.is_narrow { sheet } else { panels };
         let view = driver.view();
@@ -302,7 +307,7 @@ impl Watching {
         let whole = ui.available_size();
         let mut room = 0.5 * whole.x;
         INSPECTOR.show(ui, &mut room, &mut panels.inspector, |ui| {
-            inspector::show(ui, view, throw, commands);
+            changed = inspector::show(ui, view, parameters, throw, commands);
         });
         PLOTS.show(ui, &mut room, &mut panels.plots, |ui| {
             *wanted = plots::show(ui, view, departures.since(), plots);
@@ -313,6 +318,9 @@ impl Watching {
                 .default_size(170.0_f32.min(0.4 * whole.y))
                 .size_range(60.0..=0.5 * whole.y)
                 .show(ui, |ui| impact_list::show(ui, view, commands));
+        }
+        if let Some(parameter) = changed {
+            self.change(&parameter);
         }
         transport.inner
     }

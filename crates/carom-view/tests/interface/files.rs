@@ -6,8 +6,10 @@ use std::sync::Arc;
 use carom_render::Picture;
 use carom_scene::scene::Scene;
 use carom_scene::{Library, Source};
+use carom_session::{Link, LinkSource};
 use carom_view::{Desktop, Setup, Start};
 use egui::Key;
+use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 
 use crate::desk::{Desk, desk, go_to, press, scene, setup, watching};
@@ -146,6 +148,54 @@ fn a_scene_changed_on_the_disk_is_read_anew() {
     desk.run_steps(90);
     assert!(desk.state().notices().any_error());
     assert_eq!(scene(&desk).view().spheres.radii, [0.75], "what was there stays");
+}
+
+/// A file of which two numbers have names.
+const NAMED: &str = "[parameters]\ncount = 3\nr = 0.25\nd = \"=2*r\"\n
+    [[generators]]\n[generators.row]\ncount = \"=count\"\nstart = [0, 0, 0]\n\
+    step = [\"=d\", 0, 0]\nsphere = { radius = \"=r\" }\n";
+
+#[test]
+fn parameters_of_a_file_are_changed_in_the_inspector_and_stay_in_links() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("row.toml");
+    std::fs::write(&path, NAMED).expect("written");
+    let row = Scene::from_file(&path, &[]).expect("a scene");
+    let start = Some(Start::Scene(Box::new(row), Source::File(path.clone())));
+    let mut first = desk(Setup { start, ..setup() });
+    first.get_by_label("Parameters");
+    for (name, value, radii) in [("r", "0.5", vec![0.5; 3]), ("count", "5", vec![0.5; 5])] {
+        first.get_by_role_and_label(Role::SpinButton, name).click();
+        first.run_steps(3);
+        first.event(egui::Event::Text(value.to_owned()));
+        press(&mut first, Key::Enter);
+        first.run_steps(3);
+        assert_eq!(scene(&first).view().spheres.radii, radii);
+    }
+    assert_eq!(scene(&first).view().spheres.positions[1].x, 1.0, "formulas follow");
+    // The link has the text of the file, not the path to it, and what was changed.
+    press(&mut first, Key::U);
+    first.get_by_label("Copy the link").click();
+    first.run_steps(1);
+    let link = crate::links::copied_text(&first).expect("something was copied");
+    let link = Link::parse(&link).expect("a link");
+    let LinkSource::File { name, text } = link.source() else { panic!("{link}") };
+    assert_eq!((name.as_str(), text.as_str()), ("row.toml", NAMED));
+    let changed: Vec<_> = link.overrides().iter().map(ToString::to_string).collect();
+    assert_eq!(changed, ["parameters.r=0.5", "parameters.count=5"]);
+    // Where it is opened, they can be changed on.
+    let mut again = desk(Setup { start: Some(Start::Link(Box::new(link))), ..setup() });
+    again.run_steps(4);
+    again.get_by_label("Parameters");
+    assert_eq!(scene(&again).view().spheres.radii, [0.5; 5]);
+    // What makes no sense is told, and leaves all as it was.
+    again.get_by_role_and_label(Role::SpinButton, "r").click();
+    again.run_steps(3);
+    again.event(egui::Event::Text("-1".to_owned()));
+    press(&mut again, Key::Enter);
+    again.run_steps(3);
+    assert!(again.state().notices().any_error());
+    assert_eq!(scene(&again).view().spheres.radii, [0.5; 5]);
 }
 
 #[test]

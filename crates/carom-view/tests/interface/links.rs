@@ -125,7 +125,7 @@ fn the_link_in_the_dialog_leads_to_what_is_shown_changes_included() {
     assert_eq!(state_of(&copied), shown);
 }
 
-fn copied_text(desk: &Desk) -> Option<String> {
+pub fn copied_text(desk: &Desk) -> Option<String> {
     desk.output().platform_output.commands.iter().find_map(|command| match command {
         egui::OutputCommand::CopyText(text) => Some(text.clone()),
         _ => None,
