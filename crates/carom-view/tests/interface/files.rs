@@ -188,7 +188,7 @@ fn parameters_of_a_file_are_changed_in_the_inspector_and_stay_in_links() {
     again.run_steps(4);
     again.get_by_label("Parameters");
     assert_eq!(scene(&again).view().spheres.radii, [0.5; 5]);
-    // What makes no sense is told, and leaves all as it was.
+    // What makes no sense changes nothing, and a notice says why.
     again.get_by_role_and_label(Role::SpinButton, "r").click();
     again.run_steps(3);
     again.event(egui::Event::Text("-1".to_owned()));

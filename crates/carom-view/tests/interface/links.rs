@@ -157,7 +157,7 @@ fn a_link_to_nowhere_is_told_and_a_scene_can_be_chosen() {
     let (mut desk, _) = listened(link("scene=simtest7"));
     assert!(desk.state().is_choosing());
     desk.get_by_label_contains("simtest7");
-    assert!(!desk.state().notices().any_error(), "it is told once");
+    assert!(!desk.state().notices().any_error(), "one of them says it, not both");
     // What is chosen then has nothing to do with it.
     press(&mut desk, Key::Enter);
     press(&mut desk, Key::Enter);
