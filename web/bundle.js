@@ -1,8 +1,11 @@
 // Puts the page together: `node bundle.js MODULE_FOLDER OUT_FOLDER`.
 //
 // MODULE_FOLDER is what `wasm-bindgen --target web` made. In OUT_FOLDER every file but index.html
-// bears a hash of its content in its name, so that browsers may keep it and never mix two versions;
-// beside each lie what gzip and Brotli make of it, for servers that give that.
+// and worker.js bears a hash of its content in its name, so that browsers may keep it and never mix
+// two versions; beside each lie what gzip and Brotli make of it, for servers that give that.
+//
+// $CAROM_PAGE is the address that the page will have, where it is known: other sites show the page's
+// picture only by a whole address.
 
 import { createHash } from "node:crypto";
 import { mkdir, readFile, readdir, rm, writeFile } from "node:fs/promises";
@@ -13,6 +16,12 @@ import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 import { build } from "esbuild";
 
 const PAGE = fileURLToPath(new URL("page/", import.meta.url));
+
+/** The scenes that come with Carom. */
+const SCENES = fileURLToPath(new URL("../scenes/", import.meta.url));
+
+/** What other sites show beside a link to the page. */
+const PICTURE = fileURLToPath(new URL("../docs/pictures/tutorial4.png", import.meta.url));
 
 /** The oldest with all that module and page use: reference types, TransformStream, box sizes. */
 const BROWSERS = ["chrome96", "firefox102", "safari15.4"];
@@ -43,8 +52,30 @@ export async function bundle(moduleFolder, out) {
     html = html.replaceAll(`"${name}"`, `"${hashed}"`);
   }
   html = html.replace("  </head>", `    <link id="module" ${preload} ${size} />\n  </head>`);
+  const files = await readdir(out);
+  // After the list: only other sites ask for it.
+  const picture = await writeHashed(out, "picture.png", await readFile(PICTURE));
+  html = html.replace('"picture.png"', JSON.stringify(whole(picture)));
   await writeFile(join(out, "index.html"), html);
+  await bundleWorker(files, html, out);
   await compressAll(out);
+}
+
+/**
+ * The address of a file of the page, as whole as it can be known.
+ *
+ * @param {string} name
+ */
+function whole(name) {
+  if (!process.env.CAROM_PAGE) {
+    return name;
+  }
+  const page = new URL(process.env.CAROM_PAGE);
+  // A folder, with or without its slash, or a document in it.
+  if (!/\/$|\.html$/.test(page.pathname)) {
+    page.pathname += "/";
+  }
+  return new URL(name, page).href;
 }
 
 /**
@@ -66,12 +97,49 @@ async function bundleScripts(moduleFolder, out) {
     entryNames: "[name]-[hash]",
     chunkNames: "[name]-[hash]",
     alias: { "carom-web": join(moduleFolder, "carom_web.js") },
+    // A string twice: an object would become a script of its own, fetched after the first.
+    define: { TITLES: JSON.stringify(JSON.stringify(await sceneTitles())) },
     legalComments: "eof",
     metafile: true,
     logLevel: "warning",
   });
   const [main] = Object.entries(metafile.outputs).filter(([, output]) => output.entryPoint);
   return new Map([["main.js", relative(out, resolve(main[0]))]]);
+}
+
+/**
+ * Makes the worker that keeps this version of the page: its name stays, and its content is another
+ * for every version, by which browsers know that there is a new one.
+ *
+ * @param {string[]} files
+ * @param {string} html
+ * @param {string} out
+ */
+async function bundleWorker(files, html, out) {
+  await build({
+    entryPoints: [join(PAGE, "worker.js")],
+    outdir: out,
+    bundle: true,
+    minify: true,
+    format: "iife",
+    target: BROWSERS,
+    define: { FILES: JSON.stringify(files), INDEX: JSON.stringify(html) },
+    logLevel: "warning",
+  });
+}
+
+/** @returns {Promise<Record<string, string>>} by the names of the scenes */
+async function sceneTitles() {
+  /** @type {Record<string, string>} */
+  const titles = {};
+  for (const file of await readdir(SCENES)) {
+    // Before the first table, as in all that `carom` writes, and a string that JSON reads as well.
+    const title = /^title = (".*")$/m.exec(await readFile(join(SCENES, file), "utf8"));
+    if (title !== null) {
+      titles[file.replace(/\.toml$/, "")] = JSON.parse(title[1]);
+    }
+  }
+  return titles;
 }
 
 /**
@@ -90,7 +158,9 @@ async function writeHashed(out, name, content) {
 
 /** @param {string} out */
 async function compressAll(out) {
-  for (const name of await readdir(out)) {
+  // A picture is compressed already.
+  const names = (await readdir(out)).filter((name) => extname(name) !== ".png");
+  for (const name of names) {
     const path = join(out, name);
     const content = await readFile(path);
     await writeFile(`${path}.gz`, gzipSync(content, { level: constants.Z_BEST_COMPRESSION }));

@@ -11,6 +11,7 @@ const TYPES = new Map([
   [".css", "text/css; charset=utf-8"],
   [".html", "text/html; charset=utf-8"],
   [".js", "text/javascript; charset=utf-8"],
+  [".png", "image/png"],
   [".svg", "image/svg+xml"],
   [".toml", "text/plain; charset=utf-8"],
   [".txt", "text/plain; charset=utf-8"],

@@ -1,5 +1,7 @@
 // The part of the page's address behind `#`: what is shown, so that a link shows it to others.
 
+import { titleOf } from "./title.js";
+
 /** Least time between two changes [ms]: browsers refuse more than a hundred in half a minute. */
 const PAUSE = 400;
 
@@ -30,6 +32,7 @@ function write() {
   const { pathname, search } = location;
   const url = waiting ? `#${waiting}` : pathname + search;
   const isAnotherScene = address() !== "" && sceneOf(waiting ?? "") !== sceneOf(address());
+  const title = titleOf(waiting ?? "");
   waiting = null;
   last = performance.now();
   if (isAnotherScene) {
@@ -37,6 +40,8 @@ function write() {
   } else {
     history.replaceState(null, "", url);
   }
+  // Last: the entry of the history that is left keeps its own.
+  document.title = title;
 }
 
 /**

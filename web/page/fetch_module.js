@@ -1,5 +1,6 @@
 // The module on its way here.
 
+import { Stall } from "./stall.js";
 import { Trouble } from "./trouble.js";
 
 /**
@@ -12,6 +13,20 @@ import { Trouble } from "./trouble.js";
  * @returns {Promise<WebAssembly.Module>}
  */
 export async function fetchModule(progress) {
+  const stall = new Stall();
+  try {
+    return await Promise.race([download(progress, stall), stall.failure]);
+  } finally {
+    stall.end();
+  }
+}
+
+/**
+ * @param {(arrived: number, all: number) => void} progress
+ * @param {Stall} stall
+ * @returns {Promise<WebAssembly.Module>}
+ */
+async function download(progress, stall) {
   const link = /** @type {HTMLLinkElement} */ (document.getElementById("module"));
   const all = Number(link.dataset.bytes);
   const response = await ask(link.href);
@@ -19,11 +34,15 @@ export async function fetchModule(progress) {
   const counted = response.pipeThrough(
     new TransformStream({
       transform(piece, controller) {
+        stall.signOfLife();
         arrived += piece.byteLength;
         progress(arrived, all);
         controller.enqueue(piece);
       },
+      // Compilers may still take their time.
+      flush: () => stall.end(),
     }),
+    { signal: stall.signal },
   );
   // Compilers demand this type, whatever the server says.
   const headers = { "Content-Type": "application/wasm" };

@@ -9,6 +9,7 @@ import { canDraw } from "./graphics.js";
 import { keepKeysFromScrolling } from "./keys.js";
 import { offerMirror } from "./mirror.js";
 import { loading } from "./loading.js";
+import { keepForOffline } from "./offline.js";
 import { checkPixelSize } from "./pixel_size.js";
 import { services } from "./services.js";
 import { Trouble, inWords } from "./trouble.js";
@@ -38,6 +39,8 @@ async function start() {
   offerMirror(page);
   canvas.focus({ preventScroll: true });
   loading.finish();
+  // Last: what it fetches would hold the interface up.
+  keepForOffline();
 }
 
 start().catch((error) => {

@@ -32,11 +32,14 @@ export const GRAPHICS = {
   none: ["--disable-gpu", "--disable-software-rasterizer", "--disable-3d-apis"],
 };
 
-/** @param {keyof typeof GRAPHICS} graphics */
-export function launch(graphics) {
+/**
+ * @param {keyof typeof GRAPHICS} graphics
+ * @param {string[]} [more] switches
+ */
+export function launch(graphics, more = []) {
   return chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: [...QUIET, ...GRAPHICS[graphics]],
+    args: [...QUIET, ...GRAPHICS[graphics], ...more],
     // A busy machine takes its time.
     timeout: 120_000,
     // Without it Chromium starts for root under no circumstances.

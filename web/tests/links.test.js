@@ -51,6 +51,24 @@ test("a link from the command line is shown with the hash that it has there", as
   await viewer.close();
 });
 
+test("the camera is where it was after the page is loaded again", async () => {
+  const viewer = await desk.open("#scene=tutorial3&t=0");
+  const [x, y] = await viewer.point("Scene", { role: "Image" });
+  await viewer.page.mouse.move(x, y - 100);
+  await viewer.page.mouse.down();
+  await viewer.page.mouse.move(x + 80, y - 60, { steps: 5 });
+  await viewer.page.mouse.up();
+  const eye = () => new URLSearchParams(new URL(viewer.page.url()).hash.slice(1)).get("eye");
+  await viewer.page.waitForURL(/&eye=/);
+  const before = eye();
+  assert.equal(before?.split(",").length, 6);
+  await viewer.page.reload();
+  await viewer.page.waitForSelector("#loading.done", { state: "attached" });
+  await viewer.until(({ watching }) => watching?.scene === "tutorial3");
+  assert.equal(eye(), before);
+  await viewer.close();
+});
+
 test("what was changed by hand goes with the link, and gives the same bits elsewhere", async () => {
   const viewer = await desk.watch("simtest1");
   await viewer.page.keyboard.press("p");
@@ -113,8 +131,10 @@ test("Back leads to the scene before", async () => {
   await viewer.page.keyboard.press("Enter");
   await viewer.until(({ watching }) => watching?.scene === "masse");
   await viewer.page.waitForFunction(() => location.hash.includes("masse"));
+  await viewer.page.waitForFunction(() => document.title === "Massé shots - Carom");
   await viewer.page.goBack();
   await viewer.until(({ watching }) => watching?.scene === "simtest1" && !watching.seeking);
+  await viewer.page.waitForFunction(() => document.title === "SimTest1 - Carom");
   await viewer.close();
 });
 

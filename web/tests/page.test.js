@@ -203,6 +203,23 @@ describe("the page, for the module,", () => {
     await close();
   });
 
+  test("bears the title of what is shown", async () => {
+    const { page, close } = await open("");
+    assert.equal(await page.title(), "Carom");
+    const show = async (/** @type {string} */ fragment, /** @type {string} */ title) => {
+      await page.evaluate(
+        (fragment) => /** @type {any} */ (globalThis).carom.services.showFragment(fragment),
+        fragment,
+      );
+      await page.waitForFunction((title) => document.title === title, title);
+    };
+    await show("scene=tutorial3", "Newton's cradle - Carom");
+    await show("scene=masse&t=2", "Massé shots - Carom");
+    await show("file=AAAA&name=my%20scene", "my scene - Carom");
+    await show("", "Carom");
+    await close();
+  });
+
   test("saves files under their names", async () => {
     const { page, close } = await open("");
     const waiting = page.waitForEvent("download");

@@ -42,15 +42,19 @@ async function serveStandIn() {
     fileURLToPath(new URL("stand_in.js", import.meta.url)),
     join(folder, "carom_web.js"),
   );
-  await writeFile(join(folder, "carom_web_bg.wasm"), emptyModule(SIZE));
   const dist = join(folder, "dist");
-  await bundle(folder, dist);
+  // Another version of the page every time: no two modules are the same.
+  const renew = async () => {
+    await writeFile(join(folder, "carom_web_bg.wasm"), emptyModule(SIZE));
+    await bundle(folder, dist);
+  };
+  await renew();
   const server = await serve(dist, 0);
   const close = async () => {
     await server.close();
     await rm(folder, { recursive: true });
   };
-  return { url: server.url, dist, close };
+  return { url: server.url, dist, renew, close };
 }
 
 /**

@@ -1,0 +1,85 @@
+// A module that stops on its way: the page says so, and fetches it again at a click.
+
+import assert from "node:assert/strict";
+import { readFile, readdir } from "node:fs/promises";
+import { createServer } from "node:http";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+
+import { complaints, keepPicture } from "./browser.js";
+import { StandIn } from "./stood_in.js";
+
+/** @type {StandIn} */
+let standIn;
+
+before(async () => {
+  standIn = await StandIn.set();
+});
+
+after(() => standIn?.clear());
+
+/**
+ * The site of the stand-in, but its module comes only so far until the network is mended.
+ *
+ * @param {number} part of the module; 0 for no answer at all
+ */
+async function serveStalling(part) {
+  const { dist } = standIn.site;
+  const names = await readdir(dist);
+  const wasm = await readFile(join(dist, names.find((name) => name.endsWith(".wasm")) ?? ""));
+  let isMended = false;
+  const server = createServer(async (request, response) => {
+    const isModule = request.url?.endsWith(".wasm");
+    if (isModule && !isMended) {
+      if (part > 0) {
+        response.writeHead(200, { "Content-Length": wasm.length });
+        response.write(wasm.subarray(0, part * wasm.length));
+      }
+      return;
+    }
+    const answer = await fetch(new URL(request.url ?? "", standIn.site.url));
+    response.writeHead(answer.status, { "Content-Type": answer.headers.get("Content-Type") ?? "" });
+    response.end(Buffer.from(await answer.arrayBuffer()));
+  });
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(undefined)));
+  const { port } = /** @type {import("node:net").AddressInfo} */ (server.address());
+  return {
+    url: `http://127.0.0.1:${port}/`,
+    mend: () => void (isMended = true),
+    close: () => {
+      server.close();
+      server.closeAllConnections();
+    },
+  };
+}
+
+for (const [part, what] of /** @type {const} */ ([
+  [0, "does not begin to arrive"],
+  [0.5, "stops half way"],
+])) {
+  test(`the page says that its module ${what}, and fetches it again at a click`, async (context) => {
+    const site = await serveStalling(part);
+    context.after(site.close);
+    const page = await standIn.browser.newPage();
+    const heard = complaints(page);
+    // Time that the test does not have to wait for.
+    await page.clock.install();
+    // Its scripts have run; the module delays what browsers take for the end of loading.
+    await page.goto(site.url, { waitUntil: "domcontentloaded" });
+    await page.waitForFunction(
+      (part) => (document.querySelector("progress")?.value || 0) >= 0.9 * part,
+      part,
+    );
+    await page.clock.runFor(19_000);
+    assert.equal(await page.isVisible("#loading.trouble"), false);
+    await page.clock.runFor(10_000);
+    await page.waitForSelector("#loading.trouble");
+    assert.match((await page.textContent("#message")) ?? "", /nothing came for 20 seconds/);
+    await keepPicture(page, `page-stalled-${part}`);
+    assert.equal(heard.length, 1, `${heard}`);
+    site.mend();
+    await page.click("#again");
+    await page.waitForSelector("#loading.done", { state: "attached" });
+    await page.close();
+  });
+}
