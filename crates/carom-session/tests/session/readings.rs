@@ -233,6 +233,42 @@ fn pressure_in_a_container_is_the_force_on_its_walls_by_their_area() {
     assert_eq!(view(&busy()).now.pressure, None, "a floor alone shuts nothing in");
 }
 
+/// The box of [`one_in_a_box`], of half-spaces with these normals at a distance of 1 m.
+fn one_in_half_spaces(normals: &[[f64; 3]]) -> Session {
+    let wall = |[x, y, z]: &[f64; 3]| {
+        let position = format!("[{}, {}, {}]", -x, -y, -z);
+        format!(
+            "{{ shape = 'half-space', position = {position}, rotation = {{ normal = [{x}, {y}, {z}] }} }}"
+        )
+    };
+    let walls: Vec<String> = normals.iter().map(wall).collect();
+    let text = format!(
+        "name = 'box'\nspheres = [{{ radius = 0.5, mass = 3.0, velocity = [24.0, 32.0, 0] }}]\n\
+         colliders = [{}]",
+        walls.join(", ")
+    );
+    Session::new(Scene::from_toml(&text, "box").unwrap()).unwrap()
+}
+
+#[test]
+fn pressure_in_a_box_of_half_spaces_is_the_force_on_its_walls_by_their_area() {
+    // Turned about z, so that the ball still goes straight from wall to wall.
+    let (turned, across) = ([0.6, 0.8, 0.0], [-0.8, 0.6, 0.0]);
+    let opposite = |it: [f64; 3]| it.map(|along| -along);
+    let z = [0.0, 0.0, 1.0];
+    let walls = [turned, z, across, opposite(turned), opposite(z), opposite(across)];
+    let mut session = one_in_half_spaces(&walls);
+    hashes(&mut session, 60);
+    // As in the container: 400 Pa.
+    let pressure = view(&session).now.pressure.unwrap();
+    assert!((pressure - 400.0).abs() <= 1.05 * 240.0 / 24.0 / 0.5, "{pressure}");
+    // What has no lid, more walls than a box, or slanting ones, has no known area.
+    let slanting = [[0.6, 0.0, 0.8], z, across, opposite(turned), opposite(z), opposite(across)];
+    for walls in [&walls[..5], &[&walls[..], &[[0.0, 0.6, 0.8]]].concat(), &slanting] {
+        assert_eq!(view(&one_in_half_spaces(walls)).now.pressure, None);
+    }
+}
+
 #[test]
 fn one_sphere_alone_has_no_temperature_and_two_opposite_ones_that_of_their_motion() {
     assert_eq!(view(&one_in_a_box(40.0)).now.thermal_energy, 0.0);
