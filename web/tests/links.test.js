@@ -58,14 +58,14 @@ test("the camera is where it was after the page is loaded again", async () => {
   await viewer.page.mouse.down();
   await viewer.page.mouse.move(x + 80, y - 60, { steps: 5 });
   await viewer.page.mouse.up();
-  const eye = () => new URLSearchParams(new URL(viewer.page.url()).hash.slice(1)).get("eye");
-  await viewer.page.waitForURL(/&eye=/);
-  const before = eye();
+  const camera = () => new URLSearchParams(new URL(viewer.page.url()).hash.slice(1)).get("camera");
+  await viewer.page.waitForURL(/&camera=/);
+  const before = camera();
   assert.equal(before?.split(",").length, 6);
   await viewer.page.reload();
   await viewer.page.waitForSelector("#loading.done", { state: "attached" });
   await viewer.until(({ watching }) => watching?.scene === "tutorial3");
-  assert.equal(eye(), before);
+  assert.equal(camera(), before);
   await viewer.close();
 });
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use carom_scene::scene::Scene;
-use carom_session::{Eye, Link, LinkSource, PastChange, View};
+use carom_session::{Link, LinkCamera, LinkSource, PastChange, View};
 use egui::Context;
 
 use crate::host::Host;
@@ -28,21 +28,21 @@ pub struct Moment {
     scene: Arc<Scene>,
     frame: u64,
     changes: Arc<Vec<PastChange>>,
-    eye: Option<Eye>,
+    camera: Option<LinkCamera>,
 }
 
 impl Moment {
     /// The moment that a view shows, seen from where a link to its scene says.
     pub fn of(view: &View, base: &Link) -> Self {
         let (scene, changes) = (view.scene.clone(), view.changes.clone());
-        Self { scene, frame: view.frame, changes, eye: base.eye() }
+        Self { scene, frame: view.frame, changes, camera: base.camera() }
     }
 
     /// Whether a link to this is a link to the other, too.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.frame == other.frame
-            && self.eye == other.eye
+            && self.camera == other.camera
             && Arc::ptr_eq(&self.changes, &other.changes)
     }
 }

@@ -3,7 +3,7 @@
 use carom::{DQuat, DVec3};
 pub use carom_render::Preset;
 use carom_render::{Bounds, Camera};
-use carom_session::Eye;
+use carom_session::LinkCamera;
 use egui::Ui;
 
 /// A camera and what it looks at.
@@ -33,16 +33,16 @@ impl Orbit {
     }
 
     /// At the place of a link, with the field of view of the scene's camera if it has one.
-    pub fn of_eye(eye: Eye, of_scene: Option<Camera>) -> Self {
+    pub fn of_link(place: LinkCamera, of_scene: Option<Camera>) -> Self {
         let usual = Camera::VERTICAL_FOV_DEGREES.to_radians();
         let vertical_fov = of_scene.map_or(usual, |camera| camera.vertical_fov);
-        let camera = Camera::looking_at(eye.position, eye.target, vertical_fov);
-        Self { camera, distance: eye.position.distance(eye.target) }
+        let camera = Camera::looking_at(place.position, place.target, vertical_fov);
+        Self { camera, distance: place.position.distance(place.target) }
     }
 
     /// Its place, for a link.
-    pub fn eye(&self) -> Eye {
-        Eye { position: self.camera.position, target: self.target() }
+    pub fn for_link(&self) -> LinkCamera {
+        LinkCamera { position: self.camera.position, target: self.target() }
     }
 
     /// The point about which it turns \[m\].

@@ -40,7 +40,8 @@ pub struct Picture {
     pub rule: Option<String>,
     /// When: the frame of the scene nearest to this time. The start, unless given.
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = not_negative)]
-    #[arg(allow_negative_numbers = true)]
+    // What other commands call their times.
+    #[arg(allow_negative_numbers = true, aliases = ["seconds", "time"])]
     pub at: f64,
     /// How it is seen.
     #[command(flatten)]

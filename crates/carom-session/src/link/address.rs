@@ -60,8 +60,8 @@ fn fragment(link: &Link) -> String {
     if let Some(time) = link.time {
         parts.push(("t", number(time)));
     }
-    if let Some(eye) = &link.eye {
-        parts.push(("eye", eye.written()));
+    if let Some(camera) = &link.camera {
+        parts.push(("camera", camera.written()));
     }
     let parts: Vec<String> = parts.iter().map(|(name, value)| format!("{name}={value}")).collect();
     parts.join("&")

@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::packed::PackedError;
 
 /// Names of the parts of a link.
-const PARTS: [&str; 8] = ["scene", "file", "name", "set", "rule", "edits", "t", "eye"];
+const PARTS: [&str; 8] = ["scene", "file", "name", "set", "rule", "edits", "t", "camera"];
 
 /// What is wrong with a link.
 #[derive(Debug, Error)]
@@ -57,9 +57,9 @@ pub enum LinkError {
     },
     /// It looks from nowhere.
     #[error(
-        "the link says eye={found}; it must be six numbers in m: x,y,z to look from and x,y,z to look at"
+        "the link says camera={found}; it must be six numbers in m: x,y,z to look from and x,y,z to look at"
     )]
-    Eye {
+    Camera {
         /// As it is written, shortened.
         found: String,
     },

@@ -1,8 +1,8 @@
 //! Links: a run in the form of an address, to be had again elsewhere.
 
 mod address;
+mod camera;
 mod error;
-mod eye;
 mod packed;
 mod parse;
 mod present;
@@ -13,8 +13,8 @@ mod scene;
 mod time;
 mod written;
 
+pub use camera::LinkCamera;
 pub use error::LinkError;
-pub use eye::Eye;
 pub use packed::{MAX_UNPACKED, PackedError};
 pub use run::{Link, LinkSource};
 

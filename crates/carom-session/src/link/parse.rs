@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use percent_encoding::percent_decode_str;
 
+use super::camera::LinkCamera;
 use super::error::LinkError;
-use super::eye::Eye;
 use super::packed::unpack;
 use super::quotation::quoted;
 use super::rule::rule_override;
@@ -24,7 +24,7 @@ struct Once<'a> {
     rule: Option<&'a str>,
     edits: Option<&'a str>,
     t: Option<&'a str>,
-    eye: Option<&'a str>,
+    camera: Option<&'a str>,
 }
 
 impl Link {
@@ -66,7 +66,7 @@ fn link(text: &str) -> Result<Link, LinkError> {
             "rule" => ("rule", &mut once.rule),
             "edits" => ("edits", &mut once.edits),
             "t" => ("t", &mut once.t),
-            "eye" => ("eye", &mut once.eye),
+            "camera" => ("camera", &mut once.camera),
             "set" => {
                 overrides.push(decoded("set", value)?.parse()?);
                 continue;
@@ -85,7 +85,7 @@ fn link(text: &str) -> Result<Link, LinkError> {
         overrides,
         changes: Arc::new(once.edits.map(edits).transpose()?.unwrap_or_default()),
         time: once.t.map(time).transpose()?,
-        eye: once.eye.map(eye).transpose()?,
+        camera: once.camera.map(camera).transpose()?,
     })
 }
 
@@ -119,8 +119,8 @@ fn time(text: &str) -> Result<f64, LinkError> {
     checked_time(seconds)
 }
 
-fn eye(text: &str) -> Result<Eye, LinkError> {
-    Eye::read(&decoded("eye", text)?)
+fn camera(text: &str) -> Result<LinkCamera, LinkError> {
+    LinkCamera::read(&decoded("camera", text)?)
 }
 
 fn unpacked(part: &'static str, packed: &str) -> Result<String, LinkError> {

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use carom_scene::Override;
 
+use super::camera::LinkCamera;
 use super::error::LinkError;
-use super::eye::Eye;
 use super::time::{checked_time, readable};
 use crate::change::PastChange;
 
@@ -24,7 +24,7 @@ use crate::change::PastChange;
 /// | `rule` | short for an override of `simulation.rule` |
 /// | `edits` | what was changed on the way, as TOML, packed |
 /// | `t` | the time \[s\] it has come to |
-/// | `eye` | six numbers \[m\]: a place to look from, and one to look at |
+/// | `camera` | six numbers \[m\]: a place to look from, and one to look at |
 ///
 /// Packed is text compressed by zlib in base64 with the alphabet for addresses, without padding.
 ///
@@ -46,7 +46,7 @@ pub struct Link {
     pub(super) changes: Arc<Vec<PastChange>>,
     /// \[s\]
     pub(super) time: Option<f64>,
-    pub(super) eye: Option<Eye>,
+    pub(super) camera: Option<LinkCamera>,
 }
 
 /// The scene of a link.
@@ -66,7 +66,7 @@ pub enum LinkSource {
 impl Link {
     /// To the beginning of a scene as it is.
     pub fn new(source: LinkSource) -> Self {
-        Self { source, overrides: Vec::new(), changes: Arc::default(), time: None, eye: None }
+        Self { source, overrides: Vec::new(), changes: Arc::default(), time: None, camera: None }
     }
 
     /// This run with these values different in the scene, after those that were.
@@ -93,8 +93,8 @@ impl Link {
     }
 
     /// This run, looked at from another place; from where its scene says without one.
-    pub fn with_eye(mut self, eye: Option<Eye>) -> Self {
-        self.eye = eye;
+    pub fn with_camera(mut self, camera: Option<LinkCamera>) -> Self {
+        self.camera = camera;
         self
     }
 
@@ -119,7 +119,7 @@ impl Link {
     }
 
     /// Where it is looked at from; `None` where it leaves that open.
-    pub fn eye(&self) -> Option<Eye> {
-        self.eye
+    pub fn camera(&self) -> Option<LinkCamera> {
+        self.camera
     }
 }

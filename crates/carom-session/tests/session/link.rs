@@ -6,7 +6,7 @@ use carom::{
 use carom_scene::scene::{Boundary, Force, Rule, Simulation, Zones};
 use carom_scene::{BUILT_IN_FILES, Override, Scene};
 use carom_session::{
-    Change, Command, Driver, Edit, Eye, Link, LinkSource, Replay, Session, SessionError,
+    Change, Command, Driver, Edit, Link, LinkCamera, LinkSource, Replay, Session, SessionError,
     SphereChange, View,
 };
 
@@ -358,22 +358,24 @@ fn a_driver_repeats_a_run_and_goes_on() {
 
 #[test]
 fn a_link_looks_from_where_the_camera_was_to_less_than_a_pixel() {
-    let eye =
-        Eye { position: DVec3::new(1.0 / 3.0, 1e-9, -20.5), target: DVec3::new(0.0, 2.0, 0.0) };
-    let link = Link::parse("scene=simtest1&t=1").unwrap().with_eye(Some(eye));
-    assert_eq!(link.to_fragment(), "scene=simtest1&t=1&eye=0.333,0,-20.5,0,2,0");
+    let camera = LinkCamera {
+        position: DVec3::new(1.0 / 3.0, 1e-9, -20.5),
+        target: DVec3::new(0.0, 2.0, 0.0),
+    };
+    let link = Link::parse("scene=simtest1&t=1").unwrap().with_camera(Some(camera));
+    assert_eq!(link.to_fragment(), "scene=simtest1&t=1&camera=0.333,0,-20.5,0,2,0");
     // Far from the origin and near to what is seen, and the other way round.
     for (far, near) in [(1e6, 1e-3), (1e-3, 1e9)] {
         let target = DVec3::splat(far);
-        let eye = Eye { position: target + near * DVec3::new(0.6, -0.8, 0.0), target };
-        let text = link.clone().with_eye(Some(eye)).to_fragment();
-        let read = Link::parse(&text).unwrap().eye().unwrap();
+        let camera = LinkCamera { position: target + near * DVec3::new(0.6, -0.8, 0.0), target };
+        let text = link.clone().with_camera(Some(camera)).to_fragment();
+        let read = Link::parse(&text).unwrap().camera().unwrap();
         // A picture of a thousand lines takes up six tenths of the distance: 6e-4 of it each.
-        for (read, place) in [(read.position, eye.position), (read.target, eye.target)] {
+        for (read, place) in [(read.position, camera.position), (read.target, camera.target)] {
             assert!(read.distance(place) < 6e-5 * near, "{read} for {place}");
         }
     }
-    assert_eq!(link.with_eye(None).to_fragment(), "scene=simtest1&t=1");
+    assert_eq!(link.with_camera(None).to_fragment(), "scene=simtest1&t=1");
 }
 
 #[test]

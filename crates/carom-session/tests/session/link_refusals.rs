@@ -27,13 +27,13 @@ fn refusal(link: &str) -> String {
 
 #[test]
 fn every_mistake_is_told() {
-    let parts = "scene, file, name, set, rule, edits, t, eye";
+    let parts = "scene, file, name, set, rule, edits, t, camera";
     let empty = "the link says nothing: after # it needs scene=NAME or file=...";
     let time =
         |t| format!("the link says t={t}; the time must be a number of seconds, zero or positive");
-    let eye = |it| {
+    let camera = |it| {
         let form = "it must be six numbers in m: x,y,z to look from and x,y,z to look at";
-        format!("the link says eye={it}; {form}")
+        format!("the link says camera={it}; {form}")
     };
     let rule =
         |it| format!("the link says rule={it}; the rules are exact, contact, bisect, discrete");
@@ -62,11 +62,11 @@ fn every_mistake_is_told() {
         ("scene=a&rule=fast", rule("fast")),
         ("scene=a&rule", rule("")),
         ("scene=a&t=", time("")),
-        ("scene=a&eye=1,2,3", eye("1,2,3")),
-        ("scene=a&eye=1,2,3,1,2,3", eye("1,2,3,1,2,3")),
-        ("scene=a&eye=1,2,3,4,5,inf", eye("1,2,3,4,5,inf")),
-        ("scene=a&eye=1,2,3,4,5,x", eye("1,2,3,4,5,x")),
-        ("scene=a&eye=1,2,3,4,5,6,7", eye("1,2,3,4,5,6,7")),
+        ("scene=a&camera=1,2,3", camera("1,2,3")),
+        ("scene=a&camera=1,2,3,1,2,3", camera("1,2,3,1,2,3")),
+        ("scene=a&camera=1,2,3,4,5,inf", camera("1,2,3,4,5,inf")),
+        ("scene=a&camera=1,2,3,4,5,x", camera("1,2,3,4,5,x")),
+        ("scene=a&camera=1,2,3,4,5,6,7", camera("1,2,3,4,5,6,7")),
         ("scene=a&t=soon", time("soon")),
         ("scene=a&t=-1", time("-1.0")),
         ("scene=a&t=NaN", time("NaN")),

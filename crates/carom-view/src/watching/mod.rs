@@ -127,8 +127,8 @@ impl Watching {
         if let LinkSource::File { name, text } = link.source() {
             watching.written = WrittenScene::new(name, text, link.overrides().to_vec()).ok();
         }
-        if let Some(eye) = link.eye() {
-            watching.viewpoint = Viewpoint::at(eye, Camera::of_scene(&watching.view().scene));
+        if let Some(place) = link.camera() {
+            watching.viewpoint = Viewpoint::at(place, Camera::of_scene(&watching.view().scene));
         }
         watching.commands.push(Command::ShowStateHash(true));
         Ok(watching)
@@ -190,9 +190,9 @@ impl Watching {
             let link = written.map_or_else(|| Link::to_scene(&view.scene), WrittenScene::link);
             self.link = (view.scene.clone(), link);
         }
-        let eye = self.viewpoint.eye();
-        if self.link.1.eye() != eye {
-            self.link.1 = self.link.1.clone().with_eye(eye);
+        let camera = self.viewpoint.for_link();
+        if self.link.1.camera() != camera {
+            self.link.1 = self.link.1.clone().with_camera(camera);
         }
         (view, &self.link.1)
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use carom::DVec3;
 use carom_render::{Camera, Drawing, Framing};
 use carom_scene::Scene;
-use carom_session::{Eye, View};
+use carom_session::{LinkCamera, View};
 
 use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
@@ -37,14 +37,14 @@ impl Viewpoint {
     }
 
     /// At the place of a link, with the field of view of the scene's camera if it has one.
-    pub fn at(eye: Eye, of_scene: Option<Camera>) -> Self {
-        Self { orbit: Some(Orbit::of_eye(eye, of_scene)), ..Self::default() }
+    pub fn at(place: LinkCamera, of_scene: Option<Camera>) -> Self {
+        Self { orbit: Some(Orbit::of_link(place, of_scene)), ..Self::default() }
     }
 
     /// Where a hand has put it; `None` where it goes by the scene, or by what is in it.
-    pub fn eye(&self) -> Option<Eye> {
+    pub fn for_link(&self) -> Option<LinkCamera> {
         let by_hand = self.preset.is_none() && !self.fits && !self.follows();
-        self.orbit.filter(|_| by_hand).map(|orbit| orbit.eye())
+        self.orbit.filter(|_| by_hand).map(|orbit| orbit.for_link())
     }
 
     /// The camera as it was in the last picture.

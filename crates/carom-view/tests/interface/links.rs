@@ -167,11 +167,11 @@ fn a_link_to_nowhere_is_told_and_a_scene_can_be_chosen() {
 
 #[test]
 fn a_link_holds_where_a_hand_has_put_the_camera() {
-    let eye = "eye=1,2.5,-12,0,1,0.25";
-    let (mut desk, told) = listened(link(&format!("scene=simtest1&t=1&{eye}")));
+    let camera = "camera=1,2.5,-12,0,1,0.25";
+    let (mut desk, told) = listened(link(&format!("scene=simtest1&t=1&{camera}")));
     desk.run_steps(4);
     let last = || told.borrow().links.last().cloned().expect("a link");
-    assert_eq!(last(), format!("scene=simtest1&t=1&{eye}"));
+    assert_eq!(last(), format!("scene=simtest1&t=1&{camera}"));
     // Turned by hand, it is another; put back to the scene's camera, none.
     let picture = desk.ctx.content_rect().center();
     desk.drag_at(picture);
@@ -179,7 +179,7 @@ fn a_link_holds_where_a_hand_has_put_the_camera() {
     desk.drop_at(picture + egui::vec2(60.0, 10.0));
     desk.run_steps(12);
     let turned = last();
-    assert!(turned.contains("&eye=") && !turned.ends_with(eye), "{turned}");
+    assert!(turned.contains("&camera=") && !turned.ends_with(camera), "{turned}");
     let (mut again, _) = listened(link(&turned));
     again.run_steps(4);
     let [before, after] = [&mut desk, &mut again].map(|desk| {

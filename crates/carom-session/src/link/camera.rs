@@ -10,14 +10,14 @@ const SEEN: f64 = 3e-5;
 
 /// Where a run is looked at from, and which point is in the middle of the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Eye {
+pub struct LinkCamera {
     /// \[m\]
     pub position: DVec3,
     /// \[m\], elsewhere than the position.
     pub target: DVec3,
 }
 
-impl Eye {
+impl LinkCamera {
     /// As it is written: position and target in so few digits that people can read them.
     pub(super) fn written(&self) -> String {
         let slack = SEEN * self.position.distance(self.target);
@@ -28,9 +28,9 @@ impl Eye {
     /// Reads what is written so.
     ///
     /// # Errors
-    /// [`LinkError::Eye`] unless these are six finite numbers, of two places apart.
+    /// [`LinkError::Camera`] unless these are six finite numbers, of two places apart.
     pub(super) fn read(text: &str) -> Result<Self, LinkError> {
-        let wrong = || LinkError::Eye { found: quoted(text) };
+        let wrong = || LinkError::Camera { found: quoted(text) };
         let numbers: Result<Vec<f64>, _> = text.split(',').map(str::parse).collect();
         let numbers: [f64; 6] = numbers.ok().and_then(|it| it.try_into().ok()).ok_or_else(wrong)?;
         let [x, y, z, target_x, target_y, target_z] = numbers;
