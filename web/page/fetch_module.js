@@ -29,7 +29,8 @@ export async function fetchModule(progress) {
 async function download(progress, stall) {
   const link = /** @type {HTMLLinkElement} */ (document.getElementById("module"));
   const all = Number(link.dataset.bytes);
-  const response = await ask(link.href);
+  const response = await ask(link.href, stall.signal);
+  stall.signOfLife();
   let arrived = 0;
   const counted = response.pipeThrough(
     new TransformStream({
@@ -58,10 +59,11 @@ async function download(progress, stall) {
 
 /**
  * @param {string} url
+ * @param {AbortSignal} signal
  * @returns {Promise<ReadableStream<Uint8Array>>}
  */
-async function ask(url) {
-  const response = await fetch(url).catch((error) => {
+async function ask(url, signal) {
+  const response = await fetch(url, { signal }).catch((error) => {
     throw new Trouble("Carom could not be fetched. Is the network there?", { cause: error });
   });
   if (!response.ok || response.body === null) {

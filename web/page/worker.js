@@ -12,6 +12,9 @@
 /** Where the page lies; a site may have several, and all of them share what is kept. */
 const PLACE = new URL("./", location.href).href;
 
+/** How long the server may take for the document [ms]: all is here to be shown meanwhile. */
+const PATIENCE = 4_000;
+
 /** What the names of all versions of this page begin with. */
 const FAMILY = `carom ${PLACE} `;
 
@@ -57,17 +60,20 @@ function isDocument({ mode, url }) {
 }
 
 /**
- * The server's document, which names the files of the newest version; without a network the one
- * that goes with the files kept here.
+ * The server's document, which names the files of the newest version; without a network, or with one
+ * that answers nothing, the one that goes with the files kept here.
  *
  * @param {Request} request
  */
 async function newestDocument(request) {
-  try {
-    return await fetch(request);
-  } catch {
-    return new Response(INDEX, { headers: { "Content-Type": "text/html; charset=utf-8" } });
+  // One that the browser keeps may name files that are gone by now.
+  const asked = fetch(request, { cache: "no-cache" });
+  const inTime = new Promise((resolve) => setTimeout(resolve, PATIENCE));
+  const answer = await Promise.race([asked, inTime]).catch(() => undefined);
+  if (answer instanceof Response && answer.status < 500) {
+    return answer;
   }
+  return new Response(INDEX, { headers: { "Content-Type": "text/html; charset=utf-8" } });
 }
 
 /** @param {Request} request */

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
 import { complaints, launch } from "./browser.js";
+import { passOn } from "./passing_on.js";
 import { StandIn } from "./stood_in.js";
 import { Desk, PATIENCE } from "./viewer.js";
 
@@ -83,6 +84,24 @@ test("a new version is shown at the next load, and the old one forgotten", async
   await isShown(page);
   assert.equal(await moduleName(page), renewed);
   assert.deepEqual(heard, []);
+});
+
+test("a network that answers nothing for seconds does not hold up what is kept", async (context) => {
+  const browsing = await standIn.browser.newContext();
+  context.after(() => browsing.close());
+  const page = await browsing.newPage();
+  let isStuck = false;
+  const server = await passOn(standIn.site.url, () => isStuck);
+  context.after(server.close);
+  await page.goto(server.url);
+  await isShown(page);
+  await isKept(page);
+  isStuck = true;
+  const began = performance.now();
+  await page.reload();
+  await isShown(page);
+  const seconds = (performance.now() - began) / 1000;
+  assert.ok(seconds > 3.5, `the answer came after ${seconds} s, though there was none`);
 });
 
 test("what another page of the same site keeps stays", async (context) => {

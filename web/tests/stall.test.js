@@ -2,11 +2,11 @@
 
 import assert from "node:assert/strict";
 import { readFile, readdir } from "node:fs/promises";
-import { createServer } from "node:http";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
 import { complaints, keepPicture } from "./browser.js";
+import { passOn } from "./passing_on.js";
 import { StandIn } from "./stood_in.js";
 
 /** @type {StandIn} */
@@ -28,29 +28,15 @@ async function serveStalling(part) {
   const names = await readdir(dist);
   const wasm = await readFile(join(dist, names.find((name) => name.endsWith(".wasm")) ?? ""));
   let isMended = false;
-  const server = createServer(async (request, response) => {
-    const isModule = request.url?.endsWith(".wasm");
-    if (isModule && !isMended) {
-      if (part > 0) {
-        response.writeHead(200, { "Content-Length": wasm.length });
-        response.write(wasm.subarray(0, part * wasm.length));
-      }
-      return;
+  const server = await passOn(standIn.site.url, (request, response) => {
+    const isHeld = Boolean(request.url?.endsWith(".wasm")) && !isMended;
+    if (isHeld && part > 0) {
+      response.writeHead(200, { "Content-Length": wasm.length });
+      response.write(wasm.subarray(0, part * wasm.length));
     }
-    const answer = await fetch(new URL(request.url ?? "", standIn.site.url));
-    response.writeHead(answer.status, { "Content-Type": answer.headers.get("Content-Type") ?? "" });
-    response.end(Buffer.from(await answer.arrayBuffer()));
+    return isHeld;
   });
-  await new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(undefined)));
-  const { port } = /** @type {import("node:net").AddressInfo} */ (server.address());
-  return {
-    url: `http://127.0.0.1:${port}/`,
-    mend: () => void (isMended = true),
-    close: () => {
-      server.close();
-      server.closeAllConnections();
-    },
-  };
+  return { ...server, mend: () => void (isMended = true) };
 }
 
 for (const [part, what] of /** @type {const} */ ([

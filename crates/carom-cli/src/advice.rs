@@ -27,8 +27,8 @@ pub struct Conduct {
 pub fn advice(conduct: Conduct) -> Option<String> {
     let Conduct { rule, has_spheres, has_forces, overlap, impact_rate } = conduct;
     if !has_spheres {
-        let text = "nothing can move: the scene has no spheres, generators of spheres or emitters; \
-                    `carom new NAME` writes one to start from";
+        let text = "nothing can move: there are no balls, and no emitters that give some; `carom new NAME` writes \
+                    a scene to start from";
         return Some(text.to_owned());
     }
     match rule {

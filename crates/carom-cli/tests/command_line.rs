@@ -427,7 +427,7 @@ fn a_scene_in_which_nothing_can_move_says_so() {
     let table = "colliders = [{ shape = \"half-space\" }]\n";
     for text in ["", table] {
         let advice = advice(text).unwrap_or_default();
-        assert!(advice.contains("has no spheres"), "{text:?}: {advice}");
+        assert!(advice.contains("no balls"), "{text:?}: {advice}");
     }
     assert_eq!(advice("spheres = [{ radius = 1 }]"), None);
     assert_eq!(advice("emitters = [{ period = 1, sphere = { radius = 1 } }]"), None);

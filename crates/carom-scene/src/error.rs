@@ -38,7 +38,7 @@ pub enum SceneError {
         nearest: Option<String>,
     },
     /// An override is not of the form `path=value`.
-    #[error("--set {text}: {problem}")]
+    #[error("{text}: {problem}")]
     BadOverride {
         /// The override.
         text: String,

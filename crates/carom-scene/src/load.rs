@@ -72,12 +72,12 @@ impl Scene {
             if cause.is_empty() {
                 cause = overrides.iter().collect();
             }
-            let cause: Vec<_> = cause.iter().map(|it| format!("--set {it}")).collect();
+            let cause: Vec<_> = cause.iter().map(|it| it.to_string()).collect();
             // What `--set` calls by its name alone may be meant for a parameter.
             let Problem { field, problem } = problem;
             let problem = with_names(problem, &field, parameter_names(&document));
             let fault = Box::new(fault(source_name, None, &field, &problem));
-            SceneError::Overridden { overrides: cause.join(" "), fault }
+            SceneError::Overridden { overrides: cause.join(", "), fault }
         })
     }
 

@@ -361,19 +361,13 @@ fn overrides_change_values_by_their_path() {
         assert!(matches!(set(bad), Err(SceneError::BadOverride { .. })), "{bad}");
     }
     let refusals = [
-        ("emitters.3.period=1", "--set emitters.3.period=1: there is no element 3, only 0 to 0"),
-        ("name.first=1", "--set name.first=1: nothing lies below `name`"),
-        ("fog.0.color=1", "--set fog.0.color=1: the scene has no `fog`"),
-        ("camera.far=none", "--set camera.far=none: the scene has no `far` there"),
-        ("spheres.0.radius=-1", "--set spheres.0.radius=-1: test.toml: spheres[0].radius: must be"),
-        (
-            "spheres[0].radius=9",
-            "--set spheres[0].radius=9: test.toml: generators[0]: sphere number 1",
-        ),
-        (
-            "generators.0.row.step=[0, 0, 0]",
-            "--set generators.0.row.step=[0, 0, 0]: test.toml: gen",
-        ),
+        ("emitters.3.period=1", "emitters.3.period=1: there is no element 3, only 0 to 0"),
+        ("name.first=1", "name.first=1: nothing lies below `name`"),
+        ("fog.0.color=1", "fog.0.color=1: the scene has no `fog`"),
+        ("camera.far=none", "camera.far=none: the scene has no `far` there"),
+        ("spheres.0.radius=-1", "spheres.0.radius=-1: test.toml: spheres[0].radius: must be"),
+        ("spheres[0].radius=9", "spheres[0].radius=9: test.toml: generators[0]: sphere number 1"),
+        ("generators.0.row.step=[0, 0, 0]", "generators.0.row.step=[0, 0, 0]: test.toml: gen"),
         ("simulation.rle=discrete", "did you mean \"rule\"?"),
     ];
     for (text, expected) in refusals {

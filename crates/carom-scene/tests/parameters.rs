@@ -84,7 +84,7 @@ fn overrides_of_parameters_that_are_not_there_are_errors() {
     let unknown = problem(TEXT, &["parameters.heigt=3"]);
     assert_eq!(
         unknown,
-        "--set parameters.heigt=3: the scene has no parameter `heigt`; did you mean \"height\"?"
+        "parameters.heigt=3: the scene has no parameter `heigt`; did you mean \"height\"?"
     );
     assert!(problem(TEXT, &["parameters.x=3"]).ends_with("no parameter `x`"));
     let mistyped = problem(TEXT, &["heigt=3"]);
@@ -99,7 +99,7 @@ fn names_are_no_formulas_and_only_what_a_name_changes_is_blamed() {
     assert_eq!(read(&scene.to_toml(), &[]).unwrap(), scene);
     assert_eq!(scene.colliders[0].name, "=left");
     let blamed = problem(TEXT, &["count=3", "r=wide"]);
-    assert!(blamed.starts_with("--set r=wide: "), "{blamed}");
+    assert!(blamed.starts_with("r=wide: "), "{blamed}");
     let stray = problem(&TEXT.replace("[parameters]", "heigt = 1\n[parameters]"), &[]);
     assert!(!stray.contains("did you mean"), "{stray}");
     let singular = problem("name = \"x\"\n[parameter]\nr = 1", &[]);

@@ -32,17 +32,19 @@ impl Orbit {
         Self::about(preset.camera(of_scene, bounds, aspect.max(16.0 / 9.0)), bounds)
     }
 
-    /// At the place of a link, with the field of view of the scene's camera if it has one.
-    pub fn of_link(place: LinkCamera, of_scene: Option<Camera>) -> Self {
-        let usual = Camera::VERTICAL_FOV_DEGREES.to_radians();
-        let vertical_fov = of_scene.map_or(usual, |camera| camera.vertical_fov);
+    /// A camera as a link has it, the horizon level.
+    pub fn of_link(place: LinkCamera) -> Self {
+        let vertical_fov = place.vertical_fov_degrees.to_radians();
         let camera = Camera::looking_at(place.position, place.target, vertical_fov);
         Self { camera, distance: place.position.distance(place.target) }
     }
 
-    /// Its place, for a link.
+    /// This camera for a link, which does not hold how it is tilted sideways.
     pub fn for_link(&self) -> LinkCamera {
-        LinkCamera { position: self.camera.position, target: self.target() }
+        let Camera { position, vertical_fov, .. } = self.camera;
+        // Degrees as people write them, not one rounding off.
+        let vertical_fov_degrees = (vertical_fov.to_degrees() * 1e6).round() / 1e6;
+        LinkCamera { position, target: self.target(), vertical_fov_degrees }
     }
 
     /// The point about which it turns \[m\].

@@ -27,21 +27,26 @@ impl WrittenScene {
         Ok(Self { name, text, overrides, scene, parameters })
     }
 
-    /// A scene file of the disk.
+    /// A scene file of the disk, with these values changed.
     ///
     /// # Errors
     /// If it cannot be read, or is no scene.
-    pub fn from_file(path: &Path) -> Result<Self, SceneError> {
+    pub fn from_file(path: &Path, overrides: Vec<Override>) -> Result<Self, SceneError> {
         let text = std::fs::read_to_string(path)
             .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
         // Links are for others: where it lies here is not for them.
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        Self::new(&name, &text, Vec::new())
+        Self::new(&name, &text, overrides)
     }
 
-    /// What it comes to.
+    /// The scene that the text comes to.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// The values that differ from the text.
+    pub fn overrides(&self) -> &[Override] {
+        &self.overrides
     }
 
     /// Its parameters, in the order of the file.
@@ -49,12 +54,14 @@ impl WrittenScene {
         &self.parameters
     }
 
-    /// The same with another value of a parameter.
+    /// This text with another value of one of its parameters.
     ///
     /// # Errors
     /// If that makes no sense.
     pub fn with(&self, parameter: &Parameter) -> Result<Self, SceneError> {
         let Parameter { name, value, .. } = parameter;
+        // A whole number without a point counts something, and would from then on.
+        let value = if parameter.is_whole { format!("{value}") } else { format!("{value:?}") };
         let changed: Override = format!("parameters.{name}={value}").parse()?;
         let is_other = |it: &&Override| !it.to_string().starts_with(&format!("parameters.{name}="));
         let others = self.overrides.iter().filter(is_other).cloned();

@@ -8,6 +8,9 @@ use super::quotation::quoted;
 /// A camera may be off by this part of its distance: a tenth of a pixel of a large picture.
 const SEEN: f64 = 3e-5;
 
+/// The field of view of cameras that do not say \[°\].
+const USUAL_FOV_DEGREES: f64 = 35.0;
+
 /// Where a run is looked at from, and which point is in the middle of the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkCamera {
@@ -15,34 +18,45 @@ pub struct LinkCamera {
     pub position: DVec3,
     /// \[m\], elsewhere than the position.
     pub target: DVec3,
+    /// Vertical field of view \[°\], in (0, 180).
+    pub vertical_fov_degrees: f64,
 }
 
 impl LinkCamera {
-    /// As it is written: position and target in so few digits that people can read them.
+    /// As it is written: position and target in so few digits that people can read them, then the
+    /// field of view where it is not the usual one.
     pub(super) fn written(&self) -> String {
         let slack = SEEN * self.position.distance(self.target);
         let places = self.position.to_array().into_iter().chain(self.target.to_array());
-        places.map(|place| short(place, slack)).collect::<Vec<_>>().join(",")
+        let fov = self.vertical_fov_degrees;
+        let own = (fov != USUAL_FOV_DEGREES).then(|| short(fov, SEEN * fov));
+        let numbers = places.map(|place| short(place, slack)).chain(own);
+        numbers.collect::<Vec<_>>().join(",")
     }
 
     /// Reads what is written so.
     ///
     /// # Errors
-    /// [`LinkError::Camera`] unless these are six finite numbers, of two places apart.
+    /// [`LinkError::Camera`] unless these are six numbers, of two places apart, or seven with a field of view.
     pub(super) fn read(text: &str) -> Result<Self, LinkError> {
         let wrong = || LinkError::Camera { found: quoted(text) };
         let numbers: Result<Vec<f64>, _> = text.split(',').map(str::parse).collect();
-        let numbers: [f64; 6] = numbers.ok().and_then(|it| it.try_into().ok()).ok_or_else(wrong)?;
-        let [x, y, z, target_x, target_y, target_z] = numbers;
-        Self { position: DVec3::new(x, y, z), target: DVec3::new(target_x, target_y, target_z) }
-            .checked()
-            .ok_or_else(wrong)
+        let mut numbers = numbers.map_err(|_| wrong())?;
+        if numbers.len() == 6 {
+            numbers.push(USUAL_FOV_DEGREES);
+        }
+        let [x, y, z, target_x, target_y, target_z, vertical_fov_degrees] = *numbers else {
+            return Err(wrong());
+        };
+        let (position, target) = (DVec3::new(x, y, z), DVec3::new(target_x, target_y, target_z));
+        Self { position, target, vertical_fov_degrees }.checked().ok_or_else(wrong)
     }
 
     /// This one, if it looks anywhere.
     fn checked(self) -> Option<Self> {
         let distance = self.position.distance(self.target);
-        (distance > 0.0 && distance.is_finite()).then_some(self)
+        let fov = self.vertical_fov_degrees;
+        (distance > 0.0 && distance.is_finite() && fov > 0.0 && fov < 180.0).then_some(self)
     }
 }
 

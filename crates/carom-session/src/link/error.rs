@@ -57,7 +57,7 @@ pub enum LinkError {
     },
     /// It looks from nowhere.
     #[error(
-        "the link says camera={found}; it must be six numbers in m: x,y,z to look from and x,y,z to look at"
+        "the link says camera={found}; it must be x,y,z to look from and x,y,z to look at, in m, and may have a field of view in degrees"
     )]
     Camera {
         /// As it is written, shortened.
@@ -78,11 +78,6 @@ pub enum LinkError {
         problem: String,
     },
     /// Something is wrong with its scene, or an override of it.
-    #[error("{}", in_words_of_links(.0))]
+    #[error(transparent)]
     Scene(#[from] SceneError),
-}
-
-/// An error of a scene, whose overrides stand in a link and not on a command line.
-fn in_words_of_links(error: &SceneError) -> String {
-    error.to_string().replace("--set ", "set=")
 }

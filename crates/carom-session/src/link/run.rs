@@ -24,7 +24,7 @@ use crate::change::PastChange;
 /// | `rule` | short for an override of `simulation.rule` |
 /// | `edits` | what was changed on the way, as TOML, packed |
 /// | `t` | the time \[s\] it has come to |
-/// | `camera` | six numbers \[m\]: a place to look from, and one to look at |
+/// | `camera` | `x,y,z` of a place to look from and of one to look at \[m\], and the vertical field of view \[°\] where it is not 35 |
 ///
 /// Packed is text compressed by zlib in base64 with the alphabet for addresses, without padding.
 ///
@@ -92,10 +92,9 @@ impl Link {
         self.with_time(readable(frame as f64 * frame_time, frame_time))
     }
 
-    /// This run, looked at from another place; from where its scene says without one.
-    pub fn with_camera(mut self, camera: Option<LinkCamera>) -> Self {
+    /// Has the run looked at from another place; from where its scene says without one.
+    pub fn set_camera(&mut self, camera: Option<LinkCamera>) {
         self.camera = camera;
-        self
     }
 
     /// Its scene.

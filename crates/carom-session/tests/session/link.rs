@@ -358,24 +358,32 @@ fn a_driver_repeats_a_run_and_goes_on() {
 
 #[test]
 fn a_link_looks_from_where_the_camera_was_to_less_than_a_pixel() {
+    let written = |camera| {
+        let mut link = Link::parse("scene=simtest1&t=1").unwrap();
+        link.set_camera(camera);
+        link.to_fragment()
+    };
     let camera = LinkCamera {
         position: DVec3::new(1.0 / 3.0, 1e-9, -20.5),
         target: DVec3::new(0.0, 2.0, 0.0),
+        vertical_fov_degrees: 35.0,
     };
-    let link = Link::parse("scene=simtest1&t=1").unwrap().with_camera(Some(camera));
-    assert_eq!(link.to_fragment(), "scene=simtest1&t=1&camera=0.333,0,-20.5,0,2,0");
+    assert_eq!(written(Some(camera)), "scene=simtest1&t=1&camera=0.333,0,-20.5,0,2,0");
+    let wide = LinkCamera { vertical_fov_degrees: 60.0, ..camera };
+    assert_eq!(written(Some(wide)), "scene=simtest1&t=1&camera=0.333,0,-20.5,0,2,0,60");
+    assert_eq!(written(None), "scene=simtest1&t=1");
     // Far from the origin and near to what is seen, and the other way round.
     for (far, near) in [(1e6, 1e-3), (1e-3, 1e9)] {
         let target = DVec3::splat(far);
-        let camera = LinkCamera { position: target + near * DVec3::new(0.6, -0.8, 0.0), target };
-        let text = link.clone().with_camera(Some(camera)).to_fragment();
-        let read = Link::parse(&text).unwrap().camera().unwrap();
+        let position = target + near * DVec3::new(0.6, -0.8, 0.0);
+        let camera = LinkCamera { position, target, vertical_fov_degrees: 50.0 };
+        let read = Link::parse(&written(Some(camera))).unwrap().camera().unwrap();
+        assert_eq!(read.vertical_fov_degrees, 50.0);
         // A picture of a thousand lines takes up six tenths of the distance: 6e-4 of it each.
-        for (read, place) in [(read.position, camera.position), (read.target, camera.target)] {
+        for (read, place) in [(read.position, position), (read.target, target)] {
             assert!(read.distance(place) < 6e-5 * near, "{read} for {place}");
         }
     }
-    assert_eq!(link.with_camera(None).to_fragment(), "scene=simtest1&t=1");
 }
 
 #[test]

@@ -32,7 +32,7 @@ fn every_mistake_is_told() {
     let time =
         |t| format!("the link says t={t}; the time must be a number of seconds, zero or positive");
     let camera = |it| {
-        let form = "it must be six numbers in m: x,y,z to look from and x,y,z to look at";
+        let form = "it must be x,y,z to look from and x,y,z to look at, in m, and may have a field of view in degrees";
         format!("the link says camera={it}; {form}")
     };
     let rule =
@@ -66,13 +66,14 @@ fn every_mistake_is_told() {
         ("scene=a&camera=1,2,3,1,2,3", camera("1,2,3,1,2,3")),
         ("scene=a&camera=1,2,3,4,5,inf", camera("1,2,3,4,5,inf")),
         ("scene=a&camera=1,2,3,4,5,x", camera("1,2,3,4,5,x")),
-        ("scene=a&camera=1,2,3,4,5,6,7", camera("1,2,3,4,5,6,7")),
+        ("scene=a&camera=1,2,3,4,5,6,7,8", camera("1,2,3,4,5,6,7,8")),
+        ("scene=a&camera=1,2,3,4,5,6,180", camera("1,2,3,4,5,6,180")),
         ("scene=a&t=soon", time("soon")),
         ("scene=a&t=-1", time("-1.0")),
         ("scene=a&t=NaN", time("NaN")),
         ("scene=a&t=inf", time("inf")),
         ("scene=a&t=1e999", time("inf")),
-        ("scene=a&set=x", "set=x: write it as path=value".to_owned()),
+        ("scene=a&set=x", "x: write it as path=value".to_owned()),
     ];
     for (link, expected) in cases {
         assert_eq!(refusal(link), expected, "{link}");

@@ -28,10 +28,12 @@ impl App {
         }
     }
 
-    /// Says why a link cannot be followed: in the chooser, where it opens for want of anything else.
+    /// Says why a link cannot be followed: in the chooser where that is open.
     pub fn refuse_link(&mut self, why: &str) {
         if matches!(self.screen, Screen::Empty) {
             self.welcome();
+        }
+        if self.chooser.is_open() {
             self.chooser.complain(why);
         } else {
             self.notices.complain(why);

@@ -159,7 +159,7 @@ impl App {
                     && cfg!(not(target_arch = "wasm32"))
                 {
                     self.kept.remember(path);
-                    if let Ok(written) = WrittenScene::from_file(path) {
+                    if let Ok(written) = WrittenScene::from_file(path, Vec::new()) {
                         watching.set_written(written);
                     }
                 }

@@ -3,7 +3,7 @@
 use carom_scene::Parameter;
 use egui::Ui;
 
-use super::value::{Field, quantity, shown};
+use super::value::{Field, derived_number, settled_number};
 
 /// Rows of parameters. Returns one that was given another value: that begins the scene anew.
 pub(super) fn show(ui: &mut Ui, parameters: &[Parameter]) -> Option<Parameter> {
@@ -11,8 +11,8 @@ pub(super) fn show(ui: &mut Ui, parameters: &[Parameter]) -> Option<Parameter> {
     for parameter in parameters {
         let field = Field::any(&parameter.name, "");
         if parameter.is_formula {
-            shown(ui, field, parameter.value);
-        } else if let Some(value) = quantity(ui, field, parameter.value, parameter.is_whole) {
+            derived_number(ui, field, parameter.value);
+        } else if let Some(value) = settled_number(ui, field, parameter.value, parameter.is_whole) {
             changed = Some(Parameter { value, ..parameter.clone() });
         }
     }

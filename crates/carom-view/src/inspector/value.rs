@@ -6,6 +6,9 @@ use egui::{DragValue, Response, RichText, Ui};
 /// into scene files, not found with a mouse.
 const SMALLEST: f64 = 1e-9;
 
+/// Numbers are shown rounded by less than this part of them.
+const ROUNDED: f64 = 1e-5;
+
 /// Decimals of a number, at most.
 const MOST_DECIMALS: usize = 9;
 
@@ -120,16 +123,21 @@ pub(super) fn name(ui: &mut Ui, name: &str) -> Response {
 }
 
 /// A row with a number that only follows from others.
-pub(super) fn shown(ui: &mut Ui, field: Field, value: f64) {
+pub(super) fn derived_number(ui: &mut Ui, field: Field, value: f64) {
     row(ui, field, |ui| ui.weak(format!("{value}")));
 }
 
 /// A row with a number that costs much to change: it is returned once it is settled.
-pub(super) fn quantity(ui: &mut Ui, field: Field, value: f64, is_whole: bool) -> Option<f64> {
+pub(super) fn settled_number(ui: &mut Ui, field: Field, value: f64, is_whole: bool) -> Option<f64> {
     let kept = ui.scope_id().with(("on its way", field.name));
     let mut now = ui.data(|data| data.get_temp(kept)).unwrap_or(value);
     let decimals = if is_whole { 0 } else { MOST_DECIMALS };
+    let before = now;
     let response = row(ui, field, |ui| dragged(ui, field, &mut now, decimals));
+    // What is clicked on and left reads its own text again, which has fewer digits.
+    if (now - before).abs() <= ROUNDED * before.abs() {
+        now = before;
+    }
     if response.dragged() {
         ui.data_mut(|data| data.insert_temp(kept, now));
         return None;

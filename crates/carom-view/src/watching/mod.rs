@@ -42,6 +42,8 @@ pub struct Watching {
     link: (Arc<Scene>, Link),
     /// The text that the scene was read from, where there is one.
     written: Option<WrittenScene>,
+    /// Whether what is shown is what that text comes to.
+    shows_text: bool,
     /// Commands of this picture, sent at its end.
     pub commands: Vec<Command>,
     viewpoint: Viewpoint,
@@ -126,9 +128,10 @@ impl Watching {
         let mut watching = Self::at(session, link.clone(), source, threaded, context)?;
         if let LinkSource::File { name, text } = link.source() {
             watching.written = WrittenScene::new(name, text, link.overrides().to_vec()).ok();
+            watching.shows_text = watching.written.is_some();
         }
         if let Some(place) = link.camera() {
-            watching.viewpoint = Viewpoint::at(place, Camera::of_scene(&watching.view().scene));
+            watching.viewpoint = Viewpoint::at(place);
         }
         watching.commands.push(Command::ShowStateHash(true));
         Ok(watching)
@@ -147,6 +150,7 @@ impl Watching {
             driver,
             source,
             written: None,
+            shows_text: false,
             commands: Vec::new(),
             viewpoint: Viewpoint::new(),
             way: None,
@@ -187,12 +191,13 @@ impl Watching {
         let view = self.driver.view();
         if !Arc::ptr_eq(&self.link.0, &view.scene) {
             let written = self.written.as_ref().filter(|it| *it.scene() == *view.scene);
+            self.shows_text = written.is_some();
             let link = written.map_or_else(|| Link::to_scene(&view.scene), WrittenScene::link);
             self.link = (view.scene.clone(), link);
         }
         let camera = self.viewpoint.for_link();
         if self.link.1.camera() != camera {
-            self.link.1 = self.link.1.clone().with_camera(camera);
+            self.link.1.set_camera(camera);
         }
         (view, &self.link.1)
     }
@@ -292,8 +297,8 @@ impl Watching {
     /// The panels around the picture. Returns the actions of their buttons.
     pub fn panels(&mut self, ui: &mut Ui, manner: Manner) -> Vec<Action> {
         self.is_narrow = is_narrow(ui);
-        let Self { driver, written, commands, layout, throw, departures, wanted, sheet, .. } = self;
-        let parameters = written.as_ref().map_or(&[][..], |it| it.parameters());
+        let parameters = self.parameters();
+        let Self { driver, commands, layout, throw, departures, wanted, sheet, .. } = self;
         let mut changed = None;
         let Layout { panels, plots, .. } = layout;
         let panels = if self.is_narrow { sheet } else { panels };
@@ -307,7 +312,7 @@ impl Watching {
         let whole = ui.available_size();
         let mut room = 0.5 * whole.x;
         INSPECTOR.show(ui, &mut room, &mut panels.inspector, |ui| {
-            changed = inspector::show(ui, view, parameters, throw, commands);
+            changed = inspector::show(ui, view, &parameters, throw, commands);
         });
         PLOTS.show(ui, &mut room, &mut panels.plots, |ui| {
             *wanted = plots::show(ui, view, departures.since(), plots);
@@ -320,7 +325,7 @@ impl Watching {
                 .show(ui, |ui| impact_list::show(ui, view, commands));
         }
         if let Some(parameter) = changed {
-            self.change(&parameter);
+            self.set_parameter(&parameter);
         }
         transport.inner
     }

@@ -36,15 +36,15 @@ impl Viewpoint {
         Self { preset: Some(Preset::Scene), ..Self::default() }
     }
 
-    /// At the place of a link, with the field of view of the scene's camera if it has one.
-    pub fn at(place: LinkCamera, of_scene: Option<Camera>) -> Self {
-        Self { orbit: Some(Orbit::of_link(place, of_scene)), ..Self::default() }
+    /// Where a link looks from.
+    pub fn at(place: LinkCamera) -> Self {
+        Self { orbit: Some(Orbit::of_link(place)), ..Self::default() }
     }
 
-    /// Where a hand has put it; `None` where it goes by the scene, or by what is in it.
+    /// The camera for a link; `None` where it is the scene's own.
     pub fn for_link(&self) -> Option<LinkCamera> {
-        let by_hand = self.preset.is_none() && !self.fits && !self.follows();
-        self.orbit.filter(|_| by_hand).map(|orbit| orbit.for_link())
+        let is_own = self.preset == Some(Preset::Scene);
+        self.orbit.filter(|_| !is_own).map(|orbit| orbit.for_link())
     }
 
     /// The camera as it was in the last picture.

@@ -164,7 +164,9 @@ fn parameters_of_a_file_are_changed_in_the_inspector_and_stay_in_links() {
     let start = Some(Start::Scene(Box::new(row), Source::File(path.clone())));
     let mut first = desk(Setup { start, ..setup() });
     first.get_by_label("Parameters");
-    for (name, value, radii) in [("r", "0.5", vec![0.5; 3]), ("count", "5", vec![0.5; 5])] {
+    for (name, value, radii) in
+        [("r", "1", vec![1.0; 3]), ("r", "0.5", vec![0.5; 3]), ("count", "5", vec![0.5; 5])]
+    {
         first.get_by_role_and_label(Role::SpinButton, name).click();
         first.run_steps(3);
         first.event(egui::Event::Text(value.to_owned()));
@@ -183,6 +185,14 @@ fn parameters_of_a_file_are_changed_in_the_inspector_and_stay_in_links() {
     assert_eq!((name.as_str(), text.as_str()), ("row.toml", NAMED));
     let changed: Vec<_> = link.overrides().iter().map(ToString::to_string).collect();
     assert_eq!(changed, ["parameters.r=0.5", "parameters.count=5"]);
+    // A click that changes nothing begins nothing anew.
+    press(&mut first, Key::Escape);
+    go_to(&mut first, 0.5);
+    first.get_by_role_and_label(Role::SpinButton, "r").click();
+    first.run_steps(3);
+    press(&mut first, Key::Enter);
+    first.run_steps(3);
+    assert!(scene(&first).view().time > 0.4);
     // Where it is opened, they can be changed on.
     let mut again = desk(Setup { start: Some(Start::Link(Box::new(link))), ..setup() });
     again.run_steps(4);

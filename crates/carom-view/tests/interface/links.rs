@@ -192,6 +192,13 @@ fn a_link_holds_where_a_hand_has_put_the_camera() {
     press(&mut desk, Key::Num1);
     desk.run_steps(12);
     assert_eq!(last(), "scene=simtest1&t=1");
+    // From above is a choice, too, with a field of view of its own.
+    press(&mut desk, Key::Num3);
+    desk.run_steps(12);
+    let place = Link::parse(&last()).expect("a link").camera().expect("a camera");
+    assert_eq!(place.vertical_fov_degrees, 35.0);
+    assert!(place.position.y > place.target.y + 1.0, "{place:?}");
+    assert_eq!(place.position.x, place.target.x);
 }
 
 #[test]
