@@ -7,10 +7,11 @@ use carom_scene::scene::Scene;
 use carom_scene::{Entry, Library, Source};
 use carom_session::{Session, View};
 use egui::{
-    Align, Context, Id, Image, Key, Layout, Modal, Modifiers, RichText, ScrollArea, Sense,
+    Align, Context, Id, Image, Key, Label, Layout, Modal, Modifiers, RichText, ScrollArea, Sense,
     TextEdit, Ui, Vec2,
 };
 
+use crate::layout::is_for_fingers;
 use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
 use crate::studio::{Canvas, Studio};
@@ -129,11 +130,15 @@ impl Chooser {
                     if open.on_hover_text("A scene (TOML) or a maze (text)").clicked() {
                         file = Some(Chosen::AnyFile);
                     }
-                    let edit = TextEdit::singleline(&mut self.filter).hint_text("type to filter");
+                    let edit = TextEdit::singleline(&mut self.filter)
+                        .hint_text("type to filter")
+                        .vertical_align(Align::Center);
                     let width = ui.available_width().min(220.0);
                     let response = ui.add(edit.desired_width(width));
                     // Where fingers point, a keyboard would cover the list.
-                    if self.just_opened && !ui.input(|input| input.has_touch_screen()) {
+                    let has_fingers =
+                        is_for_fingers(ui) || ui.input(|input| input.has_touch_screen());
+                    if self.just_opened && !has_fingers {
                         response.request_focus();
                     }
                     if response.changed() {
@@ -170,7 +175,11 @@ impl Chooser {
                 }
             });
             ui.separator();
-            ui.weak("Arrow keys and Enter, or a click. Or drop a scene file on the window.");
+            ui.weak(if is_for_fingers(ui) {
+                "Tap the one to watch."
+            } else {
+                "Arrow keys and Enter, or a click. Or drop a scene file on the window."
+            });
         });
         self.just_opened = false;
         if modal.should_close() {
@@ -311,15 +320,17 @@ fn picture(ui: &mut Ui, thumbnail: &Thumbnail) {
 
 fn about(ui: &mut Ui, scene: &Scene, source: &Source) {
     let title = if scene.title.is_empty() { &scene.name } else { &scene.title };
-    ui.horizontal(|ui| {
+    // Lines of text, nothing to press.
+    ui.spacing_mut().interact_size.y = 0.0;
+    ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(title).strong().size(15.0));
         if *title != scene.name {
             ui.weak(&scene.name);
         }
         let rule = RichText::new(format!(" {} ", scene.simulation.rule));
         let background = ui.visuals().widgets.inactive.bg_fill;
-        ui.label(rule.monospace().size(11.0).background_color(background))
-            .on_hover_text("the rule by which it is stepped");
+        let rule = Label::new(rule.monospace().size(11.0).background_color(background));
+        ui.add(rule.extend()).on_hover_text("the rule by which it is stepped");
     });
     ui.label(&scene.description);
     if let Source::File(path) = source {

@@ -29,6 +29,11 @@ pub fn suit_fingers(context: &Context) {
     });
 }
 
+/// Whether all there is to press is large enough for fingers: then there is no keyboard.
+pub fn is_for_fingers(ui: &Ui) -> bool {
+    ui.spacing().interact_size.y >= FINGER
+}
+
 /// A panel at a side of the picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Beside {

@@ -65,7 +65,8 @@ fn clock(ui: &mut Ui, view: &View, is_recording: bool) {
         ui.colored_label(Color32::from_rgb(214, 40, 40), "⏺ recording");
     }
     pace(ui, view);
-    if let Some(hash) = view.playback.state_hash {
+    // Where there is no room for it, the inspector has it.
+    if let Some(hash) = view.playback.state_hash.filter(|_| !is_narrow(ui)) {
         ui.monospace(hash.to_string()).on_hover_text("the state as a number: see Link");
     }
 }

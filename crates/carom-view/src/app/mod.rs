@@ -336,7 +336,7 @@ impl App {
 
     fn screen(&mut self, ui: &mut Ui) {
         let manner = self.manner();
-        let margin = egui::Frame::NONE;
+        let margin = egui::Frame::NONE.fill(ui.visuals().panel_fill);
         let (mut wish, mut wanted) = (None, None);
         match &mut self.screen {
             Screen::Empty => {

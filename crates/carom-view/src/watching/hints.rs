@@ -6,6 +6,7 @@ use egui::{Align2, Area, Button, Frame, Id, Label, Rect, RichText, Role, Ui, Vec
 use web_time::Instant;
 
 use crate::action::Action;
+use crate::layout::is_for_fingers;
 
 /// Width of the text about a way, in points.
 const WAY_WIDTH: f32 = 270.0;
@@ -161,11 +162,12 @@ pub(super) fn show(
 fn large_play_button(ui: &Ui, rect: Rect) -> Option<Action> {
     let shown = area(rect).show(ui.ctx(), |ui| {
         let text = RichText::new("▶  Play").size(22.0).strong();
-        let large = Button::new(text)
-            .min_size(Vec2::new(150.0, 48.0))
-            .corner_radius(24)
-            .shortcut_text(Action::PlayOrPause.keys());
-        let response = ui.add(large);
+        let large = Button::new(text).min_size(Vec2::new(150.0, 48.0)).corner_radius(24);
+        let response = ui.add(if is_for_fingers(ui) {
+            large
+        } else {
+            large.shortcut_text(Action::PlayOrPause.keys())
+        });
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Play the scene"));
         response.clicked()
     });

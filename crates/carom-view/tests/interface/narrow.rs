@@ -72,6 +72,16 @@ fn what_fingers_press_is_large_enough_for_them_and_the_picture_keeps_half() {
     desk.get_by_label("Menu").click();
     desk.run_steps(3);
     assert_large(&desk, 20);
+    press(&mut desk, Key::Escape);
+    press(&mut desk, Key::Enter);
+    desk.run_steps(24);
+    // The list scrolls: what is below is cut off, but nothing is beside the window.
+    for card in desk.query_all_by_role(Role::Button) {
+        let rect = card.rect();
+        assert!(rect.left() >= 0.0 && rect.right() <= TELEPHONE[0], "{rect}");
+    }
+    let heading = desk.get_by_label("Choose a scene").rect();
+    assert!(heading.left() >= 0.0 && heading.top() >= 0.0, "{heading}");
 }
 
 #[test]
