@@ -7,8 +7,8 @@ use carom_scene::scene::Scene;
 use carom_scene::{Entry, Library, Source};
 use carom_session::{Session, View};
 use egui::{
-    Align, Context, Id, Image, Key, Label, Layout, Modal, Modifiers, RichText, ScrollArea, Sense,
-    TextEdit, Ui, Vec2,
+    Align, Align2, Context, Id, Image, Key, Label, Layout, Modal, Modifiers, RichText, ScrollArea,
+    Sense, TextEdit, Ui, Vec2,
 };
 
 use crate::layout::is_for_fingers;
@@ -123,29 +123,7 @@ impl Chooser {
         let modal = Modal::new(Id::unique("scenes")).show(context, |ui| {
             let size = ui.ctx().content_rect().size();
             ui.set_width((size.x - 40.0).clamp(240.0, 880.0));
-            ui.horizontal(|ui| {
-                ui.heading("Choose a scene");
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    let open = ui.button("Open a file...");
-                    if open.on_hover_text("A scene (TOML) or a maze (text)").clicked() {
-                        file = Some(Chosen::AnyFile);
-                    }
-                    let edit = TextEdit::singleline(&mut self.filter)
-                        .hint_text("type to filter")
-                        .vertical_align(Align::Center);
-                    let width = ui.available_width().min(220.0);
-                    let response = ui.add(edit.desired_width(width));
-                    // Where fingers point, a keyboard would cover the list.
-                    let has_fingers =
-                        is_for_fingers(ui) || ui.input(|input| input.has_touch_screen());
-                    if self.just_opened && !has_fingers {
-                        response.request_focus();
-                    }
-                    if response.changed() {
-                        self.selected = 0;
-                    }
-                });
-            });
+            file = self.head(ui);
             if let Some(why) = &self.trouble {
                 ui.colored_label(ui.visuals().error_fg_color, why);
             }
@@ -189,6 +167,34 @@ impl Chooser {
             self.open = false;
         }
         file.or_else(|| self.choose(chosen?))
+    }
+
+    /// The heading, with the filter and a way to other files. Returns that, if it is chosen.
+    fn head(&mut self, ui: &mut Ui) -> Option<Chosen> {
+        let mut file = None;
+        ui.horizontal(|ui| {
+            ui.heading("Choose a scene");
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let open = ui.button("Open a file...");
+                if open.on_hover_text("A scene (TOML) or a maze (text)").clicked() {
+                    file = Some(Chosen::AnyFile);
+                }
+                let edit = TextEdit::singleline(&mut self.filter)
+                    .hint_text("type to filter")
+                    .align(Align2::LEFT_CENTER);
+                let width = ui.available_width().min(220.0);
+                let response = ui.add(edit.desired_width(width));
+                // Where fingers point, a keyboard would cover the list.
+                let has_fingers = is_for_fingers(ui) || ui.input(|input| input.has_touch_screen());
+                if self.just_opened && !has_fingers {
+                    response.request_focus();
+                }
+                if response.changed() {
+                    self.selected = 0;
+                }
+            });
+        });
+        file
     }
 
     /// The cards that the filter leaves.
