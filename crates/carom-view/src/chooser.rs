@@ -11,7 +11,7 @@ use egui::{
     Sense, TextEdit, Ui, Vec2,
 };
 
-use crate::layout::is_for_fingers;
+use crate::layout::{is_for_fingers, is_touched};
 use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
 use crate::studio::{Canvas, Studio};
@@ -185,8 +185,7 @@ impl Chooser {
                 let width = ui.available_width().min(220.0);
                 let response = ui.add(edit.desired_width(width));
                 // Where fingers point, a keyboard would cover the list.
-                let has_fingers = is_for_fingers(ui) || ui.input(|input| input.has_touch_screen());
-                if self.just_opened && !has_fingers {
+                if self.just_opened && !is_touched(ui) {
                     response.request_focus();
                 }
                 if response.changed() {

@@ -34,6 +34,11 @@ pub fn is_for_fingers(ui: &Ui) -> bool {
     ui.spacing().interact_size.y >= FINGER
 }
 
+/// Whether somebody points with fingers, or may: a keyboard on the screen would cover things then.
+pub fn is_touched(ui: &Ui) -> bool {
+    is_for_fingers(ui) || ui.input(|input| input.has_touch_screen())
+}
+
 /// A panel at a side of the picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Beside {

@@ -7,7 +7,7 @@ use carom_scene::Palette;
 use carom_session::{Link, Pace};
 use egui::{Align2, Area, Frame, Id, Image, Key, Pos2, Response, RichText, Sense, Ui, Vec2};
 
-use crate::layout::is_for_fingers;
+use crate::layout::is_touched;
 use crate::orbit::{Orbit, Preset, zoom_asked};
 use crate::snapshot::Snapshot;
 use crate::studio::{Canvas, Studio};
@@ -298,7 +298,7 @@ impl MazeScreen {
             format!("Time {:.1} s", self.game.elapsed()),
         ];
         counts.extend(self.game.best().map(|best| format!("Best {best:.1} s")));
-        let is_touched = is_for_fingers(ui) || ui.input(|input| input.has_touch_screen());
+        let is_touched = is_touched(ui);
         let row = |ui: &mut Ui| {
             for count in counts {
                 ui.label(RichText::new(count).size(16.0).strong());

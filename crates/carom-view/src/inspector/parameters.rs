@@ -3,16 +3,21 @@
 use carom_scene::Parameter;
 use egui::Ui;
 
-use super::value::{Field, derived_number, settled_number};
+use super::value::{Field, derived_number, number_at_last};
 
 /// Rows of parameters. Returns one that was given another value: that begins the scene anew.
 pub(super) fn show(ui: &mut Ui, parameters: &[Parameter]) -> Option<Parameter> {
     let mut changed = None;
     for parameter in parameters {
-        let field = Field::any(&parameter.name, "");
+        let mut field = Field::any(&parameter.name, "");
+        let mut value = parameter.value;
+        if parameter.is_whole {
+            field.decimals = 0;
+        }
         if parameter.is_formula {
-            derived_number(ui, field, parameter.value);
-        } else if let Some(value) = settled_number(ui, field, parameter.value, parameter.is_whole) {
+            derived_number(ui, field, value);
+        } else if number_at_last(ui, field, &mut value) {
+            let value = if parameter.is_whole { value.round() } else { value };
             changed = Some(Parameter { value, ..parameter.clone() });
         }
     }

@@ -1,13 +1,13 @@
 //! Numbers that can be dragged and typed.
 
+use std::cell::OnceCell;
+
+use egui::emath::format_with_decimals_in_range;
 use egui::{DragValue, Response, RichText, Ui};
 
 /// Smallest positive number that can be dragged to: lengths, masses and times below it are typed
 /// into scene files, not found with a mouse.
 const SMALLEST: f64 = 1e-9;
-
-/// Numbers are shown rounded by less than this part of them.
-const ROUNDED: f64 = 1e-5;
 
 /// Decimals of a number, at most.
 const MOST_DECIMALS: usize = 9;
@@ -19,11 +19,14 @@ pub(super) struct Field<'a> {
     pub unit: &'a str,
     pub min: f64,
     pub max: f64,
+    /// Decimals that are shown, at most.
+    pub decimals: usize,
 }
 
 impl<'a> Field<'a> {
     pub fn any(name: &'a str, unit: &'a str) -> Self {
-        Self { name, unit, min: f64::NEG_INFINITY, max: f64::INFINITY }
+        let (min, max) = (f64::NEG_INFINITY, f64::INFINITY);
+        Self { name, unit, min, max, decimals: MOST_DECIMALS }
     }
 
     pub fn positive(name: &'a str, unit: &'a str) -> Self {
@@ -35,7 +38,7 @@ impl<'a> Field<'a> {
     }
 
     pub fn restitution() -> Self {
-        Self { name: "restitution", unit: "", min: 0.0, max: 1.0 }
+        Self { min: 0.0, max: 1.0, ..Self::any("restitution", "") }
     }
 }
 
@@ -92,7 +95,7 @@ pub(super) fn number_at_last(ui: &mut Ui, field: Field, value: &mut f64) -> bool
     let id = ui.scope_id().with(field.name);
     row(ui, field, |ui| {
         let mut shown = ui.data(|data| data.get_temp(id)).unwrap_or(*value);
-        let response = dragged(ui, field, &mut shown, MOST_DECIMALS);
+        let response = dragged(ui, field, &mut shown);
         if response.drag_stopped() || response.lost_focus() {
             ui.data_mut(|data| data.remove::<f64>(id));
             let changed = shown != *value;
@@ -127,40 +130,32 @@ pub(super) fn derived_number(ui: &mut Ui, field: Field, value: f64) {
     row(ui, field, |ui| ui.weak(format!("{value}")));
 }
 
-/// A row with a number that costs much to change: it is returned once it is settled.
-pub(super) fn settled_number(ui: &mut Ui, field: Field, value: f64, is_whole: bool) -> Option<f64> {
-    let kept = ui.scope_id().with(("on its way", field.name));
-    let mut now = ui.data(|data| data.get_temp(kept)).unwrap_or(value);
-    let decimals = if is_whole { 0 } else { MOST_DECIMALS };
-    let before = now;
-    let response = row(ui, field, |ui| dragged(ui, field, &mut now, decimals));
-    // What is clicked on and left reads its own text again, which has fewer digits.
-    if (now - before).abs() <= ROUNDED * before.abs() {
-        now = before;
-    }
-    if response.dragged() {
-        ui.data_mut(|data| data.insert_temp(kept, now));
-        return None;
-    }
-    ui.data_mut(|data| data.remove::<f64>(kept));
-    (now != value).then_some(now)
-}
-
 fn drag(ui: &mut Ui, field: Field, value: &mut f64) -> bool {
     let before = *value;
-    dragged(ui, field, value, MOST_DECIMALS);
+    dragged(ui, field, value);
     *value != before
 }
 
-fn dragged(ui: &mut Ui, field: Field, value: &mut f64, decimals: usize) -> Response {
+fn dragged(ui: &mut Ui, field: Field, value: &mut f64) -> Response {
+    let before = *value;
+    let shown = OnceCell::new();
     let speed = if *value == 0.0 { 0.01 } else { 0.01 * value.abs() };
     let drag = DragValue::new(value)
         .speed(speed)
         .range(field.min..=field.max)
-        .max_decimals(decimals)
+        .max_decimals(field.decimals)
+        .custom_formatter(|number, decimals| {
+            let text = format_with_decimals_in_range(number, decimals);
+            shown.get_or_init(|| text.clone());
+            text
+        })
         // Half a number is none yet.
         .update_while_editing(false);
     let response: Response = ui.add(drag);
+    // What is clicked on and left reads its own text again, which has fewer digits.
+    if shown.get().and_then(|text| text.parse().ok()) == Some(*value) {
+        *value = before;
+    }
     let text = field.name;
     response.widget_info(|| egui::WidgetInfo {
         label: Some(text.to_owned()),

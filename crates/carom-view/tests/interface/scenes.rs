@@ -231,6 +231,19 @@ fn panels_that_were_opened_stay_open_in_the_next_scene() {
 }
 
 #[test]
+fn a_number_of_many_digits_that_is_clicked_on_and_left_stays_as_it_is() {
+    let mut desk = watching("tutorial1");
+    let before = scene(&desk).view().setup.simulation.frame_time;
+    assert_eq!(before, 1.0 / 60.0, "more digits than are shown");
+    desk.get_by_role_and_label(Role::SpinButton, "frame time").click();
+    desk.run_steps(3);
+    press(&mut desk, Key::Enter);
+    desk.run_steps(3);
+    assert_eq!(scene(&desk).view().setup.simulation.frame_time, before);
+    assert_eq!(scene(&desk).view().undoable, 0);
+}
+
+#[test]
 fn a_ball_that_is_clicked_is_picked_and_one_is_thrown_with_control() {
     let mut desk = watching("tutorial1");
     let balls = scene(&desk).view().spheres.ids.len();
