@@ -20,6 +20,8 @@ Quaternion: TypeAlias = Sequence[float] | NDArray[np.float64]
 """A rotation x, y, z, w."""
 Color: TypeAlias = Sequence[float]
 """Red, green, blue, each in [0, 1] (sRGB)."""
+Finish: TypeAlias = Literal["matte", "satin", "glossy", "metal", "glass"]
+"""How a surface takes light."""
 
 _ORIGIN = (0.0, 0.0, 0.0)
 _UNTURNED = (0.0, 0.0, 0.0, 1.0)
@@ -65,6 +67,7 @@ class Sphere(Part):
         inertia_factor: Moment of inertia divided by mass and square of the radius, > 0: 2/5 for a
             solid ball, 2/3 for a thin shell.
         color: Colour; by density or the scene's own where it is missing.
+        finish: How its surface takes light; it changes no motion.
     """
 
     position: Vector = _ORIGIN
@@ -82,6 +85,7 @@ class Sphere(Part):
     angular_velocity: Vector = _ORIGIN
     inertia_factor: float = 0.4
     color: Color | None = None
+    finish: Finish = "satin"
 
 
 @dataclass(frozen=True)
@@ -218,6 +222,7 @@ class Collider(Part):
         rolling_friction: Coefficient of rolling friction, >= 0.
         spinning_friction: Coefficient of spinning friction, >= 0.
         tangential_restitution: Coefficient of tangential restitution in [0, 1].
+        finish: How its surface takes light; it changes no motion.
     """
 
     shape: Shape
@@ -234,6 +239,7 @@ class Collider(Part):
     rolling_friction: float | None = None
     spinning_friction: float | None = None
     tangential_restitution: float | None = None
+    finish: Finish = "satin"
 
 
 @dataclass(frozen=True)
@@ -262,38 +268,43 @@ class Emitter(Part):
 
 @dataclass(frozen=True)
 class Row(Part):
-    """Spheres one after the other along a line.
+    """Spheres or colliders one after the other along a line: give one of them.
 
     Attributes:
         count: How many, >= 1.
         start: Centre of the first [m].
         step: From each centre to the next [m].
-        sphere: What they have in common.
+        sphere: What spheres have in common.
+        collider: What colliders have in common; its position is an offset, its name gets its number.
     """
 
     tag: ClassVar[str] = "row"
     count: int
     start: Vector
     step: Vector
-    sphere: Sphere
+    sphere: Sphere | None = None
+    collider: Collider | None = None
 
 
 @dataclass(frozen=True)
 class Lattice(Part):
-    """Spheres on a box-shaped lattice; x runs fastest, then y, then z.
+    """Spheres or colliders on a box-shaped lattice; x runs fastest, then y, then z. Give one of them.
 
     Attributes:
         counts: How many along x, y and z, each >= 1.
         start: Centre of the first [m].
         spacing: Distance of neighbours along x, y and z [m].
-        sphere: What they have in common.
+        sphere: What spheres have in common.
+        collider: What colliders have in common; its position is an offset, its name gets its three
+            numbers.
     """
 
     tag: ClassVar[str] = "lattice"
     counts: Sequence[int]
     start: Vector
     spacing: Vector
-    sphere: Sphere
+    sphere: Sphere | None = None
+    collider: Collider | None = None
 
 
 @dataclass(frozen=True)
@@ -350,23 +361,26 @@ class ClosePacking(Part):
 
 @dataclass(frozen=True)
 class Ring(Part):
-    """Spheres evenly on a circle.
+    """Spheres or colliders evenly on a circle: give one of them.
 
     Attributes:
         count: How many, >= 1.
         center: Of the circle [m].
-        radius: From the centre of the circle to those of the spheres [m], > 0.
-        sphere: What they have in common.
+        radius: From the centre of the circle to the places [m], > 0.
+        sphere: What spheres have in common.
         axis: Direction about which they go round, by the right-hand rule; of any length but zero.
             The first is at the side of +x, or of +y where the axis is nearly along x.
+        collider: The first collider, its position an offset; it is turned about the axis to make
+            the others, with its velocities. Its name gets the number of each.
     """
 
     tag: ClassVar[str] = "ring"
     count: int
     center: Vector
     radius: float
-    sphere: Sphere
+    sphere: Sphere | None = None
     axis: Vector = (0.0, 1.0, 0.0)
+    collider: Collider | None = None
 
 
 @dataclass(frozen=True)

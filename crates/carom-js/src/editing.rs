@@ -1,9 +1,9 @@
 //! Changing a world from outside.
 
 use carom::Collider;
-use carom_scene::Palette;
 use carom_scene::part::{self, only};
 use carom_scene::scene::{self, Force};
+use carom_scene::{Paint, Palette};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -73,10 +73,11 @@ impl World {
         let (spheres, before) = (world.spheres(), self.world.spheres().len());
         for (index, id) in spheres.ids().iter().enumerate() {
             let (radius, mass) = (spheres.radii()[index], spheres.masses()[index]);
-            let color = palette.sphere(id.number(), radius, mass);
+            let coat = palette.sphere(id.number(), radius, mass);
             let id = self.world.add_sphere(spheres.get(index))?;
-            self.description.palette.add_sphere(id.number(), Some(color));
-            self.description.members.add(id, color);
+            let paint = Paint { color: Some(coat.color), finish: coat.finish };
+            self.description.palette.add_sphere(id.number(), paint);
+            self.description.members.add(id, coat);
             added.spheres.push(id.number());
         }
         self.description.members.follow_frictions(self.world.spheres(), before);
@@ -99,8 +100,8 @@ impl World {
         only(world.spheres().ids())?;
         self.world.set_sphere(id, world.spheres().get(0))?;
         self.description.members.follow_frictions(self.world.spheres(), index);
-        if let Some(color) = part.spheres.first().and_then(|sphere| sphere.color) {
-            self.description.members.paint(index, color);
+        if let Some(sphere) = part.spheres.first() {
+            self.description.members.paint(index, sphere.into());
         }
         Ok(())
     }

@@ -1,7 +1,8 @@
 //! Telling what is in a world, as JSON. Infinite numbers are `null`.
 
 use carom::SphereId;
-use carom_scene::scene::{Collider, Color, Sphere};
+use carom_scene::Paint;
+use carom_scene::scene::{Collider, Sphere};
 use pyo3::prelude::*;
 
 use crate::arguments;
@@ -85,12 +86,12 @@ fn colliders_now(inner: &Inner) -> Vec<Collider> {
 /// The spheres of a world, each with its own colour if it has one.
 fn spheres_now(inner: &Inner) -> Vec<Sphere> {
     let spheres = inner.world.spheres();
-    let color = |id: &SphereId| inner.palette.own(id.number());
+    let paint = |id: &SphereId| inner.palette.own(id.number());
     let rows = spheres.ids().iter().enumerate();
-    rows.map(|(i, id)| described(&spheres.get(i), color(id))).collect()
+    rows.map(|(i, id)| described(&spheres.get(i), paint(id))).collect()
 }
 
 /// A sphere as scene files write it.
-fn described(sphere: &carom::Sphere, color: Option<Color>) -> Sphere {
-    Sphere { color, ..Sphere::of(sphere) }
+fn described(sphere: &carom::Sphere, Paint { color, finish }: Paint) -> Sphere {
+    Sphere { color, finish, ..Sphere::of(sphere) }
 }

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use carom::{Collider, ColliderId, DVec3, Emitter, EmitterId, ForceId, Sphere, SphereId, World};
-use carom_scene::Scene;
+use carom_scene::{Paint, Scene};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -28,7 +28,7 @@ impl Engine {
         let ids = self.change(py, |inner| {
             let ids = add_all(&mut inner.world, &spheres)?;
             for (id, sphere) in ids.iter().zip(&part.spheres) {
-                inner.palette_mut().add_sphere(id.number(), sphere.color);
+                inner.palette_mut().add_sphere(id.number(), sphere.into());
             }
             Ok(ids)
         })?;
@@ -53,7 +53,7 @@ impl Engine {
         let spheres: Vec<Sphere> = (0..count).map(|index| sphere_at(&columns, index)).collect();
         let ids = self.change(py, |inner| {
             let ids = add_all(&mut inner.world, &spheres)?;
-            ids.iter().for_each(|id| inner.palette_mut().add_sphere(id.number(), None));
+            ids.iter().for_each(|id| inner.palette_mut().add_sphere(id.number(), Paint::default()));
             Ok(ids)
         })?;
         Ok(arrays::numbers(py, &ids))
@@ -108,10 +108,10 @@ impl Engine {
         let id = arguments::id("sphere", id)?;
         let part = part::read(text)?;
         let spheres = spheres_of(&part)?;
-        let (sphere, color) = (*only(&spheres)?, only(&part.spheres)?.color);
+        let (sphere, paint) = (*only(&spheres)?, only(&part.spheres)?.into());
         self.change(py, |inner| {
             inner.world.set_sphere(SphereId::from_number(id), sphere)?;
-            inner.palette_mut().paint(id, color);
+            inner.palette_mut().paint(id, paint);
             Ok(())
         })
     }

@@ -3,7 +3,8 @@
 #![allow(missing_docs)]
 
 use carom::{DQuat, DVec3, Pose, Shape};
-use carom_render::{Ball, Camera, Drawing, Material, Offscreen, Quality};
+use carom_render::{Ball, Camera, Drawing, Offscreen, Pattern, Quality};
+use carom_scene::scene::Finish;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 
 /// This many balls in a cube, over a floor.
@@ -17,7 +18,8 @@ fn balls(count: usize) -> Drawing {
             radius: 0.35,
             color: [0.2, 0.45, 0.8],
             rotation: DQuat::IDENTITY,
-            material: Material::Plain,
+            pattern: Pattern::Plain,
+            finish: Finish::default(),
         });
     }
     let size = 3.0 * edge as f64;

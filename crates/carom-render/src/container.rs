@@ -22,7 +22,7 @@ pub(crate) fn walls(
 ) -> impl Iterator<Item = (Panel, Seen)> {
     const OUTWARD: [DVec3; 6] =
         [DVec3::NEG_X, DVec3::X, DVec3::NEG_Y, DVec3::Y, DVec3::NEG_Z, DVec3::Z];
-    let (Panel { pose, color, opacity, .. }, half) = (*container, 0.5 * size);
+    let (Panel { pose, .. }, half) = (*container, 0.5 * size);
     let rotation = pose.rotation.normalize();
     let closed = OUTWARD.into_iter().zip(open.to_array()).filter(|(_, is_open)| !is_open);
     closed.map(move |(outward, _)| {
@@ -41,7 +41,7 @@ pub(crate) fn walls(
         let position = pose.position + rotation * (outward * half);
         let shape = Shape::Rectangle { size_x, size_z };
         let out = Pose { position, rotation: rotation * turn };
-        let wall = Panel { shape, pose: out, color, opacity };
+        let wall = Panel { shape, pose: out, ..*container };
         if wall.height_of(eye) > 0.0 {
             return (wall, Seen::Rim);
         }
@@ -52,6 +52,8 @@ pub(crate) fn walls(
 
 #[cfg(test)]
 mod tests {
+    use carom_scene::scene::Finish;
+
     use super::*;
 
     const SIZE: DVec3 = DVec3::new(2.0, 4.0, 6.0);
@@ -60,7 +62,8 @@ mod tests {
         let rotation = DQuat::from_rotation_y(0.3);
         let pose = Pose { position: DVec3::new(5.0, 0.0, 0.0), rotation };
         let shape = Shape::Container { size: SIZE, open };
-        let container = Panel { shape, pose, color: [1.0; 3], opacity: 1.0 };
+        let container =
+            Panel { shape, pose, color: [1.0; 3], finish: Finish::default(), opacity: 1.0 };
         walls(&container, SIZE, open, pose.position + rotation * eye).collect()
     }
 

@@ -74,13 +74,15 @@ fn crosses(from: DVec3, way: DVec3, half: DVec3) -> bool {
 #[cfg(test)]
 mod tests {
     use carom::{DQuat, Pose};
+    use carom_scene::scene::Finish;
 
     use super::*;
 
     const BALLS: Bounds = Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE };
 
     fn panel(shape: Shape, position: DVec3, rotation: DQuat) -> Panel {
-        Panel { shape, pose: Pose { position, rotation }, color: [1.0; 3], opacity: 1.0 }
+        let (pose, finish) = (Pose { position, rotation }, Finish::default());
+        Panel { shape, pose, color: [1.0; 3], finish, opacity: 1.0 }
     }
 
     #[test]

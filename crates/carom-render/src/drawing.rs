@@ -1,13 +1,17 @@
 //! What is drawn: spheres, surfaces and arrows, and the light on them.
 
 use carom::{DQuat, DVec3, Pose, Shape};
-use carom_scene::scene::{Color, Sun};
+use carom_scene::Coat;
+use carom_scene::scene::{Color, Finish, Sun};
 
 use crate::bounds::Bounds;
 use crate::framing::Framing;
 
 /// How much triggers hide of what is behind them: they let spheres through.
 const TRIGGER_OPACITY: f64 = 0.45;
+
+/// How much a surface of glass does.
+const GLASS_OPACITY: f64 = 0.25;
 
 /// Everything in a picture.
 #[derive(Debug, Clone, Default)]
@@ -27,17 +31,17 @@ pub struct Drawing {
     pub has_grid: bool,
 }
 
-/// What a ball is made of.
+/// What is painted on a ball.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Material {
-    /// Smooth.
+pub enum Pattern {
+    /// Nothing.
     #[default]
     Plain,
     /// With white bands and caps that show how it is turned, for a ball that stands out.
-    Patterned,
+    Striped,
     /// With a band in another tone of its colour that shows how it is turned, for many balls.
     Banded,
-    /// Dull, with fine rings: it never gives way.
+    /// Fine rings: it never gives way.
     Fixed,
     /// Its own colour, whatever the light: for marks.
     Glowing,
@@ -54,16 +58,24 @@ pub struct Ball {
     pub color: Color,
     /// From its own frame to the world; only a pattern shows it.
     pub rotation: DQuat,
-    /// What it is made of.
-    pub material: Material,
+    /// What is painted on it.
+    pub pattern: Pattern,
+    /// How its surface takes light.
+    pub finish: Finish,
 }
 
 impl Ball {
-    /// A sphere at this place \[m\] with this radius \[m\] and colour: banded where it has an
+    /// A sphere at this place \[m\] with this radius \[m\] and coat: banded where it has an
     /// orientation, else plain.
-    pub fn of_sphere(center: DVec3, radius: f64, color: Color, orientation: Option<DQuat>) -> Self {
-        let material = if orientation.is_some() { Material::Banded } else { Material::Plain };
-        Self { center, radius, color, rotation: orientation.unwrap_or_default(), material }
+    pub fn of_sphere(
+        center: DVec3,
+        radius: f64,
+        coat: impl Into<Coat>,
+        orientation: Option<DQuat>,
+    ) -> Self {
+        let pattern = if orientation.is_some() { Pattern::Banded } else { Pattern::Plain };
+        let Coat { color, finish } = coat.into();
+        Self { center, radius, color, rotation: orientation.unwrap_or_default(), pattern, finish }
     }
 }
 
@@ -76,6 +88,8 @@ pub struct Panel {
     pub pose: Pose,
     /// sRGB.
     pub color: Color,
+    /// How its surface takes light.
+    pub finish: Finish,
     /// From 0, nothing to be seen, to 1.
     pub opacity: f64,
 }
@@ -195,18 +209,24 @@ impl Drawing {
     }
 
     /// Adds a collider: a ball or a panel. Triggers do not look as if they were solid.
-    pub fn add_collider(&mut self, shape: Shape, pose: Pose, color: Color, trigger: bool) {
+    pub fn add_collider(&mut self, shape: Shape, pose: Pose, coat: impl Into<Coat>, trigger: bool) {
+        let Coat { color, finish } = coat.into();
         match shape {
             Shape::Sphere { radius } => self.balls.push(Ball {
                 center: pose.position,
                 radius,
                 color,
                 rotation: pose.rotation.normalize(),
-                material: if trigger { Material::Plain } else { Material::Fixed },
+                pattern: if trigger { Pattern::Plain } else { Pattern::Fixed },
+                finish,
             }),
             _ => {
-                let opacity = if trigger { TRIGGER_OPACITY } else { 1.0 };
-                self.panels.push(Panel { shape, pose, color, opacity });
+                let opacity = match finish {
+                    _ if trigger => TRIGGER_OPACITY,
+                    Finish::Glass => GLASS_OPACITY,
+                    _ => 1.0,
+                };
+                self.panels.push(Panel { shape, pose, color, finish, opacity });
             }
         }
     }

@@ -2,15 +2,16 @@
 //! are enough however far from the origin the eye is.
 
 use carom::{DVec3, Shape};
+use carom_scene::scene::Finish;
 
 use crate::container::{self, Seen};
 use crate::cutaway;
-use crate::drawing::{Arrow, Ball, Drawing, Material, Panel, linear};
+use crate::drawing::{Arrow, Ball, Drawing, Panel, Pattern, linear};
 use crate::framing::Framing;
 
-/// Numbers of a ball: centre and radius, colour and material, rotation.
+/// Numbers of a ball: centre and radius, colour with pattern and finish, rotation.
 pub(crate) type PackedBall = [f32; 12];
-/// Numbers of a panel: centre and kind, rotation, half lengths and grid, colour and opacity.
+/// Numbers of a panel: centre with kind and finish, rotation, half lengths and grid, colour and opacity.
 pub(crate) type PackedPanel = [f32; 16];
 /// Numbers of a grid: centre, distance of its lines and how far it reaches.
 pub(crate) type PackedGrid = [f32; 8];
@@ -39,6 +40,9 @@ const INCLINED: f64 = 0.05;
 #[derive(Debug, Default)]
 pub(crate) struct Instances {
     pub balls: Vec<PackedBall>,
+    /// How many balls are of glass: the first ones, the farthest before those that they are seen
+    /// through.
+    pub glass_balls: usize,
     /// Rectangles and half-spaces.
     pub faces: Vec<PackedPanel>,
     pub boxes: Vec<PackedPanel>,
@@ -52,15 +56,20 @@ pub(crate) struct Instances {
 impl Instances {
     /// Packs a drawing seen from `eye`; half-spaces reach as far as suits what is to be seen.
     pub fn pack(&mut self, drawing: &Drawing, eye: DVec3, framing: &Framing) {
-        let Self { balls, faces, boxes, arrows, grid, casting } = self;
+        let Self { balls, glass_balls, faces, boxes, arrows, grid, casting } = self;
         balls.clear();
         faces.clear();
         boxes.clear();
         arrows.clear();
         // What casts shadows comes first: not marks, nor surfaces that can be seen through.
-        let is_mark = |ball: &&Ball| ball.material == Material::Glowing;
+        let is_mark = |ball: &&Ball| ball.pattern == Pattern::Glowing;
         let packed = |ball| packed_ball(ball, eye);
-        balls.extend(drawing.balls.iter().filter(|ball| !is_mark(ball)).map(packed));
+        let is_glass = |ball: &&Ball| ball.finish == Finish::Glass && !is_mark(ball);
+        balls.extend(drawing.balls.iter().filter(is_glass).map(packed));
+        *glass_balls = balls.len();
+        balls.sort_by(|a, b| distance_squared(b).total_cmp(&distance_squared(a)));
+        let is_opaque = |ball: &&Ball| !is_mark(ball) && !is_glass(ball);
+        balls.extend(drawing.balls.iter().filter(is_opaque).map(packed));
         casting[0] = balls.len();
         balls.extend(drawing.balls.iter().filter(is_mark).map(packed));
         let is_hiding = |it: &&Panel| it.opacity == 1.0 && cutaway::hides(it, eye, &framing.balls);
@@ -82,6 +91,11 @@ impl Instances {
     }
 }
 
+/// Of the centre of a ball from the eye.
+fn distance_squared(&[x, y, z, ..]: &PackedBall) -> f32 {
+    x * x + y * y + z * z
+}
+
 /// Whether a panel is a floor or an incline without end.
 fn bears_balls(panel: &Panel) -> bool {
     panel.shape == Shape::HalfSpace && panel.normal().y > INCLINED
@@ -95,8 +109,7 @@ fn add_panel(
 ) {
     match panel.shape {
         Shape::Box { size } => boxes.push(packed_box(panel, size, eye)),
-        // As a trigger, it is a volume.
-        Shape::Container { size, .. } if panel.opacity < 1.0 => {
+        Shape::Container { size, .. } if is_volume(panel) => {
             boxes.push(packed_box(panel, size, eye));
         }
         Shape::Rectangle { size_x, size_z } => {
@@ -107,17 +120,22 @@ fn add_panel(
     }
 }
 
+/// Whether a container is a trigger: that is a volume without walls.
+fn is_volume(container: &Panel) -> bool {
+    container.opacity < 1.0 && container.finish != Finish::Glass
+}
+
 /// Adds the walls of a container. They cast no shadows: those would change with the place of the eye.
 fn add_walls(panel: &Panel, eye: DVec3, faces: &mut Vec<PackedPanel>) {
     let Shape::Container { size, open } = panel.shape else { return };
-    if panel.opacity < 1.0 {
+    if is_volume(panel) {
         return;
     }
     for (wall, seen) in container::walls(panel, size, open, eye) {
         let Shape::Rectangle { size_x, size_z } = wall.shape else { continue };
         let opacity = match seen {
-            Seen::Whole => wall.opacity,
-            Seen::Rim => RIM,
+            Seen::Rim if wall.opacity == 1.0 => RIM,
+            _ => wall.opacity,
         };
         faces.push(packed_rectangle(&Panel { opacity, ..wall }, [size_x, size_z], eye));
     }
@@ -151,18 +169,31 @@ fn joined<const N: usize>(parts: &[[f32; 4]]) -> [f32; N] {
 }
 
 fn packed_ball(ball: &Ball, eye: DVec3) -> PackedBall {
-    let material = match ball.material {
-        Material::Plain => 0.0,
-        Material::Patterned => 1.0,
-        Material::Fixed => 2.0,
-        Material::Glowing => 3.0,
-        Material::Banded => 4.0,
+    let pattern = match ball.pattern {
+        Pattern::Plain => 0.0,
+        Pattern::Striped => 1.0,
+        Pattern::Fixed => 2.0,
+        Pattern::Glowing => 3.0,
+        Pattern::Banded => 4.0,
     };
     joined(&[
         four(ball.center - eye, ball.radius),
-        color(ball.color, material),
+        color(ball.color, pattern + finish(ball.finish)),
         ball.rotation.as_quat().to_array(),
     ])
+}
+
+/// What a finish adds to a kind or a pattern, as the shaders take them apart.
+fn finish(finish: Finish) -> f64 {
+    const KINDS: f64 = 8.0;
+    KINDS
+        * match finish {
+            Finish::Satin => 0.0,
+            Finish::Matte => 1.0,
+            Finish::Glossy => 2.0,
+            Finish::Metal => 3.0,
+            Finish::Glass => 4.0,
+        }
 }
 
 fn packed_arrow(arrow: &Arrow, eye: DVec3) -> PackedArrow {
@@ -180,7 +211,7 @@ fn packed_panel(
     (half, grid): (DVec3, f64),
 ) -> PackedPanel {
     joined(&[
-        four(center, kind),
+        four(center, kind + finish(panel.finish)),
         panel.pose.rotation.normalize().as_quat().to_array(),
         four(half, grid),
         color(panel.color, panel.opacity),

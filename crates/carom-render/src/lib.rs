@@ -35,7 +35,7 @@ mod yuv;
 
 pub use bounds::Bounds;
 pub use camera::Camera;
-pub use drawing::{Arrow, Ball, Drawing, Light, Material, Panel};
+pub use drawing::{Arrow, Ball, Drawing, Light, Panel, Pattern};
 #[cfg(feature = "film")]
 pub use film::{Film, FilmError, FilmSummary};
 pub use framing::Framing;

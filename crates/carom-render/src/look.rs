@@ -3,7 +3,7 @@
 use carom::{DQuat, DVec3, World};
 use carom_scene::{Palette, Scene};
 
-use crate::drawing::{Ball, Drawing, Light, Material};
+use crate::drawing::{Ball, Drawing, Light, Pattern};
 
 /// Draws a world that was made of this scene, or that has the same colliders in the same order,
 /// with a ball in white bands where `rotation` says of its number how it is turned. Other balls are
@@ -27,11 +27,11 @@ pub fn draw_world(
     let (spheres, has_spin) = (world.spheres(), world.has_spin());
     for (i, id) in spheres.ids().iter().enumerate() {
         let (radius, mass) = (spheres.radii()[i], spheres.masses()[i]);
-        let color = palette.sphere(id.number(), radius, mass);
+        let coat = palette.sphere(id.number(), radius, mass);
         let orientation = has_spin.then(|| spheres.get(i).orientation);
-        let ball = Ball::of_sphere(spheres.positions()[i], radius, color, orientation);
+        let ball = Ball::of_sphere(spheres.positions()[i], radius, coat, orientation);
         drawing.balls.push(match rotation(id.number()) {
-            Some(rotation) => Ball { rotation, material: Material::Patterned, ..ball },
+            Some(rotation) => Ball { rotation, pattern: Pattern::Striped, ..ball },
             None => ball,
         });
     }

@@ -13,6 +13,7 @@ pub(crate) const GLOBALS: usize = 3 * 16 + (11 + MOST_CUTS) * 4;
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     pub spheres: wgpu::RenderPipeline,
+    pub glass: wgpu::RenderPipeline,
     pub surfaces: wgpu::RenderPipeline,
     pub arrows: wgpu::RenderPipeline,
     pub sky: wgpu::RenderPipeline,
@@ -42,17 +43,18 @@ impl Pipelines {
         let picture_layout = picture_layout(device);
         let light_layout = layout(device, "light", &[uniform(0)]);
         let lit = |label, source: &str, attributes, topology| {
-            // Sky and grid are behind all there is.
-            let is_solid = !matches!(label, "sky" | "grid");
+            // Sky and grid are behind all there is; glass hides nothing.
+            let is_solid = !matches!(label, "sky" | "grid" | "glass");
+            let is_clear = matches!(label, "grid" | "glass");
             Parts {
                 label,
                 source: format!("{LIGHT}{PLACES}{source}"),
-                entries: ["vertex", "fragment"],
+                entries: ["vertex", if label == "glass" { "glass" } else { "fragment" }],
                 attributes,
                 stride: attributes,
                 topology,
                 depth: depth_state(wgpu::CompareFunction::GreaterEqual, is_solid),
-                blend: (label == "grid").then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                blend: is_clear.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
             }
         };
         let (strip, list) =
@@ -73,6 +75,7 @@ impl Pipelines {
         };
         Self {
             spheres: picture(lit("spheres", include_str!("shaders/sphere.wgsl"), 3, strip)),
+            glass: picture(lit("glass", include_str!("shaders/sphere.wgsl"), 3, strip)),
             surfaces: picture(lit("surfaces", include_str!("shaders/surface.wgsl"), 4, list)),
             arrows: picture(lit("arrows", include_str!("shaders/arrow.wgsl"), 3, list)),
             sky: picture(lit("sky", include_str!("shaders/sky.wgsl"), 0, list)),
@@ -80,7 +83,7 @@ impl Pipelines {
             sphere_shadows: shadow(
                 "shadows of spheres",
                 ["sphere_vertex", "sphere_fragment"],
-                1,
+                2,
                 3,
                 strip,
             ),

@@ -1,12 +1,14 @@
 //! Drawings to pictures, on a graphics device.
 
+use std::ops::Range;
+
 use carom::DVec3;
 use glam::Vec3;
 
 use crate::bounds::Bounds;
 use crate::camera::Camera;
 use crate::cutaway;
-use crate::drawing::{Drawing, Material};
+use crate::drawing::{Drawing, Pattern};
 use crate::framing::Framing;
 use crate::instances::Instances;
 use crate::pipelines::{GLOBALS, Pipelines};
@@ -155,12 +157,14 @@ impl Renderer {
         let Self { pipelines, instances, buffers, .. } = self;
         draw(&mut pass, &pipelines.surfaces, 6, &buffers.faces, instances.faces.len());
         draw(&mut pass, &pipelines.surfaces, 36, &buffers.boxes, instances.boxes.len());
-        draw(&mut pass, &pipelines.spheres, 4, &buffers.balls, instances.balls.len());
+        let (glass, balls) = (instances.glass_balls, instances.balls.len());
+        draw_some(&mut pass, &pipelines.spheres, 4, &buffers.balls, glass..balls);
         draw(&mut pass, &pipelines.arrows, 9, &buffers.arrows, instances.arrows.len());
         pass.set_pipeline(&pipelines.sky);
         pass.draw(0..3, 0..1);
         let grids = usize::from(instances.grid.is_some());
         draw(&mut pass, &pipelines.grid, 4, &buffers.grid, grids);
+        draw(&mut pass, &pipelines.glass, 4, &buffers.balls, glass);
     }
 }
 
@@ -274,12 +278,22 @@ fn draw(
     buffer: &Option<wgpu::Buffer>,
     count: usize,
 ) {
+    draw_some(pass, pipeline, vertices, buffer, 0..count);
+}
+
+fn draw_some(
+    pass: &mut wgpu::RenderPass,
+    pipeline: &wgpu::RenderPipeline,
+    vertices: u32,
+    buffer: &Option<wgpu::Buffer>,
+    instances: Range<usize>,
+) {
     if let Some(buffer) = buffer
-        && count > 0
+        && !instances.is_empty()
     {
         pass.set_pipeline(pipeline);
         pass.set_vertex_buffer(0, buffer.slice(..));
-        pass.draw(0..vertices, 0..count as u32);
+        pass.draw(0..vertices, instances.start as u32..instances.end as u32);
     }
 }
 
@@ -304,7 +318,7 @@ fn map_texels(drawing: &Drawing, radius: f64) -> [u32; 2] {
     const FEWEST: f64 = 64.0;
     // Steps in which they grow as balls come and go.
     const STEP: f64 = 32.0;
-    let casting = drawing.balls.iter().filter(|ball| ball.material != Material::Glowing);
+    let casting = drawing.balls.iter().filter(|ball| ball.pattern != Pattern::Glowing);
     let (count, sum) = casting.fold((0.0, 0.0), |(count, sum), it| (count + 1.0, sum + it.radius));
     TEXELS_OF_BALL.map(|of_ball| {
         let texels = of_ball * 2.0 * radius * count / f64::max(sum, f64::MIN_POSITIVE);

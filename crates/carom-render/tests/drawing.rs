@@ -5,14 +5,16 @@ use std::f64::consts::PI;
 
 use carom::{DQuat, DVec3, Pose, Shape, Sides};
 use carom_render::{
-    Ball, Bounds, Camera, Drawing, Framing, GpuError, Light, Material, Offscreen, Picture, Quality,
+    Ball, Bounds, Camera, Drawing, Framing, GpuError, Light, Offscreen, Pattern, Picture, Quality,
 };
+use carom_scene::scene::Finish;
 
 const SIZE: [u32; 2] = [400, 300];
 const ASPECT: f64 = 4.0 / 3.0;
 
 fn ball(center: DVec3, radius: f64, color: [f64; 3]) -> Ball {
-    Ball { center, radius, color, rotation: DQuat::IDENTITY, material: Material::Glowing }
+    let (rotation, pattern) = (DQuat::IDENTITY, Pattern::Glowing);
+    Ball { center, radius, color, rotation, pattern, finish: Finish::default() }
 }
 
 fn drawn(drawing: &Drawing, camera: &Camera, quality: Quality) -> Picture {
@@ -178,7 +180,7 @@ fn a_wall_between_the_eye_and_the_balls_is_glass() {
 #[test]
 fn a_scene_without_floor_has_a_grid_on_which_balls_cast_shadows() {
     let mut drawing = Drawing { has_grid: true, ..Drawing::default() };
-    let above = Ball { material: Material::Plain, ..ball(DVec3::ZERO, 0.5, [1.0, 0.0, 0.0]) };
+    let above = Ball { pattern: Pattern::Plain, ..ball(DVec3::ZERO, 0.5, [1.0, 0.0, 0.0]) };
     drawing.balls.push(above);
     let bounds = Bounds { min: DVec3::splat(-2.0), max: DVec3::splat(2.0) };
     drawing.framing = Some(Framing { whole: bounds, balls: bounds });
@@ -222,7 +224,7 @@ fn a_ball_shades_the_floor_away_from_the_sun() {
     drawing.light.to_sun = DVec3::new(1.0, 1.0, 0.0).normalize();
     let bare = drawing.clone();
     let above = ball(DVec3::new(0.0, 2.0, 0.0), 0.5, [1.0, 0.0, 0.0]);
-    drawing.balls.push(Ball { material: Material::Plain, ..above });
+    drawing.balls.push(Ball { pattern: Pattern::Plain, ..above });
     let camera = Camera::looking_at(DVec3::Y * 15.0, DVec3::ZERO, 0.8);
     for quality in [Quality::DRAFT, Quality::FINE] {
         let (with, without) = (drawn(&drawing, &camera, quality), drawn(&bare, &camera, quality));
@@ -240,7 +242,7 @@ fn a_ball_shades_the_floor_away_from_the_sun() {
         assert!(shaded.abs_diff(lit) <= 3, "towards the sun: {shaded} and {lit}");
     }
     // A mark glows, and shades nothing.
-    drawing.balls[0].material = Material::Glowing;
+    drawing.balls[0].pattern = Pattern::Glowing;
     drawing.balls[0].radius = 1e-3;
     let marked = drawn(&drawing, &camera, Quality::DRAFT);
     let bare = drawn(&bare, &camera, Quality::DRAFT);
@@ -305,25 +307,25 @@ fn far_from_the_origin_nothing_trembles() {
 }
 
 /// A ball of this radius \[m\] before the camera, turned like this.
-fn turned_ball(radius: f64, rotation: DQuat, material: Material) -> Picture {
+fn turned_ball(radius: f64, rotation: DQuat, pattern: Pattern) -> Picture {
     let mut drawing = Drawing::default();
     let ball = ball(DVec3::ZERO, radius, [0.2, 0.45, 0.75]);
-    drawing.balls.push(Ball { rotation, material, ..ball });
+    drawing.balls.push(Ball { rotation, pattern, ..ball });
     drawn(&drawing, &camera_in_front(4.0), Quality::DRAFT)
 }
 
 #[test]
 fn a_banded_ball_shows_a_turn_about_any_axis_and_a_plain_one_none() {
-    let [banded, plain] = [Material::Banded, Material::Plain]
-        .map(|material| turned_ball(1.0, DQuat::IDENTITY, material));
+    let [banded, plain] =
+        [Pattern::Banded, Pattern::Plain].map(|pattern| turned_ball(1.0, DQuat::IDENTITY, pattern));
     for axis in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
         let turn = DQuat::from_axis_angle(axis, 0.5 * PI);
-        let turned = turned_ball(1.0, turn, Material::Banded);
+        let turned = turned_ball(1.0, turn, Pattern::Banded);
         let differs = turned.pixels.chunks(4).zip(banded.pixels.chunks(4)).filter(|(a, b)| a != b);
         // A spot covers some 400 pixels of the ball's 25 000.
         let count = differs.count();
         assert!(count > 600, "about {axis}: {count}");
-        assert_eq!(turned_ball(1.0, turn, Material::Plain), plain);
+        assert_eq!(turned_ball(1.0, turn, Pattern::Plain), plain);
     }
     // As a whole, it keeps half of its surface and more in its own colour.
     let same = banded.pixels.chunks(4).zip(plain.pixels.chunks(4)).filter(|(a, b)| a == b).count();
@@ -334,7 +336,7 @@ fn a_banded_ball_shows_a_turn_about_any_axis_and_a_plain_one_none() {
 #[test]
 fn a_banded_ball_of_a_pixel_does_not_flicker_as_it_turns() {
     // Of a radius of 1.2 pixels.
-    let turned = |angle| turned_ball(0.0135, DQuat::from_rotation_y(angle), Material::Banded);
+    let turned = |angle| turned_ball(0.0135, DQuat::from_rotation_y(angle), Pattern::Banded);
     let first = turned(0.0);
     assert_eq!(turned(0.7), first);
     assert_eq!(turned(1.5), first);

@@ -2,7 +2,7 @@
 //! drawings only, no pictures.
 
 use carom::{Collider, Contact, DQuat, DVec3, Gravity, Pose, Settings, Shape, Sphere, World};
-use carom_render::{Ball, Drawing, Material, draw_world};
+use carom_render::{Ball, Drawing, Pattern, draw_world};
 use carom_scene::{Palette, Scene};
 
 /// A ball that rolls along x on a plane with this coefficient of friction.
@@ -27,12 +27,12 @@ fn ball(world: &World, rotation: impl Fn(u64) -> Option<DQuat>) -> Ball {
 fn a_ball_is_banded_from_the_start_where_friction_can_turn_it() {
     let mut world = rolling(0.5);
     let start = ball(&world, |_| None);
-    assert_eq!((start.material, start.rotation), (Material::Banded, DQuat::IDENTITY));
+    assert_eq!((start.pattern, start.rotation), (Pattern::Banded, DQuat::IDENTITY));
     for _ in 0..30 {
         world.step(1.0 / 60.0).unwrap();
     }
     let turned = ball(&world, |_| None);
-    assert_eq!(turned.material, Material::Banded);
+    assert_eq!(turned.pattern, Pattern::Banded);
     assert_eq!(turned.rotation, world.spheres().orientations()[0]);
     // Clockwise, seen from +z: it rolls to +x.
     assert!(turned.rotation.to_scaled_axis().z < -0.2, "{}", turned.rotation);
@@ -43,7 +43,7 @@ fn a_ball_without_spin_is_plain() {
     let mut world = rolling(0.0);
     for _ in 0..2 {
         let ball = ball(&world, |_| None);
-        assert_eq!((ball.material, ball.rotation), (Material::Plain, DQuat::IDENTITY));
+        assert_eq!((ball.pattern, ball.rotation), (Pattern::Plain, DQuat::IDENTITY));
         world.step(1.0 / 60.0).unwrap();
     }
 }
@@ -52,5 +52,5 @@ fn a_ball_without_spin_is_plain() {
 fn a_rotation_from_outside_comes_before_that_of_the_world() {
     let turn = DQuat::from_rotation_x(1.0);
     let ball = ball(&rolling(0.5), |_| Some(turn));
-    assert_eq!((ball.material, ball.rotation), (Material::Patterned, turn));
+    assert_eq!((ball.pattern, ball.rotation), (Pattern::Striped, turn));
 }

@@ -48,7 +48,7 @@ pub use changed_file::ChangedFile;
 pub use error::{Fault, SceneError};
 pub use library::{Entry, Library, Source};
 pub use overrides::Override;
-pub use palette::Palette;
+pub use palette::{Coat, Paint, Palette};
 pub use parameters::Parameter;
 pub use scene::Scene;
 pub use schema::json_schema;

@@ -191,7 +191,7 @@ impl Emissions {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Emitter, Generator, Rule, Sphere};
+    use crate::scene::{Emitter, Generator, Lattice, Row, Rule, Sphere};
 
     fn emitter(x: f64, period: f64, mass: f64) -> Emitter {
         let sphere = Sphere { mass: Some(mass), ..Sphere::at([0.0; 3], 0.1) };
@@ -210,18 +210,23 @@ mod tests {
     fn generators_follow_single_spheres() {
         let mut scene = Scene::new("mixed");
         scene.spheres = vec![Sphere::at([0.0; 3], 0.1)];
-        let row = |y: f64| Generator::Row {
-            count: 2,
-            start: [0.0, y, 0.0],
-            step: [1.0, 0.0, 0.0],
-            sphere: Sphere::at([0.0; 3], 0.1),
+        let sphere = || Some(Sphere::at([0.0; 3], 0.1));
+        let row = |y: f64| {
+            Generator::Row(Box::new(Row {
+                count: 2,
+                start: [0.0, y, 0.0],
+                step: [1.0, 0.0, 0.0],
+                sphere: sphere(),
+                collider: None,
+            }))
         };
-        let lattice = Generator::Lattice {
+        let lattice = Generator::Lattice(Box::new(Lattice {
             counts: [2, 1, 3],
             start: [0.0, 5.0, 0.0],
             spacing: [1.0; 3],
-            sphere: Sphere::at([0.0; 3], 0.1),
-        };
+            sphere: sphere(),
+            collider: None,
+        }));
         scene.generators = vec![row(1.0), lattice, row(2.0)];
         let origins = Origins::new(&scene).unwrap();
         assert_eq!(origins.initial(), scene.world().unwrap().spheres().len() as u64);

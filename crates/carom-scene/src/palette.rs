@@ -1,4 +1,4 @@
-//! Colours of spheres and colliders.
+//! Colours and finishes of spheres and colliders.
 
 use std::collections::BTreeMap;
 
@@ -6,13 +6,50 @@ use carom::volume;
 
 use crate::error::SceneError;
 use crate::origin::{Origin, Origins};
-use crate::scene::{Collider, Color, Colors, Emitter, Scene, Sphere};
+use crate::scene::{Collider, Color, Colors, Emitter, Finish, Scene, Sphere};
 
 /// A density counts as listed if it differs by this part at most: mass / volume is off by a few
 /// roundings (1e-15), densities in a list differ by far more.
 const SAME_DENSITY: f64 = 1e-9;
 
-/// The colours in which a scene is drawn, and a world that was made of it and changed since.
+/// What a sphere or a collider says of its look.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Paint {
+    /// A colour of its own.
+    pub color: Option<Color>,
+    /// How its surface takes light.
+    pub finish: Finish,
+}
+
+impl From<&Sphere> for Paint {
+    fn from(sphere: &Sphere) -> Self {
+        Self { color: sphere.color, finish: sphere.finish }
+    }
+}
+
+impl From<&Collider> for Paint {
+    fn from(collider: &Collider) -> Self {
+        Self { color: collider.color, finish: collider.finish }
+    }
+}
+
+/// What is seen of a sphere or a collider.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coat {
+    /// sRGB.
+    pub color: Color,
+    /// How its surface takes light.
+    pub finish: Finish,
+}
+
+impl From<Color> for Coat {
+    /// With the usual finish.
+    fn from(color: Color) -> Self {
+        Self { color, finish: Finish::default() }
+    }
+}
+
+/// The colours and finishes in which a scene is drawn, and a world that was made of it and changed since.
 ///
 /// ```
 /// use carom_scene::{Library, Palette};
@@ -21,8 +58,8 @@ const SAME_DENSITY: f64 = 1e-9;
 /// let world = scene.world()?;
 /// let palette = Palette::new(&scene)?;
 /// let spheres = world.spheres();
-/// let color = palette.sphere(spheres.ids()[0].number(), spheres.radii()[0], spheres.masses()[0]);
-/// assert!(color.iter().all(|part| (0.0..=1.0).contains(part)));
+/// let coat = palette.sphere(spheres.ids()[0].number(), spheres.radii()[0], spheres.masses()[0]);
+/// assert!(coat.color.iter().all(|part| (0.0..=1.0).contains(part)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -31,13 +68,13 @@ pub struct Palette {
     /// Numbers of spheres that were added in code, ascending: `origins` does not count them.
     added: Vec<u64>,
     /// What single spheres were given in code, instead of what they come with.
-    painted: BTreeMap<u64, Option<Color>>,
-    /// Own colours of single spheres, generators and emitters.
-    spheres: Vec<Option<Color>>,
-    generators: Vec<Option<Color>>,
+    painted: BTreeMap<u64, Paint>,
+    /// Those of single spheres, generators and emitters.
+    spheres: Vec<Paint>,
+    generators: Vec<Paint>,
     /// Those of emitters by the indices of `origins`.
-    emitters: Vec<Option<Color>>,
-    colliders: Vec<Option<Color>>,
+    emitters: Vec<Paint>,
+    colliders: Vec<Paint>,
     colors: Colors,
 }
 
@@ -54,15 +91,15 @@ impl Palette {
     /// For settings or emitters that make no sense, as [`Scene::world`].
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         let origins = origins(scene)?;
-        let color = |sphere: &Sphere| sphere.color;
+        let generated = |sphere: Option<&Sphere>| sphere.map(Paint::from).unwrap_or_default();
         Ok(Self {
             origins,
             added: Vec::new(),
             painted: BTreeMap::new(),
-            spheres: scene.spheres.iter().map(color).collect(),
-            generators: scene.generators.iter().map(|it| it.sphere().and_then(color)).collect(),
-            emitters: scene.emitters.iter().map(|emitter| emitter.sphere.color).collect(),
-            colliders: collider_colors(&scene.all_colliders()),
+            spheres: scene.spheres.iter().map(Paint::from).collect(),
+            generators: scene.generators.iter().map(|it| generated(it.sphere())).collect(),
+            emitters: scene.emitters.iter().map(|emitter| (&emitter.sphere).into()).collect(),
+            colliders: scene.all_colliders().iter().map(Paint::from).collect(),
             colors: scene.colors.clone().unwrap_or_default(),
         })
     }
@@ -78,36 +115,35 @@ impl Palette {
         }
     }
 
-    /// A sphere was added in code, with this colour of its own if it has one. Its number must be
-    /// the largest so far.
-    pub fn add_sphere(&mut self, number: u64, color: Option<Color>) {
+    /// A sphere was added in code, with this look. Its number must be the largest so far.
+    pub fn add_sphere(&mut self, number: u64, paint: Paint) {
         self.added.push(number);
-        if color.is_some() {
-            self.paint(number, color);
+        if paint != Paint::default() {
+            self.paint(number, paint);
         }
     }
 
-    /// Gives a sphere a colour of its own, or takes it.
-    pub fn paint(&mut self, number: u64, color: Option<Color>) {
-        self.painted.insert(number, color);
+    /// Gives a sphere a look of its own.
+    pub fn paint(&mut self, number: u64, paint: Paint) {
+        self.painted.insert(number, paint);
     }
 
     /// The colliders are these from now on.
     pub fn set_colliders(&mut self, colliders: &[Collider]) {
-        self.colliders = collider_colors(colliders);
+        self.colliders = colliders.iter().map(Paint::from).collect();
     }
 
     /// An emitter was added at this time \[s\], after those that were there.
     pub fn add_emitter(&mut self, emitter: &Emitter, time: f64) {
         self.origins.add_emitter(emitter.period, time);
-        self.emitters.push(emitter.sphere.color);
+        self.emitters.push((&emitter.sphere).into());
     }
 
     /// The emitter at this place in the order was changed at this time \[s\]; the spheres that it
     /// emitted keep their colours.
     pub fn set_emitter(&mut self, place: usize, emitter: &Emitter, time: f64) {
         self.origins.set_emitter(place, emitter.period, time);
-        self.emitters.push(emitter.sphere.color);
+        self.emitters.push((&emitter.sphere).into());
     }
 
     /// The emitter at this place in the order was removed at this time \[s\].
@@ -115,44 +151,45 @@ impl Palette {
         self.origins.remove_emitter(place, time);
     }
 
-    /// The colour of the sphere of this number, radius \[m\] and mass \[kg\]: its own (or that of
-    /// its generator or emitter), else that of its density, else that of the scene's spheres, else
-    /// a blue.
-    pub fn sphere(&self, number: u64, radius: f64, mass: f64) -> Color {
-        let own = self.own(number);
+    /// How the sphere of this number, radius \[m\] and mass \[kg\] is seen. Its colour is its own (or
+    /// that of its generator or emitter), else that of its density, else that of the scene's spheres,
+    /// else a blue.
+    pub fn sphere(&self, number: u64, radius: f64, mass: f64) -> Coat {
+        let Paint { color, finish } = self.own(number);
         let colors = &self.colors;
-        own.or_else(|| density_color(colors, mass / volume(radius)))
+        let color = color
+            .or_else(|| density_color(colors, mass / volume(radius)))
             .or(colors.spheres)
-            .unwrap_or(Self::SPHERE)
+            .unwrap_or(Self::SPHERE);
+        Coat { color, finish }
     }
 
-    /// The colour of the collider at this index: its own, else that of the scene's colliders, else
-    /// a warm grey.
-    pub fn collider(&self, index: usize) -> Color {
-        let own = self.colliders.get(index).copied().flatten();
-        own.or(self.colors.colliders).unwrap_or(Self::COLLIDER)
+    /// How the collider at this index is seen. Its colour is its own, else that of the scene's
+    /// colliders, else a warm grey.
+    pub fn collider(&self, index: usize) -> Coat {
+        let Paint { color, finish } = self.colliders.get(index).copied().unwrap_or_default();
+        Coat { color: color.or(self.colors.colliders).unwrap_or(Self::COLLIDER), finish }
     }
 
-    /// The colour of its own that the sphere of this number has, or has from its generator or
-    /// emitter.
-    pub fn own(&self, number: u64) -> Option<Color> {
+    /// What the sphere of this number says of its look, or its generator or emitter does.
+    pub fn own(&self, number: u64) -> Paint {
         if let Some(&painted) = self.painted.get(&number) {
             return painted;
         }
         let added_before = match self.added.binary_search(&number) {
-            Ok(_) => return None,
+            Ok(_) => return Paint::default(),
             Err(place) => place as u64,
         };
         match self.origins.of(number - added_before) {
             Some(Origin::Sphere(index)) => self.spheres[index],
             Some(Origin::Generator(index)) => self.generators[index],
             Some(Origin::Emitter(index)) => self.emitters[index],
-            None if self.emitters_agree() => self.emitters.first().copied().flatten(),
-            None => None,
+            None if self.emitters_agree() => self.emitters.first().copied().unwrap_or_default(),
+            None => Paint::default(),
         }
     }
 
-    /// Whether all emitters emit spheres of one colour: then it does not matter which of them did.
+    /// Whether all emitters emit spheres of one look: then it does not matter which of them did.
     fn emitters_agree(&self) -> bool {
         self.emitters.windows(2).all(|pair| pair[0] == pair[1])
     }
@@ -168,10 +205,6 @@ pub(crate) fn origins(scene: &Scene) -> Result<Origins, SceneError> {
     })
 }
 
-fn collider_colors(colliders: &[Collider]) -> Vec<Option<Color>> {
-    colliders.iter().map(|collider| collider.color).collect()
-}
-
 fn density_color(colors: &Colors, density: f64) -> Option<Color> {
     let is_same = |listed: f64| (density - listed).abs() <= SAME_DENSITY * listed;
     colors.densities.iter().find(|listed| is_same(listed.density)).map(|listed| listed.color)
@@ -180,7 +213,7 @@ fn density_color(colors: &Colors, density: f64) -> Option<Color> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Collider, DensityColor, Emitter, Generator, Shape};
+    use crate::scene::{Collider, DensityColor, Emitter, Generator, Row, Shape};
 
     const RED: Color = [1.0, 0.0, 0.0];
     const GREEN: Color = [0.0, 1.0, 0.0];
@@ -206,26 +239,27 @@ mod tests {
     fn a_colour_of_its_own_comes_before_density_before_the_scenes() {
         let mut scene = Scene::new("colours");
         scene.spheres = vec![sphere(Some(RED)), sphere(None)];
-        let row = Generator::Row {
+        let row = Generator::Row(Box::new(Row {
             count: 2,
             start: [1.0; 3],
             step: [1.0; 3],
-            sphere: sphere(Some(GREEN)),
-        };
+            sphere: Some(sphere(Some(GREEN))),
+            collider: None,
+        }));
         scene.generators = vec![row];
         let densities = vec![DensityColor { density: 700.0, color: WHITE }];
         scene.colors = Some(Colors { densities, spheres: Some([0.5; 3]), ..Colors::default() });
         let palette = Palette::new(&scene).unwrap();
         let radius = 0.37;
         let mass = 700.0 * volume(radius);
-        assert_eq!(palette.sphere(0, radius, mass), RED);
-        assert_eq!(palette.sphere(1, radius, mass), WHITE);
-        assert_eq!(palette.sphere(1, radius, 1.001 * mass), [0.5; 3]);
-        assert_eq!([2, 3].map(|number| palette.sphere(number, radius, mass)), [GREEN; 2]);
-        assert_eq!(palette.sphere(4, radius, mass), WHITE, "of unknown origin");
+        assert_eq!(palette.sphere(0, radius, mass).color, RED);
+        assert_eq!(palette.sphere(1, radius, mass).color, WHITE);
+        assert_eq!(palette.sphere(1, radius, 1.001 * mass).color, [0.5; 3]);
+        assert_eq!([2, 3].map(|number| palette.sphere(number, radius, mass).color), [GREEN; 2]);
+        assert_eq!(palette.sphere(4, radius, mass).color, WHITE, "of unknown origin");
         let plain = Palette::new(&Scene::new("plain")).unwrap();
-        assert_eq!(plain.sphere(0, radius, mass), Palette::SPHERE);
-        assert_eq!(plain.collider(0), Palette::COLLIDER);
+        assert_eq!(plain.sphere(0, radius, mass), Palette::SPHERE.into());
+        assert_eq!(plain.collider(0), Palette::COLLIDER.into());
     }
 
     #[test]
@@ -238,8 +272,8 @@ mod tests {
             let world = scene.world().unwrap();
             let spheres = world.spheres();
             for (i, id) in spheres.ids().iter().enumerate() {
-                let color = palette.sphere(id.number(), spheres.radii()[i], spheres.masses()[i]);
-                assert!(listed.contains(&color), "{name}");
+                let coat = palette.sphere(id.number(), spheres.radii()[i], spheres.masses()[i]);
+                assert!(listed.contains(&coat.color), "{name}");
             }
         }
     }
@@ -254,7 +288,7 @@ mod tests {
         let mut palette = Palette::new(&scene).unwrap();
         palette.follow(0.6);
         // At 0 both, at 0.25 the first, at 0.5 both.
-        let colors = [1, 2, 3, 4, 5].map(|number| palette.sphere(number, 0.1, 1.0));
+        let colors = [1, 2, 3, 4, 5].map(|number| palette.sphere(number, 0.1, 1.0).color);
         assert_eq!(colors, [RED, GREEN, RED, RED, GREEN]);
     }
 
@@ -262,7 +296,7 @@ mod tests {
     fn emitters_of_one_colour_need_not_be_followed() {
         let mut scene = Scene::new("fountain");
         scene.emitters = vec![emitter(0.25, Some(RED))];
-        assert_eq!(Palette::new(&scene).unwrap().sphere(1_000_000, 0.1, 1.0), RED);
+        assert_eq!(Palette::new(&scene).unwrap().sphere(1_000_000, 0.1, 1.0).color, RED);
     }
 
     #[test]
@@ -274,13 +308,18 @@ mod tests {
         scene.emitters = vec![emitter(0.25, Some(RED)), emitter(0.5, Some(GREEN))];
         let mut palette = Palette::new(&scene).unwrap();
         // Before anything is emitted, and after the first two were.
-        palette.add_sphere(1, Some(WHITE));
-        palette.add_sphere(4, None);
+        let painted = |color| Paint { color: Some(color), finish: Finish::Glass };
+        palette.add_sphere(1, painted(WHITE));
+        palette.add_sphere(4, Paint::default());
         palette.follow(0.6);
-        let own = [0, 1, 2, 3, 4, 5].map(|number| palette.own(number));
+        let own = [0, 1, 2, 3, 4, 5].map(|number| palette.own(number).color);
         assert_eq!(own, [Some(WHITE), Some(WHITE), Some(RED), Some(GREEN), None, Some(RED)]);
-        palette.paint(0, None);
-        assert_eq!(palette.sphere(0, 0.1, 1.0), Palette::SPHERE);
+        assert_eq!(
+            [0, 1, 4].map(|number| palette.own(number).finish),
+            [Finish::Satin, Finish::Glass, Finish::Satin]
+        );
+        palette.paint(0, Paint::default());
+        assert_eq!(palette.sphere(0, 0.1, 1.0), Palette::SPHERE.into());
     }
 
     #[test]
@@ -310,7 +349,8 @@ mod tests {
         palette.remove_emitter(1, world.time());
         world.step(0.4).unwrap();
         palette.follow(world.time());
-        let own: Vec<_> = world.spheres().ids().iter().map(|id| palette.own(id.number())).collect();
+        let own: Vec<_> =
+            world.spheres().ids().iter().map(|id| palette.own(id.number()).color).collect();
         let expected = [RED, RED, GREEN, WHITE, WHITE, GREEN, WHITE, WHITE];
         assert_eq!(own, expected.map(Some));
     }
@@ -322,7 +362,7 @@ mod tests {
         scene.colliders = vec![collider(Some(RED)), collider(None)];
         scene.colors = Some(Colors { colliders: Some(GREEN), ..Colors::default() });
         let palette = Palette::new(&scene).unwrap();
-        assert_eq!([palette.collider(0), palette.collider(1)], [RED, GREEN]);
+        assert_eq!([0, 1].map(|index| palette.collider(index).color), [RED, GREEN]);
     }
 
     #[test]

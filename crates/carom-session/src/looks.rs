@@ -1,8 +1,9 @@
-//! Colours of single spheres, of which a world knows nothing.
+//! Colours and finishes of single spheres, of which a world knows nothing.
 
 use std::sync::Arc;
 
 use carom::{EmitterId, Rule, Sphere, SphereId, StepReport, World};
+use carom_scene::Paint;
 use carom_scene::scene::{self, Color, Generator, Scene};
 
 use crate::setup::Setup;
@@ -15,15 +16,15 @@ const SAME_DENSITY: f64 = 1e-12;
 /// (`docs/physics/motion.md`, "Emission").
 const DUE_TOLERANCE: f64 = 1e-9;
 
-/// Which spheres have which colour of their own.
+/// Which spheres have which look of their own.
 ///
-/// A sphere gets its colour when it comes into the world: its own, or that of its density; later
+/// A sphere gets its look when it comes into the world: its own, or the colour of its density; later
 /// changes of its mass keep it. For emitted spheres, the emitters' schedules are followed, since a
 /// world does not say which of several emitters a sphere came from.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Looks {
     /// Ascending by id. Spheres that are gone are left out from time to time.
-    colors: Arc<Vec<(SphereId, Color)>>,
+    paints: Arc<Vec<(SphereId, Paint)>>,
     schedules: Vec<Schedule>,
 }
 
@@ -50,24 +51,24 @@ impl Looks {
     pub fn new(scene: &Scene, world: &World) -> Self {
         let single = scene.spheres.iter().map(|sphere| (sphere, 1));
         let all = single.chain(scene.generators.iter().filter_map(generated));
-        let colors = all.flat_map(|(sphere, count)| {
-            std::iter::repeat_n(sphere.color.or_else(|| color_of_template(scene, sphere)), count)
+        let paints = all.flat_map(|(sphere, count)| {
+            std::iter::repeat_n(paint_of_template(scene, sphere), count)
         });
         let ids = world.spheres().ids().iter().copied();
-        let own = ids.zip(colors).filter_map(|(id, color)| Some((id, color?)));
+        let own = ids.zip(paints).filter(|(_, paint)| *paint != Paint::default());
         let schedules = world.emitters().map(|(id, _)| Schedule { id, start: 0.0, emitted: 0 });
-        Self { colors: Arc::new(own.collect()), schedules: schedules.collect() }
+        Self { paints: Arc::new(own.collect()), schedules: schedules.collect() }
     }
 
-    /// Colours of single spheres, ascending by id.
-    pub fn colors(&self) -> &[(SphereId, Color)] {
-        &self.colors
+    /// Looks of single spheres, ascending by id.
+    pub fn paints(&self) -> &[(SphereId, Paint)] {
+        &self.paints
     }
 
-    /// Gives the sphere that was added last a colour.
-    pub fn paint(&mut self, id: SphereId, color: Option<Color>) {
-        if let Some(color) = color {
-            Arc::make_mut(&mut self.colors).push((id, color));
+    /// Gives the sphere that was added last a look.
+    pub fn paint(&mut self, id: SphereId, paint: Paint) {
+        if paint != Paint::default() {
+            Arc::make_mut(&mut self.paints).push((id, paint));
         }
     }
 
@@ -99,8 +100,8 @@ impl Looks {
         let came = due.into_iter().zip(sources);
         for (sphere, emitter) in came.filter(|(id, _)| report.emitted.binary_search(id).is_ok()) {
             let template = template(emitter);
-            let color = template.and_then(|it| it.color.or_else(|| color_of_template(scene, it)));
-            self.paint(sphere, color);
+            let paint = template.map(|it| paint_of_template(scene, it));
+            self.paint(sphere, paint.unwrap_or_default());
         }
         self.forget_the_gone(world);
     }
@@ -125,8 +126,8 @@ impl Looks {
     /// Forgets spheres that are gone, once they are as many as those that are there: so each costs
     /// a constant time.
     fn forget_the_gone(&mut self, world: &World) {
-        if self.colors.len() > 2 * world.spheres().len() {
-            Arc::make_mut(&mut self.colors)
+        if self.paints.len() > 2 * world.spheres().len() {
+            Arc::make_mut(&mut self.paints)
                 .retain(|(id, _)| world.spheres().index_of(*id).is_some());
         }
     }
@@ -135,6 +136,12 @@ impl Looks {
 /// What the spheres of a generator have in common, and how many there are.
 fn generated(generator: &Generator) -> Option<(&scene::Sphere, usize)> {
     Some((generator.sphere()?, usize::try_from(generator.count()).unwrap_or(usize::MAX)))
+}
+
+/// The look of spheres of this description.
+fn paint_of_template(scene: &Scene, sphere: &scene::Sphere) -> Paint {
+    let color = sphere.color.or_else(|| color_of_template(scene, sphere));
+    Paint { color, finish: sphere.finish }
 }
 
 /// The colour that a scene gives spheres of this description by their density.

@@ -48,7 +48,10 @@ impl Setup {
 
 /// Writes into a description of spheres what the physics calls them.
 pub(crate) fn describe_sphere(sphere: &carom::Sphere, description: &mut Sphere) {
-    *description = Sphere { color: description.color, ..Sphere::of(sphere) };
+    *description = {
+        let Sphere { color, finish, .. } = *description;
+        Sphere { color, finish, ..Sphere::of(sphere) }
+    };
 }
 
 /// Writes into the description of an emitter what the physics calls it.

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use carom::{Collider, ColliderId, Emitter, EmitterId, Error, ForceId, Subject, World};
-use carom_scene::SceneError;
 use carom_scene::scene::{self, Force, Scene, Simulation};
+use carom_scene::{Paint, SceneError};
 
 use crate::change::Change;
 use crate::edit::Edit;
@@ -65,7 +65,8 @@ impl Subjects<'_> {
             Edit::Throw { sphere, color } => {
                 check_writable(scene, setup, sphere.radius)?;
                 let id = world.add_sphere(**sphere)?;
-                looks.paint(id, color.or_else(|| looks::color_of(scene, sphere)));
+                let color = color.or_else(|| looks::color_of(scene, sphere));
+                looks.paint(id, Paint { color, ..Paint::default() });
                 Ok(())
             }
             Edit::RemoveSphere(id) => Ok(world.remove_sphere(*id).map(drop)?),

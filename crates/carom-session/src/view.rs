@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use carom::{DQuat, DVec3, Friction, PersistentContact, Pose, SphereId, StateHash};
-use carom_scene::scene::{Color, Scene, Sphere};
+use carom_scene::Paint;
+use carom_scene::scene::{Scene, Sphere};
 
 use crate::change::PastChange;
 use crate::distance::Distance;
@@ -95,8 +96,8 @@ pub struct SphereArrays {
     pub previous_orientations: Vec<DQuat>,
     /// Angular velocities \[rad/s\]; empty while no sphere was ever turned.
     pub angular_velocities: Vec<DVec3>,
-    /// Colours of their own or of their density.
-    pub colors: Vec<Option<Color>>,
+    /// Their looks, with the colour of their density where they have none of their own.
+    pub paints: Vec<Paint>,
     /// Another number when anything but the motion may have changed, within one scene.
     pub stamp: u64,
 }
@@ -225,7 +226,8 @@ impl SphereArrays {
             .with_inertia_factor(or(&self.inertia_factors, index, usual.inertia_factor))
             .with_orientation(or(&self.orientations, index, usual.orientation))
             .with_angular_velocity(self.angular_velocity(index));
-        Sphere { color: self.colors[index], ..Sphere::of(&sphere) }
+        let Paint { color, finish } = self.paints[index];
+        Sphere { color, finish, ..Sphere::of(&sphere) }
     }
 }
 

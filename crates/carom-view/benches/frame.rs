@@ -4,7 +4,7 @@
 #![allow(missing_docs)]
 
 use carom_render::Quality;
-use carom_scene::scene::{Generator, Scene, Sphere};
+use carom_scene::scene::{Generator, Lattice, Scene, Sphere};
 use carom_scene::{Library, Source};
 use carom_session::Command;
 use carom_view::{Action, App, Desktop, Setup, Start};
@@ -16,12 +16,13 @@ fn lattice(count: u32) -> Scene {
     let mut scene = Scene::new("lattice");
     let edge = f64::from(count).cbrt().ceil() as u32;
     let sphere = Sphere { velocity: [0.1, 0.0, 0.0], ..Sphere::at([0.0; 3], 0.35) };
-    scene.generators.push(Generator::Lattice {
+    scene.generators.push(Generator::Lattice(Box::new(Lattice {
         counts: [edge, edge, count.div_ceil(edge * edge)],
         start: [0.0; 3],
         spacing: [1.0; 3],
-        sphere,
-    });
+        sphere: Some(sphere),
+        collider: None,
+    })));
     scene
 }
 

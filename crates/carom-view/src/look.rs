@@ -1,9 +1,9 @@
 //! What a session looks like: its view as a drawing.
 
 use carom::{DQuat, DVec3, SphereId};
-use carom_render::{Arrow, Ball, Drawing, Light, Material};
-use carom_scene::Palette;
-use carom_scene::scene::{self, Color};
+use carom_render::{Arrow, Ball, Drawing, Light, Pattern};
+use carom_scene::scene::{self, Color, Finish};
+use carom_scene::{Coat, Palette};
 use carom_session::View;
 
 use serde::{Deserialize, Serialize};
@@ -85,8 +85,8 @@ fn add_colliders(view: &View, drawing: &mut Drawing) {
         if !collider.visible {
             continue;
         }
-        let color = collider_color(collider, colors);
-        drawing.add_collider((&collider.shape).into(), *pose, color, collider.trigger);
+        let coat = Coat { color: collider_color(collider, colors), finish: collider.finish };
+        drawing.add_collider((&collider.shape).into(), *pose, coat, collider.trigger);
     }
 }
 
@@ -97,10 +97,11 @@ fn add_spheres(view: &View, look: &Look, drawing: &mut Drawing) {
     let picked = view.picked.and_then(|id| spheres.index_of(id));
     for i in 0..spheres.ids.len() {
         let center = place(view, i, look.blend);
-        let color = spheres.colors[i].unwrap_or(common);
-        let color = if picked == Some(i) { PICKED } else { color };
+        let paint = spheres.paints[i];
+        let color = if picked == Some(i) { PICKED } else { paint.color.unwrap_or(common) };
+        let coat = Coat { color, finish: paint.finish };
         let orientation = spheres.orientation(i, look.blend);
-        drawing.balls.push(Ball::of_sphere(center, spheres.radii[i], color, orientation));
+        drawing.balls.push(Ball::of_sphere(center, spheres.radii[i], coat, orientation));
         if look.marks.velocities {
             let way = look.marks.velocity_scale * spheres.velocities[i];
             let Some(ahead) = way.try_normalize() else { continue };
@@ -135,7 +136,8 @@ fn add_contacts(view: &View, drawing: &mut Drawing) {
             radius: 0.12 * radius,
             color: CONTACT,
             rotation: DQuat::IDENTITY,
-            material: Material::Glowing,
+            pattern: Pattern::Glowing,
+            finish: Finish::default(),
         });
     }
 }
@@ -189,9 +191,9 @@ mod tests {
             (drawing.balls[0], half_frame)
         };
         let (plain, _) = ball(DVec3::ZERO);
-        assert_eq!((plain.material, plain.rotation), (Material::Plain, DQuat::IDENTITY));
+        assert_eq!((plain.pattern, plain.rotation), (Pattern::Plain, DQuat::IDENTITY));
         let (banded, time) = ball(DVec3::X);
-        assert_eq!(banded.material, Material::Banded);
+        assert_eq!(banded.pattern, Pattern::Banded);
         // An angle of zero, from a cosine rounded.
         assert!(banded.rotation.angle_between(DQuat::from_rotation_x(time)) < 1e-6);
     }

@@ -17,6 +17,9 @@ export type Quaternion = Iterable<number>;
 /** Red, green, blue in [0, 1] (sRGB). */
 export type Color = [number, number, number];
 
+/** How a surface takes light: a soft highlight (`satin`) unless given. */
+export type Finish = "matte" | "satin" | "glossy" | "metal" | "glass";
+
 /** A sphere as it is added. */
 export interface SphereDescription {
   /** Centre [m]; the origin unless given. */
@@ -49,6 +52,8 @@ export interface SphereDescription {
   inertiaFactor?: number;
   /** By density, or the scene's own, unless given. */
   color?: Iterable<number>;
+  /** How its surface takes light; it changes no motion. */
+  finish?: Finish;
 }
 
 /** A sphere as it is. */
@@ -79,12 +84,17 @@ export interface Sphere {
   inertiaFactor?: number;
   /** Red, green, blue (sRGB). */
   color: Color;
+  /** How its surface takes light; it changes no motion. */
+  finish?: Finish;
 }
+
+/** What a generator makes: spheres, or colliders whose names get the numbers of their places. */
+export type Generated = { sphere: SphereDescription } | { collider: ColliderDescription };
 
 /** Places for many spheres or colliders, as scene files describe them. */
 export type Generator =
-  | { row: { count: number; start: Vector; step: Vector; sphere: SphereDescription } }
-  | { lattice: { counts: Vector; start: Vector; spacing: Vector; sphere: SphereDescription } }
+  | { row: { count: number; start: Vector; step: Vector } & Generated }
+  | { lattice: { counts: Vector; start: Vector; spacing: Vector } & Generated }
   /** Rows, each centred on the one before; `counts` begin anew where there are more rows. */
   | {
       staggeredRows: {
@@ -93,7 +103,7 @@ export type Generator =
         start: Vector;
         step: Vector;
         rowStep: Vector;
-      } & ({ sphere: SphereDescription } | { collider: ColliderDescription });
+      } & Generated;
     }
   /** Hexagonal layers, one above the other along +y; `spacing` is the diameter unless given. */
   | {
@@ -106,15 +116,17 @@ export type Generator =
         sphere: SphereDescription;
       };
     }
-  /** Evenly on a circle, about an axis that points up unless given. */
+  /**
+   * Evenly on a circle, about an axis that points up unless given; colliders are turned about it
+   * along with their places.
+   */
   | {
       ring: {
         count: number;
         center: Vector;
         radius: number;
         axis?: Vector;
-        sphere: SphereDescription;
-      };
+      } & Generated;
     }
   | {
       random: {
@@ -171,6 +183,8 @@ export interface ColliderDescription {
   visible?: boolean;
   /** The scene's own unless given. */
   color?: Iterable<number>;
+  /** How its surface takes light; it changes no motion. */
+  finish?: Finish;
 }
 
 /** A surface as it is. */
@@ -198,6 +212,8 @@ export interface Collider {
   trigger: boolean;
   visible: boolean;
   color: Color;
+  /** How its surface takes light; it changes no motion. */
+  finish?: Finish;
 }
 
 /** A force on every sphere. */

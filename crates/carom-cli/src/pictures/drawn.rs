@@ -25,7 +25,7 @@ pub fn draw(
         }
     }
     drawing.balls.extend(spheres.iter().map(|seen| {
-        let color = palette.sphere(seen.number, seen.radius, seen.mass);
-        Ball::of_sphere(seen.position, seen.radius, color, seen.orientation)
+        let coat = palette.sphere(seen.number, seen.radius, seen.mass);
+        Ball::of_sphere(seen.position, seen.radius, coat, seen.orientation)
     }));
 }

@@ -6,22 +6,7 @@ use carom_scene::scene::{Collider, Force, Scene, Shape, Sphere};
 
 /// A collider at a place, not turned.
 pub fn collider(name: &str, shape: Shape, position: [f64; 3]) -> Collider {
-    Collider {
-        name: name.to_owned(),
-        shape,
-        position,
-        rotation: [0.0, 0.0, 0.0, 1.0],
-        velocity: [0.0; 3],
-        angular_velocity: [0.0; 3],
-        restitution: 0.0,
-        friction: None,
-        rolling_friction: None,
-        spinning_friction: None,
-        tangential_restitution: None,
-        trigger: false,
-        visible: true,
-        color: None,
-    }
+    Collider { name: name.to_owned(), position, restitution: 0.0, ..Collider::new(shape) }
 }
 
 pub fn wall(name: &str, position: [f64; 3], size: [f64; 3]) -> Collider {

@@ -82,8 +82,16 @@ struct Surface {
     point: vec3<f32>,
     normal: vec3<f32>,
     color: vec3<f32>,
+    // From 0 to 1, where the finish does not say.
     gloss: f32,
+    finish: f32,
 }
+
+// Finishes: of those between, a surface has its own gloss.
+const MATTE: f32 = 1.0;
+const GLOSSY: f32 = 2.0;
+const METAL: f32 = 3.0;
+const GLASS: f32 = 4.0;
 
 // How much of the sun arrives at a point of a surface with this normal, shadows of others counted.
 fn sunlight(point: vec3<f32>, normal: vec3<f32>) -> f32 {
@@ -122,15 +130,42 @@ fn lit(surface: Surface) -> vec3<f32> {
     let from_sky = mix(globals.horizon.rgb, globals.zenith.rgb, 0.5) * open;
     let ambient = mix(globals.ground.rgb * 0.55, from_sky, upward);
     let direct = globals.sun.rgb * max(facing, 0.0) * sunlit;
-    var color = surface.color * (0.66 * ambient + 0.95 * direct);
-
-    if surface.gloss > 0.0 {
-        let to_eye = -normalize(surface.point);
-        let half_way = normalize(to_eye + globals.to_sun.xyz);
-        let highlight = pow(max(dot(n, half_way), 0.0), 60.0) * sunlit * step(0.0, facing);
-        let grazing = pow(1.0 - max(dot(n, to_eye), 0.0), 4.0);
-        let mirrored = sky(reflect(-to_eye, n));
-        color += surface.gloss * (0.35 * highlight * globals.sun.rgb + 0.28 * grazing * mirrored);
+    let diffuse = surface.color * (0.66 * ambient + 0.95 * direct);
+    if surface.finish >= GLOSSY {
+        let shine = polish(surface, sunlit * step(0.0, facing));
+        let mirrors_all = surface.finish == METAL;
+        return select(diffuse * (1.0 - shine.a) + shine.rgb, shine.rgb + 0.25 * diffuse, mirrors_all);
     }
-    return color;
+    if surface.finish == MATTE || surface.gloss == 0.0 {
+        return diffuse;
+    }
+    let to_eye = -normalize(surface.point);
+    let half_way = normalize(to_eye + globals.to_sun.xyz);
+    let highlight = pow(max(dot(n, half_way), 0.0), 60.0) * sunlit * step(0.0, facing);
+    let grazing = pow(1.0 - max(dot(n, to_eye), 0.0), 4.0);
+    let mirrored = sky(reflect(-to_eye, n));
+    return diffuse + surface.gloss * (0.35 * highlight * globals.sun.rgb + 0.28 * grazing * mirrored);
+}
+
+// What a polished surface sends back of sky and sun; a: the part of the light that it mirrors.
+fn polish(surface: Surface, sunlit: f32) -> vec4<f32> {
+    let n = surface.normal;
+    let to_eye = -normalize(surface.point);
+    // Schlick's approximation of Fresnel's equations, An Inexpensive BRDF Model (1994), with the
+    // part that glass mirrors head-on.
+    let grazing = pow(1.0 - max(dot(n, to_eye), 0.0), 5.0);
+    let head_on = select(vec3<f32>(0.04), surface.color, surface.finish == METAL);
+    let part = head_on + (1.0 - head_on) * grazing;
+    let half_way = normalize(to_eye + globals.to_sun.xyz);
+    let highlight = pow(max(dot(n, half_way), 0.0), 500.0) * sunlit;
+    let sun = min(select(20.0, 2.0, surface.finish == METAL) * part, vec3<f32>(1.5)) * highlight;
+    return vec4<f32>(part * room(reflect(-to_eye, n)) + sun * globals.sun.rgb, part.g);
+}
+
+// What a polished surface mirrors: the sky, brighter above and darker around the horizon than it is
+// drawn, as a room with a lamp is, for else its curve would hardly be seen.
+fn room(direction: vec3<f32>) -> vec3<f32> {
+    let lamp = smoothstep(0.55, 0.75, direction.y);
+    let band = smoothstep(-0.12, 0.1, direction.y);
+    return sky(direction) * (mix(0.3, 0.85, band) + 0.55 * lamp);
 }

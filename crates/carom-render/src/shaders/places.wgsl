@@ -1,9 +1,20 @@
-// Where things are: rotations, corners of the triangles of a rectangle or box by their number, and
+// What instances say: kinds, finishes, rotations, corners of the triangles of a rectangle or box by their number, and
 // the lines of grids.
+
+// A kind, or a pattern, and a finish share a number.
+fn kind_of(packed: f32) -> f32 {
+    return packed % KINDS;
+}
+
+fn finish_of(packed: f32) -> f32 {
+    return floor(packed / KINDS);
+}
 
 fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
     return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
 }
+
+const KINDS: f32 = 8.0;
 
 struct Corner {
     place: vec3<f32>,

@@ -14,12 +14,14 @@ struct SphereVarying {
     @builtin(position) clip: vec4<f32>,
     @location(0) corner: vec2<f32>,
     @location(1) @interpolate(flat) center: vec4<f32>,
+    @location(2) @interpolate(flat) finish: f32,
 }
 
 @vertex
 fn sphere_vertex(
     @builtin(vertex_index) index: u32,
     @location(0) center: vec4<f32>,
+    @location(1) color: vec4<f32>,
 ) -> SphereVarying {
     let corner = vec2<f32>(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;
     let across = corner.x * light.right.xyz + corner.y * light.up.xyz;
@@ -27,13 +29,16 @@ fn sphere_vertex(
     out.clip = light.map_from_eye * vec4<f32>(center.xyz + center.w * across, 1.0);
     out.corner = corner;
     out.center = center;
+    out.finish = finish_of(color.w);
     return out;
 }
 
 @fragment
 fn sphere_fragment(in: SphereVarying) -> @builtin(frag_depth) f32 {
     let outside = dot(in.corner, in.corner);
-    if outside > 1.0 {
+    // Glass lets half of the light through: every other texel.
+    let odd = (i32(in.clip.x) + i32(in.clip.y)) % 2 != 0;
+    if outside > 1.0 || (in.finish == 4.0 && odd) {
         discard;
     }
     let across = in.corner.x * light.right.xyz + in.corner.y * light.up.xyz;
@@ -49,6 +54,6 @@ fn surface_vertex(
     @location(1) rotation: vec4<f32>,
     @location(2) extent: vec4<f32>,
 ) -> @builtin(position) vec4<f32> {
-    let local = corner_of(index, center.w).place * extent.xyz;
+    let local = corner_of(index, kind_of(center.w)).place * extent.xyz;
     return light.map_from_eye * vec4<f32>(center.xyz + rotate(rotation, local), 1.0);
 }

@@ -4,7 +4,7 @@
 struct Instance {
     // Relative to the eye; w: radius.
     @location(0) center: vec4<f32>,
-    // Linear; w: material.
+    // Linear; w: pattern and finish.
     @location(1) color: vec4<f32>,
     @location(2) rotation: vec4<f32>,
 }
@@ -17,7 +17,7 @@ struct Varying {
     @location(3) @interpolate(flat) rotation: vec4<f32>,
 }
 
-const PATTERNED: f32 = 1.0;
+const STRIPED: f32 = 1.0;
 const FIXED: f32 = 2.0;
 const GLOWING: f32 = 3.0;
 const BANDED: f32 = 4.0;
@@ -26,6 +26,10 @@ const BANDED: f32 = 4.0;
 // its spots and the caps at its poles begin.
 const BAND: f32 = 0.32;
 const SPOT: f32 = 0.97;
+
+// Refractive index of glass, and how much a ball of it hides in its middle of what is behind it.
+const GLASS_INDEX: f32 = 1.5;
+const GLASS_OPACITY: f32 = 0.55;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, sphere: Instance) -> Varying {
@@ -56,57 +60,115 @@ struct Pixel {
     @builtin(frag_depth) depth: f32,
 }
 
+// Where the ray through a pixel meets a sphere.
+struct Hit {
+    point: vec3<f32>,
+    normal: vec3<f32>,
+    // Unit vector.
+    direction: vec3<f32>,
+    // Way along the ray to the point nearest to the centre, and how far from the centre that is.
+    along: f32,
+    miss: f32,
+    // Width of a pixel there.
+    width: f32,
+    // Part of the pixel inside the outline.
+    coverage: f32,
+}
+
+fn hit(ray: vec3<f32>, sphere: vec4<f32>) -> Hit {
+    var hit: Hit;
+    let center = sphere.xyz;
+    let radius = sphere.w;
+    hit.direction = normalize(ray);
+    hit.along = dot(hit.direction, center);
+    hit.miss = length(center - hit.along * hit.direction);
+    hit.width = max(fwidth(hit.miss), 1e-7 * hit.along);
+    hit.coverage = clamp((radius - hit.miss) / hit.width + 0.5, 0.0, 1.0);
+    let depth_of_cap = sqrt(max(radius * radius - hit.miss * hit.miss, 0.0));
+    hit.point = (hit.along - depth_of_cap) * hit.direction;
+    hit.normal = normalize((hit.point - center) / radius);
+    return hit;
+}
+
+fn depth_of(point: vec3<f32>) -> f32 {
+    let clip = globals.clip_from_eye * vec4<f32>(point, 1.0);
+    return clamp(clip.z / clip.w, 0.0, 1.0);
+}
+
 @fragment
 fn fragment(in: Varying) -> Pixel {
-    let direction = normalize(in.ray);
-    let center = in.center.xyz;
-    let radius = in.center.w;
-    let along = dot(direction, center);
-    let miss = length(center - along * direction);
-    // Part of the pixel inside the outline.
-    let width = max(fwidth(miss), 1e-7 * along);
-    let coverage = clamp((radius - miss) / width + 0.5, 0.0, 1.0);
+    let hit = hit(in.ray, in.center);
     let enough = select(0.5, 0.05, globals.horizon.w > 0.5);
-    if coverage < enough || along <= 0.0 {
+    if hit.coverage < enough || hit.along <= 0.0 {
         discard;
     }
-    let depth_of_cap = sqrt(max(radius * radius - miss * miss, 0.0));
-    let point = (along - depth_of_cap) * direction;
-    let normal = (point - center) / radius;
-
+    let radius = in.center.w;
     var surface: Surface;
-    surface.point = point;
-    surface.normal = normalize(normal);
+    surface.point = hit.point;
+    surface.normal = hit.normal;
     surface.color = in.color.rgb;
     surface.gloss = 1.0;
-    let material = in.color.w;
-    if material == BANDED {
-        let pixel = 2.0 * length(globals.up.xyz) * along / (globals.picture.y * radius);
+    surface.finish = finish_of(in.color.w);
+    let pattern = kind_of(in.color.w);
+    if pattern == BANDED {
+        let pixel = 2.0 * length(globals.up.xyz) * hit.along / (globals.picture.y * radius);
         let inverse = vec4<f32>(-in.rotation.xyz, in.rotation.w);
         let local = rotate(inverse, surface.normal);
-        surface.color = banded(surface.color, local, rotate(inverse, -direction), pixel);
+        surface.color = banded(surface.color, local, rotate(inverse, -hit.direction), pixel);
     }
-    if material == PATTERNED || material == FIXED {
+    if pattern == STRIPED || pattern == FIXED {
         let inverse = vec4<f32>(-in.rotation.xyz, in.rotation.w);
         let local = rotate(inverse, surface.normal);
-        let blur = width / radius + 0.004;
-        if material == PATTERNED {
-            surface.color = patterned(surface.color, local, blur);
+        let blur = hit.width / radius + 0.004;
+        if pattern == STRIPED {
+            surface.color = striped(surface.color, local, blur);
         } else {
             surface.color = ringed(surface.color, local, blur);
             surface.gloss = 0.15;
         }
     }
     var out: Pixel;
-    let shown = select(lit(surface), in.color.rgb, material == GLOWING);
-    out.color = vec4<f32>(encoded(shown), coverage);
-    let clip = globals.clip_from_eye * vec4<f32>(point, 1.0);
-    out.depth = clamp(clip.z / clip.w, 0.0, 1.0);
+    let shown = select(lit(surface), in.color.rgb, pattern == GLOWING);
+    out.color = vec4<f32>(encoded(shown), hit.coverage);
+    out.depth = depth_of(hit.point);
+    return out;
+}
+
+// A ball of glass: what is behind it shows through, in its tint, and the sky by refraction and, ever
+// more towards the rim, by reflection.
+@fragment
+fn glass(in: Varying) -> Pixel {
+    let hit = hit(in.ray, in.center);
+    if hit.coverage < 0.05 || hit.along <= 0.0 {
+        discard;
+    }
+    var surface: Surface;
+    surface.point = hit.point;
+    surface.normal = hit.normal;
+    surface.color = in.color.rgb;
+    surface.finish = GLASS;
+    let facing = dot(hit.normal, globals.to_sun.xyz);
+    let shine = polish(surface, sunlight(hit.point, hit.normal) * step(0.0, facing));
+    // Bent where the ray comes in and where it goes out.
+    let inner = refract(hit.direction, hit.normal, 1.0 / GLASS_INDEX);
+    let exit = hit.normal - 2.0 * dot(hit.normal, inner) * inner;
+    let through = refract(inner, -exit, GLASS_INDEX);
+    // The longer its way through the glass, the more the light takes of its colour.
+    let outward = hit.miss / in.center.w;
+    let way = sqrt(max(1.0 - outward * outward, 0.0));
+    let tint = mix(vec3<f32>(1.0), in.color.rgb, 0.6 + 0.4 * way);
+    let behind = sky(through) * mix(0.55, 1.15, smoothstep(-0.3, 0.5, through.y));
+    let seen = tint * behind * (1.0 - shine.a) + shine.rgb;
+    let opacity = mix(GLASS_OPACITY, 1.0, pow(outward, 4.0));
+    let covered = hit.coverage * clamp(opacity + shine.a, 0.0, 1.0);
+    var out: Pixel;
+    out.color = vec4<f32>(encoded(seen) * covered, covered);
+    out.depth = depth_of(hit.point);
     return out;
 }
 
 // A lighter band and two caps: shows how a ball rolls, from every side.
-fn patterned(color: vec3<f32>, local: vec3<f32>, blur: f32) -> vec3<f32> {
+fn striped(color: vec3<f32>, local: vec3<f32>, blur: f32) -> vec3<f32> {
     let band = 1.0 - smoothstep(0.16 - blur, 0.16 + blur, abs(local.x));
     let caps = smoothstep(0.86 - blur, 0.86 + blur, abs(local.x));
     let other = 1.0 - smoothstep(0.05 - blur, 0.05 + blur, abs(local.z));

@@ -1,7 +1,7 @@
 // Rectangles, boxes and half-spaces.
 
 struct Instance {
-    // Relative to the eye; w: kind.
+    // Relative to the eye; w: kind and finish.
     @location(0) center: vec4<f32>,
     @location(1) rotation: vec4<f32>,
     // Half of the lengths along the local axes; w: distance of the lines of its grid.
@@ -20,6 +20,7 @@ struct Varying {
     @location(4) @interpolate(flat) extent: vec4<f32>,
     @location(5) @interpolate(flat) color: vec4<f32>,
     @location(6) @interpolate(flat) kind: f32,
+    @location(7) @interpolate(flat) finish: f32,
 }
 
 const BOX: f32 = 1.0;
@@ -30,7 +31,8 @@ const INCLINE: f32 = 4.0;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
-    let corner = corner_of(index, instance.center.w);
+    let kind = kind_of(instance.center.w);
+    let corner = corner_of(index, kind);
     let local = corner.place * instance.extent.xyz;
     let point = instance.center.xyz + rotate(instance.rotation, local);
     var out: Varying;
@@ -41,7 +43,8 @@ fn vertex(@builtin(vertex_index) index: u32, instance: Instance) -> Varying {
     out.face = corner.normal;
     out.extent = instance.extent;
     out.color = instance.color;
-    out.kind = instance.center.w;
+    out.kind = kind;
+    out.finish = finish_of(instance.center.w);
     return out;
 }
 
@@ -102,6 +105,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     surface.normal = normalize(select(-in.normal, in.normal, is_front));
     surface.color = color;
     surface.gloss = 0.0;
+    surface.finish = in.finish;
     var shown = lit(surface);
     if in.kind == GROUND {
         // Fades into the haze before its edge.

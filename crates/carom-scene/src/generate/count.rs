@@ -2,21 +2,35 @@
 
 use crate::error::Problem;
 use crate::requirement::check;
+use crate::scene::Generator;
 
 /// More spheres than this in one generator are a slip of the keyboard, and would fill the memory
 /// (about 1 GB for the world alone).
-pub(super) const MOST_SPHERES: u64 = 10_000_000;
+const MOST_SPHERES: u64 = 10_000_000;
 
-pub(super) fn check_spheres(count: u64, path: &str) -> Result<(), Problem> {
-    check_count(count, (MOST_SPHERES, "spheres"), path)
-}
+/// More colliders than this in one generator are such a slip, too.
+const MOST_COLLIDERS: u64 = 1_000_000;
 
-pub(super) fn check_count(
-    count: u64,
-    (most, made): (u64, &str),
-    path: &str,
-) -> Result<(), Problem> {
-    check((1..=most).contains(&count), path, || {
+/// Checks that a generator, of the fields at `path`, makes spheres or colliders, and how many.
+pub(super) fn check_count(generator: &Generator, path: &str) -> Result<(), Problem> {
+    let (most, made) = match (generator.sphere(), generator.collider()) {
+        (Some(_), None) => (MOST_SPHERES, "spheres"),
+        (None, Some(_)) => (MOST_COLLIDERS, "colliders"),
+        (None, None) => return Err(Problem::new(path, "needs `sphere` or `collider`")),
+        (Some(_), Some(_)) => {
+            let text = "`sphere` says already what there is";
+            return Err(Problem::new(format!("{path}.collider"), text));
+        }
+    };
+    if let Generator::StaggeredRows(rows) = generator {
+        check(rows.rows > 0, &format!("{path}.rows"), || "must be at least 1, not 0".into())?;
+    }
+    let field = match generator {
+        Generator::Row(_) | Generator::Ring(_) | Generator::Random { .. } => "count",
+        _ => "counts",
+    };
+    let count = generator.places();
+    check((1..=most).contains(&count), &format!("{path}.{field}"), || {
         format!("must make 1 to {most} {made}, not {count}")
     })
 }

@@ -1,46 +1,88 @@
 //! Generators of spheres and colliders.
 
 mod count;
+mod place;
 mod random;
 mod regular;
 mod rows;
 
-use carom::{DVec3, World};
+use std::borrow::Cow;
 
-use self::count::check_spheres;
+use carom::{DQuat, DVec3, World};
+
+use self::count::check_count;
+use self::place::Place;
 use crate::bodies::{add_sphere, sphere};
 use crate::error::Problem;
 use crate::requirement::check_positive;
 use crate::scene::values::vector;
-use crate::scene::{Generator, Sphere};
+use crate::scene::{Collider, Generator, Scene, Sphere};
 
 impl Generator {
     /// The spheres it stands for, one by one, when `world` holds what comes before them.
     pub(crate) fn spheres(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
-        let centers = match self {
-            Self::Row { count, start, step, .. } => regular::row(*count, [*start, *step], path)?,
-            Self::Lattice { counts, start, spacing, .. } => {
-                check_spheres(self.count(), &format!("{path}.counts"))?;
-                regular::lattice(*counts, [*start, *spacing], path)?
-            }
-            Self::StaggeredRows(rows) => {
-                let centers = rows.centers(path)?.into_iter();
-                centers.map(|(center, _)| center).collect()
-            }
+        if matches!(self, Self::Random { .. }) {
+            return self.scatter(world, path);
+        }
+        let places = self.all_places(path)?;
+        let Some(template) = self.sphere() else { return Ok(Vec::new()) };
+        Ok(places.iter().map(|place| at(place.center, template)).collect())
+    }
+
+    /// The colliders it stands for, one by one.
+    pub(crate) fn colliders(&self, path: &str) -> Result<Vec<Collider>, Problem> {
+        let Some(template) = self.collider() else { return Ok(Vec::new()) };
+        let turned = |place: &Place| match self {
+            Self::Ring(ring) => turned(template, regular::turn_on_ring(ring, place.numbers[0] - 1)),
+            _ => template.clone(),
+        };
+        let collider = |place: &Place| {
+            let turned = turned(place);
+            let position = (place.center + vector(turned.position)).to_array();
+            Collider { name: place.named(&template.name), position, ..turned }
+        };
+        Ok(self.all_places(path)?.iter().map(collider).collect())
+    }
+
+    /// Its places, but for those that depend on what is there.
+    fn all_places(&self, path: &str) -> Result<Vec<Place>, Problem> {
+        check_count(self, path)?;
+        match self {
+            Self::Row(row) => regular::row(row, path),
+            Self::Lattice(lattice) => regular::lattice(lattice, path),
+            Self::StaggeredRows(rows) => rows::staggered(rows, path),
             Self::ClosePacking { counts, start, spacing, stacking, sphere } => {
-                check_spheres(self.count(), &format!("{path}.counts"))?;
                 let spacing = distance(*spacing, sphere, path)?;
-                regular::close_packing(*counts, *stacking, (*start, spacing), path)?
+                regular::close_packing(*counts, *stacking, (*start, spacing), path)
             }
-            Self::Ring { count, center, radius, axis, .. } => {
-                regular::ring(*count, (*center, *radius), *axis, path)?
-            }
-            Self::Random { .. } => return self.scatter(world, path),
-        };
-        let Some(template) = self.sphere() else {
-            return Ok(Vec::new());
-        };
-        Ok(centers.into_iter().map(|center| at(center, template)).collect())
+            Self::Ring(ring) => regular::ring(ring, path),
+            Self::Random { .. } => Ok(Vec::new()),
+        }
+    }
+}
+
+impl Scene {
+    /// All colliders, in the order in which its world has them: the single ones, then those of
+    /// generators. A generator that makes no sense makes none.
+    pub fn all_colliders(&self) -> Cow<'_, [Collider]> {
+        if self.generators.iter().all(|generator| generator.collider().is_none()) {
+            return Cow::Borrowed(&self.colliders);
+        }
+        let generated = self.generators.iter().filter_map(|generator| generator.colliders("").ok());
+        Cow::Owned(self.colliders.iter().cloned().chain(generated.flatten()).collect())
+    }
+}
+
+/// A collider turned about the origin, with its velocities.
+fn turned(collider: &Collider, turn: DQuat) -> Collider {
+    let rotation = DQuat::from_array(collider.rotation);
+    let turned = |written| (turn * vector(written)).to_array();
+    Collider {
+        position: turned(collider.position),
+        rotation: (turn * rotation).to_array(),
+        velocity: turned(collider.velocity),
+        angular_velocity: turned(collider.angular_velocity),
+        ..collider.clone()
     }
 }
 

@@ -6,7 +6,7 @@ use carom::{DVec3, World};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use super::count::check_spheres;
+use super::count::check_count;
 use crate::bodies::sphere;
 use crate::error::Problem;
 use crate::requirement::{check, check_non_negative, check_positive, check_vector};
@@ -23,7 +23,7 @@ impl Generator {
         let Self::Random { count, min, max, seed, speed, radius_range, sphere } = self else {
             return Ok(Vec::new());
         };
-        check_spheres((*count).into(), &format!("{path}.count"))?;
+        check_count(self, path)?;
         check_non_negative(*speed, &format!("{path}.speed"))?;
         check_vector(sphere.position, &format!("{path}.sphere.position"))?;
         let [smallest, largest] = radii(sphere, *radius_range, path)?;

@@ -1,54 +1,54 @@
-//! Spheres in regular order.
+//! Places in regular order.
 
-use carom::DVec3;
+use carom::{DQuat, DVec3};
 
-use super::count::check_spheres;
+use super::place::Place;
 use crate::error::Problem;
 use crate::requirement::{check_direction, check_positive, check_vector};
 use crate::scene::values::vector;
-use crate::scene::{Stacking, Vector};
+use crate::scene::{Lattice, Ring, Row, Stacking, Vector};
 
-/// Centres \[m\] along a line.
-pub(super) fn row(
-    count: u32,
-    [start, step]: [Vector; 2],
-    path: &str,
-) -> Result<Vec<DVec3>, Problem> {
-    check_spheres(count.into(), &format!("{path}.count"))?;
-    check_vector(start, &format!("{path}.start"))?;
-    check_vector(step, &format!("{path}.step"))?;
-    let (start, step) = (vector(start), vector(step));
-    Ok((0..count).map(|i| start + f64::from(i) * step).collect())
+/// Places along a line.
+pub(super) fn row(row: &Row, path: &str) -> Result<Vec<Place>, Problem> {
+    check_vector(row.start, &format!("{path}.start"))?;
+    check_vector(row.step, &format!("{path}.step"))?;
+    let (start, step) = (vector(row.start), vector(row.step));
+    Ok((0..row.count).map(|i| Place::along(i, start + f64::from(i) * step)).collect())
 }
 
-/// Centres \[m\] on a box-shaped lattice.
-pub(super) fn lattice(
-    counts: [u32; 3],
-    [start, spacing]: [Vector; 2],
-    path: &str,
-) -> Result<Vec<DVec3>, Problem> {
-    check_vector(start, &format!("{path}.start"))?;
-    check_vector(spacing, &format!("{path}.spacing"))?;
-    let (start, spacing) = (vector(start), vector(spacing));
-    let [nx, ny, nz] = counts;
+/// Places on a box-shaped lattice.
+pub(super) fn lattice(lattice: &Lattice, path: &str) -> Result<Vec<Place>, Problem> {
+    check_vector(lattice.start, &format!("{path}.start"))?;
+    check_vector(lattice.spacing, &format!("{path}.spacing"))?;
+    let (start, spacing) = (vector(lattice.start), vector(lattice.spacing));
+    let [nx, ny, nz] = lattice.counts;
     let cells = (0..nz).flat_map(|z| (0..ny).map(move |y| (y, z)));
-    let cells = cells.flat_map(|(y, z)| (0..nx).map(move |x| [x, y, z].map(f64::from)));
-    Ok(cells.map(|cell| start + DVec3::from_array(cell) * spacing).collect())
+    let cells = cells.flat_map(|(y, z)| (0..nx).map(move |x| [x, y, z]));
+    let place = |cell: [u32; 3]| Place {
+        center: start + DVec3::from_array(cell.map(f64::from)) * spacing,
+        numbers: cell.map(|number| number + 1),
+    };
+    Ok(cells.map(place).collect())
 }
 
-/// Centres \[m\] of a close packing, whose neighbours are this far apart, layer by layer.
+/// Places in a close packing, whose neighbours are this far apart, layer by layer.
 pub(super) fn close_packing(
     counts: [u32; 3],
     stacking: Stacking,
     (start, spacing): (Vector, f64),
     path: &str,
-) -> Result<Vec<DVec3>, Problem> {
+) -> Result<Vec<Place>, Problem> {
     check_vector(start, &format!("{path}.start"))?;
     let start = vector(start);
     let [nx, ny, nz] = counts;
     let rows = (0..ny).flat_map(|layer| (0..nz).map(move |row| [layer, row]));
-    let rows = rows.map(|row| start + spacing * row_of_packing(row, stacking));
-    let along = |row: DVec3| (0..nx).map(move |x| row + spacing * f64::from(x) * DVec3::X);
+    let rows = rows.map(|row| (row, start + spacing * row_of_packing(row, stacking)));
+    let along = |([layer, row], first): ([u32; 2], DVec3)| {
+        (0..nx).map(move |x| Place {
+            center: first + spacing * f64::from(x) * DVec3::X,
+            numbers: [x, layer, row].map(|number| number + 1),
+        })
+    };
     Ok(rows.flat_map(along).collect())
 }
 
@@ -69,25 +69,33 @@ fn row_of_packing([layer, row]: [u32; 2], stacking: Stacking) -> DVec3 {
     )
 }
 
-/// Centres \[m\] evenly on a circle with this centre and radius.
-pub(super) fn ring(
-    count: u32,
-    (center, radius): (Vector, f64),
-    axis: Vector,
-    path: &str,
-) -> Result<Vec<DVec3>, Problem> {
+/// Places evenly on a circle.
+pub(super) fn ring(ring: &Ring, path: &str) -> Result<Vec<Place>, Problem> {
     /// Beyond this, the axis is nearly along x: the circle hardly reaches to that side.
     const NEARLY: f64 = 0.9;
-    check_spheres(count.into(), &format!("{path}.count"))?;
-    check_vector(center, &format!("{path}.center"))?;
-    check_positive(radius, &format!("{path}.radius"))?;
-    check_direction(axis, &format!("{path}.axis"))?;
-    let axis = vector(axis).normalize();
+    check_vector(ring.center, &format!("{path}.center"))?;
+    check_positive(ring.radius, &format!("{path}.radius"))?;
+    check_direction(ring.axis, &format!("{path}.axis"))?;
+    let axis = vector(ring.axis).normalize();
     let side = if axis.x.abs() > NEARLY { DVec3::Y } else { DVec3::X };
     let first = (side - axis * axis.dot(side)).normalize();
     let quarter_on = axis.cross(first);
-    let turn = std::f64::consts::TAU / f64::from(count);
-    let directions = (0..count).map(|i| libm::sincos(turn * f64::from(i)));
-    let directions = directions.map(|(sin, cos)| cos * first + sin * quarter_on);
-    Ok(directions.map(|direction| vector(center) + radius * direction).collect())
+    let place = |i: u32| {
+        let (sin, cos) = libm::sincos(angle(ring, i));
+        let direction = cos * first + sin * quarter_on;
+        Place::along(i, vector(ring.center) + ring.radius * direction)
+    };
+    Ok((0..ring.count).map(place).collect())
+}
+
+/// How far the place of this number, from 0, is turned about the axis of its ring.
+pub(super) fn turn_on_ring(ring: &Ring, i: u32) -> DQuat {
+    let (sin, cos) = libm::sincos(0.5 * angle(ring, i));
+    let [x, y, z] = (sin * vector(ring.axis).normalize()).to_array();
+    DQuat::from_xyzw(x, y, z, cos)
+}
+
+/// From the first place of a ring to the one of this number, from 0 \[rad\].
+fn angle(ring: &Ring, i: u32) -> f64 {
+    std::f64::consts::TAU / f64::from(ring.count) * f64::from(i)
 }

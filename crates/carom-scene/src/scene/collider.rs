@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::finish::Finish;
 use super::rotation;
 use super::values::{Color, Quaternion, Vector, is_default, one, unturned};
 
@@ -59,6 +60,9 @@ pub struct Collider {
     /// Its colour; the scene's own for surfaces where it is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
+    /// How its surface takes light.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub finish: Finish,
 }
 
 impl Collider {
@@ -79,6 +83,7 @@ impl Collider {
             trigger: false,
             visible: true,
             color: None,
+            finish: Finish::default(),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Places for many spheres.
+//! Places for many spheres or colliders.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,33 +7,14 @@ use super::collider::Collider;
 use super::sphere::Sphere;
 use super::values::Vector;
 
-/// Places for many spheres.
+/// Places for many spheres or colliders.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Generator {
-    /// Spheres one after the other along a line.
-    Row {
-        /// How many, >= 1.
-        #[schemars(range(min = 1))]
-        count: u32,
-        /// Centre of the first, in m.
-        start: Vector,
-        /// From each centre to the next, in m.
-        step: Vector,
-        /// What they have in common.
-        sphere: Sphere,
-    },
-    /// Spheres on a box-shaped lattice; x runs fastest, then y, then z.
-    Lattice {
-        /// How many along x, y and z, each >= 1.
-        counts: [u32; 3],
-        /// Centre of the first, in m.
-        start: Vector,
-        /// Distance of neighbours along x, y and z, in m.
-        spacing: Vector,
-        /// What they have in common.
-        sphere: Sphere,
-    },
+    /// Spheres or colliders one after the other along a line.
+    Row(Box<Row>),
+    /// Spheres or colliders on a box-shaped lattice; x runs fastest, then y, then z.
+    Lattice(Box<Lattice>),
     /// Rows, each centred on the one before: staggered, in a triangle, or straight. Of spheres, or
     /// of colliders like the pegs of a Galton board.
     StaggeredRows(Box<StaggeredRows>),
@@ -54,23 +35,8 @@ pub enum Generator {
         /// What they have in common.
         sphere: Sphere,
     },
-    /// Spheres evenly on a circle.
-    Ring {
-        /// How many, >= 1.
-        #[schemars(range(min = 1))]
-        count: u32,
-        /// Of the circle, in m.
-        center: Vector,
-        /// From the centre of the circle to those of the spheres, in m, > 0.
-        #[schemars(extend("exclusiveMinimum" = 0.0))]
-        radius: f64,
-        /// Direction about which they go round, by the right-hand rule; of any length but zero.
-        /// The first is at the side of +x, or of +y where the axis is nearly along x.
-        #[serde(default = "up")]
-        axis: Vector,
-        /// What they have in common.
-        sphere: Sphere,
-    },
+    /// Spheres or colliders evenly on a circle.
+    Ring(Box<Ring>),
     /// Spheres scattered in a box, none overlapping another sphere or a collider.
     Random {
         /// How many, >= 1.
@@ -92,6 +58,73 @@ pub enum Generator {
         /// What they have in common.
         sphere: Sphere,
     },
+}
+
+/// Places one after the other along a line.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [{ "required": ["sphere"] }, { "required": ["collider"] }]))]
+pub struct Row {
+    /// How many, >= 1.
+    #[schemars(range(min = 1))]
+    pub count: u32,
+    /// Centre of the first, in m.
+    pub start: Vector,
+    /// From each centre to the next, in m.
+    pub step: Vector,
+    /// What spheres have in common. Give this or `collider`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sphere: Option<Sphere>,
+    /// What colliders have in common; its position is an offset, its name gets its number.
+    /// Give this or `sphere`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub collider: Option<Collider>,
+}
+
+/// Places on a box-shaped lattice; x runs fastest, then y, then z.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [{ "required": ["sphere"] }, { "required": ["collider"] }]))]
+pub struct Lattice {
+    /// How many along x, y and z, each >= 1.
+    pub counts: [u32; 3],
+    /// Centre of the first, in m.
+    pub start: Vector,
+    /// Distance of neighbours along x, y and z, in m.
+    pub spacing: Vector,
+    /// What spheres have in common. Give this or `collider`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sphere: Option<Sphere>,
+    /// What colliders have in common; its position is an offset, its name gets its numbers along x, y and z.
+    /// Give this or `sphere`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub collider: Option<Collider>,
+}
+
+/// Places evenly on a circle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [{ "required": ["sphere"] }, { "required": ["collider"] }]))]
+pub struct Ring {
+    /// How many, >= 1.
+    #[schemars(range(min = 1))]
+    pub count: u32,
+    /// Of the circle, in m.
+    pub center: Vector,
+    /// From the centre of the circle to the places, in m, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub radius: f64,
+    /// Direction about which they go round, by the right-hand rule; of any length but zero. The
+    /// first is at the side of +x, or of +y where the axis is nearly along x.
+    #[serde(default = "up")]
+    pub axis: Vector,
+    /// What spheres have in common. Give this or `collider`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sphere: Option<Sphere>,
+    /// The first collider, its position an offset; it is turned about the axis to make the others,
+    /// with its velocities. Its name gets the number of each. Give this or `sphere`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub collider: Option<Collider>,
 }
 
 /// Rows, each centred on the one before.
@@ -123,7 +156,7 @@ pub struct StaggeredRows {
 
 impl StaggeredRows {
     /// How many places there are in all rows.
-    pub(crate) fn places(&self) -> u64 {
+    fn places(&self) -> u64 {
         let sum = |counts: &[u32]| counts.iter().map(|&count| u64::from(count)).sum::<u64>();
         let (rows, length) = (self.rows as usize, self.counts.len().max(1));
         let (times, rest) = (rows / length, rows % length);
@@ -147,44 +180,51 @@ impl Generator {
     /// Name of its kind, as it is written.
     pub(crate) fn kind(&self) -> &'static str {
         match self {
-            Self::Row { .. } => "row",
-            Self::Lattice { .. } => "lattice",
+            Self::Row(_) => "row",
+            Self::Lattice(_) => "lattice",
             Self::StaggeredRows(_) => "staggered-rows",
             Self::ClosePacking { .. } => "close-packing",
-            Self::Ring { .. } => "ring",
+            Self::Ring(_) => "ring",
             Self::Random { .. } => "random",
         }
     }
 
     /// How many spheres it makes.
     pub fn count(&self) -> u64 {
+        self.sphere().map_or(0, |_| self.places())
+    }
+
+    /// How many spheres or colliders it makes.
+    pub(crate) fn places(&self) -> u64 {
         match self {
-            Self::Row { count, .. } | Self::Ring { count, .. } | Self::Random { count, .. } => {
-                (*count).into()
-            }
-            Self::StaggeredRows(rows) if rows.sphere.is_none() => 0,
+            Self::Row(row) => row.count.into(),
+            Self::Ring(ring) => ring.count.into(),
+            Self::Random { count, .. } => (*count).into(),
             Self::StaggeredRows(rows) => rows.places(),
-            Self::Lattice { counts, .. } | Self::ClosePacking { counts, .. } => product(counts),
+            Self::Lattice(lattice) => product(&lattice.counts),
+            Self::ClosePacking { counts, .. } => product(counts),
         }
     }
 
     /// What its spheres have in common; `None` if it makes colliders.
     pub fn sphere(&self) -> Option<&Sphere> {
         match self {
-            Self::Row { sphere, .. }
-            | Self::Lattice { sphere, .. }
-            | Self::ClosePacking { sphere, .. }
-            | Self::Ring { sphere, .. }
-            | Self::Random { sphere, .. } => Some(sphere),
+            Self::ClosePacking { sphere, .. } | Self::Random { sphere, .. } => Some(sphere),
+            Self::Row(row) => row.sphere.as_ref(),
+            Self::Lattice(lattice) => lattice.sphere.as_ref(),
             Self::StaggeredRows(rows) => rows.sphere.as_ref(),
+            Self::Ring(ring) => ring.sphere.as_ref(),
         }
     }
 
     /// What its colliders have in common; `None` if it makes spheres.
     pub fn collider(&self) -> Option<&Collider> {
         match self {
+            Self::ClosePacking { .. } | Self::Random { .. } => None,
+            Self::Row(row) => row.collider.as_ref(),
+            Self::Lattice(lattice) => lattice.collider.as_ref(),
             Self::StaggeredRows(rows) => rows.collider.as_ref(),
-            _ => None,
+            Self::Ring(ring) => ring.collider.as_ref(),
         }
     }
 }

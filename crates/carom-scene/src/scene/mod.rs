@@ -4,6 +4,7 @@
 
 mod collider;
 mod emitter;
+mod finish;
 mod force;
 mod generator;
 mod look;
@@ -17,8 +18,9 @@ use serde::{Deserialize, Serialize};
 
 pub use collider::{Collider, Shape, Side};
 pub use emitter::Emitter;
+pub use finish::Finish;
 pub use force::Force;
-pub use generator::{Generator, Stacking, StaggeredRows};
+pub use generator::{Generator, Lattice, Ring, Row, Stacking, StaggeredRows};
 pub use look::{Camera, Colors, DensityColor, Sun};
 pub use simulation::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule,

@@ -4,6 +4,7 @@ use carom::SOLID_BALL;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::finish::Finish;
 use super::rotation;
 use super::values::{Color, Quaternion, Vector, is_default, is_unturned, one, unturned};
 
@@ -75,6 +76,9 @@ pub struct Sphere {
     /// Colour; by density or the scene's own where it is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
+    /// How its surface takes light.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub finish: Finish,
 }
 
 impl Sphere {
@@ -96,6 +100,7 @@ impl Sphere {
             angular_velocity: [0.0; 3],
             inertia_factor: SOLID_BALL,
             color: None,
+            finish: Finish::default(),
         }
     }
 }

@@ -346,13 +346,13 @@ impl Session {
         replace(&mut arrays.restitutions, spheres.restitutions().iter().copied());
         replace(&mut arrays.frictions, spheres.frictions().iter().copied());
         replace(&mut arrays.inertia_factors, spheres.inertia_factors().iter().copied());
-        let mut colors = self.looks.colors().iter().peekable();
+        let mut paints = self.looks.paints().iter().peekable();
         // Both lists are ascending.
-        let color_of = |id: &SphereId| {
-            while colors.next_if(|(of, _)| of < id).is_some() {}
-            colors.next_if(|(of, _)| of == id).map(|(_, color)| *color)
+        let paint_of = |id: &SphereId| {
+            while paints.next_if(|(of, _)| of < id).is_some() {}
+            paints.next_if(|(of, _)| of == id).map(|(_, paint)| *paint).unwrap_or_default()
         };
-        replace(&mut arrays.colors, spheres.ids().iter().map(color_of));
+        replace(&mut arrays.paints, spheres.ids().iter().map(paint_of));
         arrays.stamp = self.stamp;
     }
 

@@ -158,7 +158,7 @@ fn emitters_emit_what_they_were_changed_to() {
     session.step().unwrap();
     let view = view(&session);
     let newest = view.spheres.masses.iter().position(|mass| *mass == 3.0).unwrap();
-    assert_eq!(view.spheres.colors[newest], GREEN);
+    assert_eq!(view.spheres.paints[newest].color, GREEN);
     let bad = changed.with_period(-1.0);
     assert!(session.edit(Edit::Emitter(id, Box::new(bad))).is_err());
 }
@@ -177,7 +177,7 @@ fn spheres_keep_the_colour_they_came_with() {
         for _ in 0..30 {
             session.step().unwrap();
             let view = view(&session);
-            let of = |color| view.spheres.colors.iter().filter(|it| **it == color).count();
+            let of = |color| view.spheres.paints.iter().filter(|it| it.color == color).count();
             assert_eq!([RED, BLUE, GREEN, YELLOW].map(of), [1, 12, 4, 5], "{rule:?}");
         }
     }
@@ -205,9 +205,9 @@ fn the_colour_of_an_emitted_sphere_is_that_of_its_emitter() {
         for _ in 0..60 {
             session.step().unwrap();
             let view = view(&session);
-            for (velocity, color) in view.spheres.velocities.iter().zip(&view.spheres.colors) {
+            for (velocity, paint) in view.spheres.velocities.iter().zip(&view.spheres.paints) {
                 let expected = if velocity.x > 0.0 { GREEN } else { YELLOW };
-                assert_eq!(*color, expected, "{rule:?}, {} s", session.time());
+                assert_eq!(paint.color, expected, "{rule:?}, {} s", session.time());
             }
         }
     }
@@ -219,8 +219,11 @@ fn a_thrown_sphere_is_there_with_its_colour() {
     let sphere = Sphere::new(DVec3::new(0.0, 50.0, 0.0), 0.1).with_density(800.0);
     session.edit(Edit::Throw { sphere: Box::new(sphere), color: None }).unwrap();
     session.edit(Edit::Throw { sphere: Box::new(sphere), color: RED }).unwrap();
-    assert_eq!(view(&session).spheres.colors.as_slice()[13..], [BLUE, RED]);
+    assert_eq!(
+        view(&session).spheres.paints[13..].iter().map(|it| it.color).collect::<Vec<_>>(),
+        [BLUE, RED]
+    );
     let nowhere = Sphere::new(DVec3::NAN, 0.1);
     assert!(session.edit(Edit::Throw { sphere: Box::new(nowhere), color: RED }).is_err());
-    assert_eq!(view(&session).spheres.colors.len(), 15);
+    assert_eq!(view(&session).spheres.paints.len(), 15);
 }

@@ -51,7 +51,7 @@ fn what_was_edited_is_in_the_file() {
     let colors = |session: &Session| {
         let mut view = View::default();
         session.fill(&mut view);
-        view.spheres.colors
+        view.spheres.paints
     };
     assert_eq!(colors(&session), colors(&again));
 }

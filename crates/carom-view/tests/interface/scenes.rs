@@ -134,20 +134,9 @@ fn looking_at_values_changes_none() {
     let mut scene_file = Scene::new("odd");
     for restitution in [2.0 / 3.0, 0.123_456_789] {
         scene_file.colliders.push(Collider {
-            name: String::new(),
-            shape: Shape::HalfSpace,
             position: [0.0, -1.0, 0.0],
-            rotation: [0.0, 0.0, 0.0, 1.0],
-            velocity: [0.0; 3],
-            angular_velocity: [0.0; 3],
             restitution,
-            friction: None,
-            rolling_friction: None,
-            spinning_friction: None,
-            tangential_restitution: None,
-            trigger: false,
-            visible: true,
-            color: None,
+            ..Collider::new(Shape::HalfSpace)
         });
     }
     let start = Some(Start::Scene(Box::new(scene_file.clone()), Source::Registered));

@@ -1,0 +1,125 @@
+//! How finishes take light, measured in the pixels of pictures.
+
+use carom::{DQuat, DVec3, Pose, Shape, Sides};
+use carom_render::{Ball, Camera, Drawing, Offscreen, Pattern, Picture, Quality};
+use carom_scene::Coat;
+use carom_scene::scene::{Color, Finish};
+
+const SIZE: [u32; 2] = [200, 200];
+const ALL: [Finish; 5] =
+    [Finish::Matte, Finish::Satin, Finish::Glossy, Finish::Metal, Finish::Glass];
+const RED: Color = [0.8, 0.1, 0.1];
+const GREEN: Color = [0.1, 0.7, 0.2];
+
+fn ball(center: DVec3, color: Color, finish: Finish) -> Ball {
+    Ball::of_sphere(center, 0.5, Coat { color, finish }, None)
+}
+
+/// Pictures of balls before the sky in every quality.
+fn pictures(balls: &[Ball]) -> [Picture; 2] {
+    let drawing = Drawing { balls: balls.to_vec(), ..Drawing::default() };
+    [Quality::DRAFT, Quality::FINE].map(|quality| drawn(&drawing, quality))
+}
+
+fn drawn(drawing: &Drawing, quality: Quality) -> Picture {
+    let mut offscreen = Offscreen::new(SIZE, quality).expect("a graphics driver");
+    let camera = Camera::looking_at(DVec3::Z * 3.0, DVec3::ZERO, 0.6);
+    offscreen.draw(drawing, &camera).expect("a picture")
+}
+
+fn middle(picture: &Picture) -> [u8; 3] {
+    let first = 4 * (SIZE[1] / 2 * SIZE[0] + SIZE[0] / 2) as usize;
+    std::array::from_fn(|i| picture.pixels[first + i])
+}
+
+/// How bright the brightest of the pixels is whose blue is least: of a red ball, its highlight.
+fn highlight(picture: &Picture) -> u32 {
+    // The ball is half as wide as the picture.
+    let [width, height] = SIZE.map(|edge| edge as usize);
+    let within = |i: &usize| {
+        let (x, y) = (i % width, i / width);
+        (x.abs_diff(width / 2).pow(2) + y.abs_diff(height / 2).pow(2)) < (width / 5).pow(2)
+    };
+    (0..width * height)
+        .filter(within)
+        .map(|i| picture.pixels[4 * i + 2].into())
+        .max()
+        .expect("pixels")
+}
+
+#[test]
+fn the_more_polished_a_ball_the_brighter_its_highlight() {
+    for i in [0, 1] {
+        let of = |finish| highlight(&pictures(&[ball(DVec3::ZERO, RED, finish)])[i]);
+        let [matte, satin, glossy, ..] = ALL.map(of);
+        // Of eight bits: an eighth at least, as one sees it.
+        assert!(matte + 30 < satin && satin + 30 < glossy, "{matte} {satin} {glossy}");
+    }
+}
+
+#[test]
+fn what_is_behind_shows_through_glass_alone_and_in_its_tint() {
+    let behind = ball(DVec3::Z * -1.2, GREEN, Finish::Satin);
+    for finish in ALL {
+        let before = ball(DVec3::ZERO, RED, finish);
+        // Whichever comes first in the list.
+        let [with, turned, without] =
+            [[before, behind].as_slice(), &[behind, before], &[before]].map(pictures);
+        for i in [0, 1] {
+            let [with, turned, without] = [&with[i], &turned[i], &without[i]].map(middle);
+            assert_eq!(with, turned, "{finish:?}");
+            assert_eq!(with != without, finish == Finish::Glass, "{finish:?}");
+        }
+        if finish == Finish::Glass {
+            let [red, green, _] = middle(&without[1]);
+            assert!(red > green, "the tint: {red} {green}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_before_glass_hides_it() {
+    let before = ball(DVec3::Z, GREEN, Finish::Matte);
+    let behind = ball(DVec3::ZERO, RED, Finish::Glass);
+    let [with, alone] = [[before, behind].as_slice(), &[before]].map(pictures);
+    assert_eq!(with.map(|it| middle(&it)), alone.map(|it| middle(&it)));
+}
+
+#[test]
+fn glass_shades_less_than_what_is_solid() {
+    for quality in [Quality::DRAFT, Quality::FINE] {
+        let light = |finish: Option<Finish>| {
+            let mut drawing = Drawing::default();
+            let wall = Pose {
+                position: DVec3::Z * -2.0,
+                rotation: DQuat::from_rotation_arc(DVec3::Y, DVec3::Z),
+            };
+            let shape = Shape::Rectangle { size_x: 9.0, size_z: 9.0 };
+            drawing.add_collider(shape, wall, [0.8; 3], false);
+            drawing.light.to_sun = DVec3::new(0.0, 0.5, 1.0).normalize();
+            // Its shadow falls on the middle of the wall, which it leaves in sight.
+            let above = DVec3::new(0.0, 1.0, 0.0);
+            drawing.balls.extend(finish.map(|finish| ball(above, RED, finish)));
+            middle(&drawn(&drawing, quality))[1]
+        };
+        let [lit, glass, solid] =
+            [None, Some(Finish::Glass), Some(Finish::Matte)].map(light).map(u32::from);
+        assert!(solid + 15 < glass && glass + 15 < lit, "{solid} {glass} {lit}");
+    }
+}
+
+#[test]
+fn a_container_of_glass_shows_what_it_holds_through_every_wall() {
+    let mut drawing = Drawing::default();
+    let held = Ball { pattern: Pattern::Glowing, ..ball(DVec3::ZERO, RED, Finish::Satin) };
+    drawing.balls.push(held);
+    let bare = drawn(&drawing, Quality::FINE);
+    let shape = Shape::Container { size: DVec3::splat(1.4), open: Sides::NONE };
+    let glass = Coat { color: [0.7, 0.85, 0.9], finish: Finish::Glass };
+    drawing.add_collider(shape, Pose::at(DVec3::ZERO), glass, false);
+    let [red, green, _] = middle(&drawn(&drawing, Quality::FINE));
+    let [bare_red, bare_green, _] = middle(&bare);
+    // The near wall is seen, and more of the ball.
+    assert!(green > bare_green + 20, "{green} {bare_green}");
+    assert!(red > green + 40 && red.abs_diff(bare_red) < 60, "{red} {green} {bare_red}");
+}
