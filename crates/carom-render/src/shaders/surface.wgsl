@@ -98,6 +98,8 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
         let to_edge = (reach - abs(place)) / pixel;
         let edge = 1.0 - smoothstep(0.4, 1.6, min(to_edge.x, to_edge.y));
         color *= 1.0 - 0.35 * edge;
+        // Of glass, one sees the edges best.
+        opacity = select(opacity, mix(opacity, 0.8, edge), in.finish == GLASS);
     }
 
     var surface: Surface;
