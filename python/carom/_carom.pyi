@@ -22,6 +22,7 @@ __all__ = [
     "find_scene",
     "list_scenes",
     "read_scene",
+    "read_scene_file",
     "run_command",
 ]
 
@@ -297,6 +298,7 @@ def film_scene(
     view: View,
 ) -> int: ...
 def read_scene(text: str, source: str, overrides: list[str]) -> str: ...
+def read_scene_file(path: str | PathLike[str], overrides: list[str]) -> str: ...
 def canonical_toml(text: str) -> str: ...
 def find_scene(
     name: str,

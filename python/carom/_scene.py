@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from carom import _parts as parts
 from carom import _pictures as pictures
-from carom._carom import canonical_toml, read_scene
+from carom._carom import canonical_toml, read_scene, read_scene_file
 from carom._text import fields_of, toml_of, toml_value
 from carom._trajectory import Trajectory
 from carom._world import World
@@ -98,14 +98,15 @@ class Scene(parts.Part):
     def from_file(
         cls, path: str | os.PathLike[str], *, changes: Mapping[str, Any] = NO_CHANGES
     ) -> Scene:
-        """Reads a scene file.
+        """Reads a scene file, and those that it includes.
 
         Raises:
             OSError: If it cannot be read.
             SceneError: With the field and line of what is wrong.
         """
-        text = Path(path).read_text(encoding="utf-8")
-        return cls.from_toml(text, source=os.fspath(path), changes=changes)
+        with Path(path).open("rb"):
+            """An error of the system is told as such."""
+        return cls(**fields_of(json.loads(read_scene_file(path, overrides(changes)))))
 
     def to_toml(self) -> str:
         """The text of a scene file, every default written out.

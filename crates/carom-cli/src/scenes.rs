@@ -57,23 +57,18 @@ pub fn check(files: &[PathBuf]) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let mut broken = 0;
     for file in files {
-        let (name, text) = if file.as_os_str() == STANDARD {
-            (standard_input::NAME.to_owned(), Ok(standard_input::text()?.to_owned()))
+        let (name, scene, faults) = if file.as_os_str() == STANDARD {
+            let (name, text) = (standard_input::NAME, standard_input::text()?);
+            (name.to_owned(), Scene::from_toml(text, name), Scene::faults(text, name))
         } else {
-            (file.display().to_string(), std::fs::read_to_string(file))
+            let faults = Scene::faults_of_file(file).unwrap_or_default();
+            (file.display().to_string(), Scene::from_file(file, &[]), faults)
         };
-        let faults = match text {
-            Ok(text) => Scene::from_toml(&text, &name).map_err(|error| {
-                let faults = Scene::faults(&text, &name);
-                // What a single fault says is the error itself.
-                if faults.len() > 1 { lines(&faults) } else { error.to_string() }
-            }),
-            Err(error) => Err(format!("cannot read {name}: {error}")),
-        };
-        match faults {
+        match scene {
             Ok(scene) => writeln!(out, "{name}: ok, \"{}\"", scene.name)?,
-            Err(faults) => {
-                complain(&faults);
+            Err(error) => {
+                // What a single fault says is the error itself.
+                complain(&if faults.len() > 1 { lines(&faults) } else { error.to_string() });
                 broken += 1;
             }
         }

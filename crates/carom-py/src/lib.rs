@@ -74,7 +74,7 @@ mod _carom {
     #[pymodule_export]
     use crate::film::film_scene;
     #[pymodule_export]
-    use crate::scenes::{canonical_toml, find_scene, list_scenes, read_scene};
+    use crate::scenes::{canonical_toml, find_scene, list_scenes, read_scene, read_scene_file};
 
     /// Whether `carom view` is there, and opens a window.
     #[pymodule_export]

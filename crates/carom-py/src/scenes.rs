@@ -15,6 +15,12 @@ pub fn read_scene(text: &str, source: &str, overrides: Vec<String>) -> Result<St
     Ok(serde_json::to_string(&scene)?)
 }
 
+/// Reads a scene file and those that it includes, as [`read_scene`] does a text.
+#[pyfunction]
+pub fn read_scene_file(path: PathBuf, overrides: Vec<String>) -> Result<String, Failure> {
+    Ok(serde_json::to_string(&Scene::from_file(&path, &parsed(&overrides)?)?)?)
+}
+
 /// The scene that `text` describes in TOML, every default written out.
 #[pyfunction]
 pub fn canonical_toml(text: &str) -> Result<String, Failure> {

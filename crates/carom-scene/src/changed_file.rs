@@ -1,19 +1,23 @@
-//! A file that is edited while it is in use.
+//! A scene file that is edited while it is in use.
 
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// A file, and when it was changed last.
+use crate::text::SceneText;
+
+/// A scene file and those that it includes, and when they were changed last.
 #[derive(Debug, Clone)]
 pub struct ChangedFile {
     path: PathBuf,
-    changed: Option<SystemTime>,
+    files: Vec<(PathBuf, Option<SystemTime>)>,
 }
 
 impl ChangedFile {
     /// A file as it is now.
     pub fn new(path: &Path) -> Self {
-        Self { path: path.to_owned(), changed: changed(path) }
+        let mut file = Self { path: path.to_owned(), files: Vec::new() };
+        file.list();
+        file
     }
 
     /// Where it is.
@@ -21,15 +25,35 @@ impl ChangedFile {
         &self.path
     }
 
-    /// Whether it was changed since it was looked at last. While an editor writes it anew, it may be
-    /// missing for a moment, which is no change.
+    /// Whether it, or one that it includes, was changed since it was looked at last. While an editor
+    /// writes a file anew, it may be missing for a moment, which is no change.
     pub fn look(&mut self) -> bool {
-        let now = changed(&self.path);
-        if now.is_none() || now == self.changed {
-            return false;
+        let is_changed = |(path, before): &(PathBuf, Option<SystemTime>)| {
+            let now = changed(path);
+            now.is_some() && now != *before
+        };
+        let is_any = self.files.iter().any(is_changed);
+        if is_any {
+            self.list();
         }
-        self.changed = now;
-        true
+        is_any
+    }
+
+    /// Lists the files anew; those that were included last where the file cannot be read now.
+    fn list(&mut self) {
+        let paths: Vec<PathBuf> = match SceneText::from_file(&self.path) {
+            Ok(text) => text.included().map(Path::to_owned).chain([self.path.clone()]).collect(),
+            Err(_) => {
+                let before = self.files.iter().map(|(path, _)| path.clone());
+                let before = before.filter(|path| *path != self.path);
+                before.chain([self.path.clone()]).collect()
+            }
+        };
+        let dated = |path: PathBuf| {
+            let changed = changed(&path);
+            (path, changed)
+        };
+        self.files = paths.into_iter().map(dated).collect();
     }
 }
 

@@ -17,7 +17,7 @@ const FORMULA_OR_QUANTITY: &str = "^(=|[-+]?[0-9.].*[^-+.0-9]$)";
 pub fn json_schema() -> String {
     let settings = SchemaSettings::default().with_transform(RecursiveTransform(allow_text));
     let mut schema = settings.into_generator().into_root_schema_for::<Scene>();
-    add_parameters(&mut schema);
+    add_properties(&mut schema);
     let mut text = serde_json::to_string_pretty(&schema).expect("a schema is plain JSON");
     text.push('\n');
     text
@@ -45,8 +45,9 @@ fn allow_text(schema: &mut Schema) {
     }
 }
 
-/// The parameters are no field of a scene: reading a file puts numbers in the place of its formulas.
-fn add_parameters(schema: &mut Schema) {
+/// What a file says that is no field of a scene: reading it puts numbers in the place of formulas, and
+/// what other files say in the place of their names.
+fn add_properties(schema: &mut Schema) {
     let mut value = schemars::json_schema!({ "type": "number" });
     allow_text(&mut value);
     let table = json!({
@@ -57,5 +58,11 @@ fn add_parameters(schema: &mut Schema) {
     });
     if let Some(Value::Object(properties)) = schema.get_mut("properties") {
         properties.insert(parameters::TABLE.to_owned(), table);
+        let include = json!({
+            "description": "Scene files beside this one, a path or a list: what they say counts as if it stood before \
+                            what this one says; of single values, those of this one count.",
+            "oneOf": [{ "type": "string" }, { "type": "array", "items": { "type": "string" } }],
+        });
+        properties.insert("include".to_owned(), include);
     }
 }

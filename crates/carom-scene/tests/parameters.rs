@@ -1,7 +1,7 @@
 //! Parameters and formulas of scene files: what they become, what `--set` changes, and where errors are.
 
 use carom::DVec3;
-use carom_scene::{Override, Scene, SceneError};
+use carom_scene::{Override, Scene, SceneError, SceneText};
 
 const TEXT: &str = r#"name = "line"
 title = "= in words"
@@ -198,12 +198,13 @@ fn described(schema: &serde_json::Value, fields: &mut Vec<(String, String)>) {
 #[test]
 fn parameters_are_listed_in_order_with_what_they_come_to() {
     let overrides: Vec<Override> = vec!["parameters.r=0.5".parse().unwrap()];
-    let list = Scene::parameters(TEXT, "line.toml", &overrides).unwrap();
+    let list = SceneText::new(TEXT, "line.toml").unwrap().parameters(&overrides).unwrap();
     let listed: Vec<_> = list.iter().map(|it| (it.name.as_str(), it.value)).collect();
     assert_eq!(listed, [("r", 0.5), ("count", 4.0), ("height", 4.0)]);
     let kinds: Vec<_> = list.iter().map(|it| (it.is_formula, it.is_whole)).collect();
     assert_eq!(kinds, [(false, false), (false, true), (true, false)]);
-    assert_eq!(Scene::parameters("name = 'x'", "x.toml", &[]).unwrap(), []);
-    let error = Scene::parameters("[parameters]\na = '=b'", "x.toml", &[]).unwrap_err().to_string();
+    assert_eq!(SceneText::new("name = 'x'", "x.toml").unwrap().parameters(&[]).unwrap(), []);
+    let error = SceneText::new("[parameters]\na = '=b'", "x.toml").unwrap().parameters(&[]);
+    let error = error.unwrap_err().to_string();
     assert!(error.contains("x.toml") && error.contains("parameters.a"), "{error}");
 }

@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use carom_scene::{Override, Parameter, Scene, SceneError};
+use carom_scene::{Override, Parameter, Scene, SceneError, SceneText};
 use carom_session::{Link, LinkSource};
 
 /// A scene as it is written, with formulas where its author wrote some.
 pub struct WrittenScene {
-    name: String,
-    text: String,
+    text: SceneText,
     overrides: Vec<Override>,
     /// What it comes to.
     scene: Scene,
@@ -21,22 +20,20 @@ impl WrittenScene {
     /// # Errors
     /// For a text that is no scene.
     pub fn new(name: &str, text: &str, overrides: Vec<Override>) -> Result<Self, SceneError> {
-        let scene = Scene::from_toml_with(text, name, &overrides)?;
-        let parameters = Scene::parameters(text, name, &overrides)?;
-        let (name, text) = (name.to_owned(), text.to_owned());
-        Ok(Self { name, text, overrides, scene, parameters })
+        Self::of(SceneText::new(text, name)?, overrides)
     }
 
-    /// A scene file of the disk, with these values changed.
+    fn of(text: SceneText, overrides: Vec<Override>) -> Result<Self, SceneError> {
+        let (scene, parameters) = (text.scene(&overrides)?, text.parameters(&overrides)?);
+        Ok(Self { text, overrides, scene, parameters })
+    }
+
+    /// A scene file of the disk and those that it includes, with these values changed.
     ///
     /// # Errors
     /// If it cannot be read, or is no scene.
     pub fn from_file(path: &Path, overrides: Vec<Override>) -> Result<Self, SceneError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
-        // Links are for others: where it lies here is not for them.
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        Self::new(&name, &text, overrides)
+        Self::of(SceneText::from_file(path)?, overrides)
     }
 
     /// The scene that the text comes to.
@@ -65,12 +62,14 @@ impl WrittenScene {
         let changed: Override = format!("parameters.{name}={value}").parse()?;
         let is_other = |it: &&Override| !it.to_string().starts_with(&format!("parameters.{name}="));
         let others = self.overrides.iter().filter(is_other).cloned();
-        Self::new(&self.name, &self.text, others.chain([changed]).collect())
+        Self::of(self.text.clone(), others.chain([changed]).collect())
     }
 
     /// A link to its beginning, which keeps formulas.
     pub fn link(&self) -> Link {
-        let (name, text) = (self.name.clone(), self.text.clone());
+        // Links are for others: where the file lies here is not for them.
+        let name = Path::new(self.text.name()).file_name().unwrap_or_default();
+        let (name, text) = (name.to_string_lossy().into_owned(), self.text.whole().into_owned());
         Link::new(LinkSource::File { name, text }).with_overrides(self.overrides.clone())
     }
 }

@@ -52,7 +52,13 @@ impl App {
             }
             return;
         }
-        match WrittenScene::new(&name, text, Vec::new()) {
+        // A page has the text alone; a file of the disk may include others.
+        let written = if path.is_file() {
+            WrittenScene::from_file(path, Vec::new())
+        } else {
+            WrittenScene::new(&name, text, Vec::new())
+        };
+        match written {
             Ok(written) => {
                 self.open(written.scene().clone(), Source::File(path.to_owned()));
                 if let Screen::Watching(watching) = &mut self.screen {

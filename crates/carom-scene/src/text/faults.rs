@@ -1,42 +1,69 @@
-//! All faults of a scene file at once.
+//! All faults of a scene at once.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use toml::de::DeTable;
 use toml::{Table, Value};
 
-use crate::error::{Fault, Problem};
-use crate::load::{fault, line_at, line_of, named, place_of, read};
+use super::source::of_syntax;
+use super::{SceneText, place_of};
+use crate::error::{Fault, Problem, SceneError};
+use crate::load::read;
 use crate::scene::Scene;
 
-/// Faults of one file in a list, at most: those after them are likely to follow from them.
+/// Faults of one scene in a list, at most: those after them are likely to follow from them.
 const MOST: usize = 20;
 
 impl Scene {
-    /// What is wrong with a scene file, in the order of its lines, up to twenty faults; nothing if
-    /// [`Self::from_toml`] reads it. Of each sphere, collider and so on, it is the first fault.
-    ///
-    /// ```
-    /// use carom_scene::Scene;
-    ///
-    /// let text = "name = 'two'\n[[spheres]]\nradus = 1\n[[spheres]]\nradius = -1\n";
-    /// let faults = Scene::faults(text, "two.toml");
-    /// let lines: Vec<_> = faults.iter().filter_map(|fault| fault.line).collect();
-    /// assert_eq!(lines, [3, 5]);
-    /// ```
+    /// What is wrong with the text of a scene: see [`SceneText::faults`].
     pub fn faults(text: &str, source_name: &str) -> Vec<Fault> {
-        let (document, errors) = DeTable::parse_recoverable(text);
+        let (_, errors) = DeTable::parse_recoverable(text);
         if !errors.is_empty() {
-            let of_syntax = |error: &toml::de::Error| {
-                let line = error.span().map(|span| line_at(text, span.start));
-                fault(source_name, line, "", error.message())
-            };
+            let of_syntax = |error: &toml::de::Error| of_syntax(source_name, text, error);
             return errors.iter().map(of_syntax).take(MOST).collect();
         }
-        let mut table = match named(text, source_name) {
-            Ok(table) => table,
-            Err(error) => return vec![fault(source_name, None, "", error.message())],
-        };
+        match SceneText::new(text, source_name) {
+            Ok(text) => text.faults(),
+            Err(SceneError::Invalid(fault)) => vec![fault],
+            Err(_) => Vec::new(),
+        }
+    }
+
+    /// What is wrong with a scene file and those that it includes: see [`SceneText::faults`].
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn faults_of_file(path: &Path) -> Result<Vec<Fault>, SceneError> {
+        match SceneText::from_file(path) {
+            Ok(text) => Ok(text.faults()),
+            // Of one file that is no TOML, all errors.
+            Err(SceneError::Invalid(fault)) if fault.source_name == path.display().to_string() => {
+                let text = std::fs::read_to_string(path).unwrap_or_default();
+                let faults = Self::faults(&text, &fault.source_name);
+                Ok(if faults.len() > 1 { faults } else { vec![fault] })
+            }
+            Err(SceneError::Invalid(fault)) => Ok(vec![fault]),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+impl SceneText {
+    /// What is wrong with it, in the order of its lines, up to twenty faults; nothing if
+    /// [`Self::scene`] reads it. Of each sphere, collider and so on, it is the first fault.
+    ///
+    /// ```
+    /// use carom_scene::SceneText;
+    ///
+    /// let text = "name = 'two'\n[[spheres]]\nradus = 1\n[[spheres]]\nradius = -1\n";
+    /// let faults = SceneText::new(text, "two.toml")?.faults();
+    /// let lines: Vec<_> = faults.iter().filter_map(|fault| fault.line).collect();
+    /// assert_eq!(lines, [3, 5]);
+    /// # Ok::<(), carom_scene::SceneError>(())
+    /// ```
+    pub fn faults(&self) -> Vec<Fault> {
+        let mut table = self.table.clone();
         let mut originals = originals(&table);
         let (mut faults, mut taken): (Vec<Fault>, Vec<String>) = Default::default();
         while faults.len() < MOST
@@ -44,8 +71,7 @@ impl Scene {
         {
             let field = as_written(&problem.field, &originals);
             let problem = Problem { field, ..problem };
-            let line = line_of(&document, text, &problem);
-            let found = fault(source_name, line, &problem.field, &problem.problem);
+            let found = self.fault(&problem);
             // What was taken out is missing now.
             let is_our_doing = missing(&problem).is_some_and(|field| taken.contains(&field));
             let is_known = faults.contains(&found);
@@ -62,7 +88,9 @@ impl Scene {
                 break;
             }
         }
-        faults.sort_by_key(|fault| fault.line);
+        // The file itself comes first.
+        let is_included = |fault: &Fault| fault.source_name != self.name();
+        faults.sort_by_key(|fault| (is_included(fault), fault.source_name.clone(), fault.line));
         faults
     }
 }

@@ -1,0 +1,101 @@
+//! Scene files that include others.
+
+use std::path::{Path, PathBuf};
+
+use toml::{Table, Value};
+
+use super::source::SourceText;
+use crate::error::SceneError;
+
+/// The field of a scene file that names the files it includes.
+const FIELD: &str = "include";
+
+/// Files of one scene at most: a slip, or somebody's joke, would read files without end.
+const MOST_FILES: usize = 100;
+
+/// Fields by which a scene is known, which those that include it do not take over.
+const OWN: [&str; 4] = ["name", "title", "description", "origin"];
+
+/// Lists of a scene: what included files have in them comes before what the file has itself.
+const LISTS: [&str; 5] = ["forces", "spheres", "generators", "colliders", "emitters"];
+
+/// Whether a field is a list of things that files of one scene have together.
+pub(super) fn is_list(field: &str) -> bool {
+    LISTS.contains(&field)
+}
+
+/// A text and, before it, those of the files that it includes, in their order. `way` leads to it: the
+/// files that include each other.
+pub(super) fn with_included(
+    mut own: SourceText,
+    way: &[PathBuf],
+    count: &mut usize,
+) -> Result<Vec<SourceText>, SceneError> {
+    let mut sources = Vec::new();
+    let Some(included) = own.table.remove(FIELD) else {
+        sources.push(own);
+        return Ok(sources);
+    };
+    let refused = |problem: &str| Err(own.fault(FIELD, problem).into());
+    let Some(names) = names(&included) else {
+        return refused("must be the path of a scene file, or a list of such");
+    };
+    let Some(path) = way.last() else {
+        return refused("only a file includes others, which lie beside it");
+    };
+    for name in names {
+        let path = path.parent().unwrap_or(Path::new("")).join(name);
+        if way.iter().any(|other| is_same(other, &path)) {
+            return refused(&format!("\"{name}\" includes this file"));
+        }
+        *count += 1;
+        if *count >= MOST_FILES {
+            return refused(&format!("a scene has {MOST_FILES} files at most"));
+        }
+        let text = match read(&path) {
+            Ok(text) => text,
+            Err(error) => return refused(&format!("cannot read \"{name}\": {error}")),
+        };
+        let mut other = SourceText::new(&path.display().to_string(), &text)?;
+        other.table.retain(|field, _| !OWN.contains(&field));
+        let way: Vec<PathBuf> = way.iter().cloned().chain([path]).collect();
+        sources.extend(with_included(other, &way, count)?);
+    }
+    sources.push(own);
+    Ok(sources)
+}
+
+/// One path or several.
+fn names(included: &Value) -> Option<Vec<&str>> {
+    match included {
+        Value::String(name) => Some(vec![name]),
+        Value::Array(names) => names.iter().map(Value::as_str).collect(),
+        _ => None,
+    }
+}
+
+fn is_same(one: &Path, other: &Path) -> bool {
+    let [one, other] = [one, other].map(std::fs::canonicalize);
+    one.is_ok_and(|one| other.is_ok_and(|other| one == other))
+}
+
+fn read(path: &Path) -> std::io::Result<String> {
+    // Devices have no end.
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(std::io::Error::other("it is no file"));
+    }
+    std::fs::read_to_string(path)
+}
+
+/// Lays a table over another: lists of things one behind the other, tables into each other; of
+/// other values, the upper ones count.
+pub(super) fn lay_over(lower: &mut Table, upper: Table) {
+    for (field, value) in upper {
+        match (lower.get_mut(&field), value) {
+            (Some(Value::Array(list)), Value::Array(more)) if is_list(&field) => list.extend(more),
+            (Some(Value::Table(inner)), Value::Table(over)) => lay_over(inner, over),
+            (Some(place), value) => *place = value,
+            (None, value) => _ = lower.insert(field, value),
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! The text of a scene, to scenes, and the place in it of every error.
+
+mod faults;
+mod include;
+mod source;
+
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+use toml::{Table, Value};
+
+use self::source::{SourceText, fault};
+use crate::error::{Fault, Problem, SceneError, segments};
+use crate::load::read;
+use crate::overrides::Override;
+use crate::parameters::{self, Parameter};
+use crate::scene::Scene;
+use crate::wording::with_names;
+
+/// The text of a scene file, with those of the files that it includes.
+///
+/// ```
+/// use carom_scene::SceneText;
+///
+/// let text = SceneText::new("[parameters]\nr = 0.5\n[[spheres]]\nradius = '=2*r'\n", "one.toml")?;
+/// let scene = text.scene(&["r=0.25".parse()?])?;
+/// assert_eq!(scene.spheres[0].radius, Some(0.5));
+/// assert_eq!(text.parameters(&[])?[0].value, 0.5);
+/// # Ok::<(), carom_scene::SceneError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct SceneText {
+    /// Included ones first, each before the one that includes it; the file itself last.
+    sources: Vec<SourceText>,
+    /// All that they say.
+    table: Table,
+}
+
+impl SceneText {
+    /// A text; `source_name` is what errors call it, and without its ending the name of a scene that has
+    /// none.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] for text that is no TOML, or that includes a file.
+    pub fn new(text: &str, source_name: &str) -> Result<Self, SceneError> {
+        Self::of(SourceText::new(source_name, text)?, &[])
+    }
+
+    /// A file, and those that it includes.
+    ///
+    /// # Errors
+    /// [`SceneError::Unreadable`] if it cannot be read, [`SceneError::Invalid`] for what is no TOML, and
+    /// for a file it includes that cannot be read or includes it in turn.
+    pub fn from_file(path: &Path) -> Result<Self, SceneError> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
+        let own = SourceText::new(&path.display().to_string(), &text)?;
+        Self::of(own, &[path.to_owned()])
+    }
+
+    fn of(own: SourceText, way: &[PathBuf]) -> Result<Self, SceneError> {
+        let name = Path::new(&own.name).file_stem().unwrap_or_default();
+        let name = name.to_string_lossy().into_owned();
+        let sources = include::with_included(own, way, &mut 0)?;
+        let mut table = Table::new();
+        sources.iter().for_each(|source| include::lay_over(&mut table, source.table.clone()));
+        if !(table.contains_key("name") || name.is_empty()) {
+            table.insert("name".to_owned(), name.into());
+        }
+        Ok(Self { sources, table })
+    }
+
+    /// The scene, with some values changed.
+    ///
+    /// # Errors
+    /// As [`Scene::from_toml_with`].
+    pub fn scene(&self, overrides: &[Override]) -> Result<Scene, SceneError> {
+        let table = self.changed(overrides)?;
+        read(table).map_err(|problem| {
+            // Without overrides, or if the file is wrong by itself, the file is to blame.
+            let own = if overrides.is_empty() {
+                Some(problem.clone())
+            } else {
+                read(self.table.clone()).err()
+            };
+            if let Some(problem) = own {
+                return self.fault(&problem).into();
+            }
+            let mut cause: Vec<&Override> =
+                overrides.iter().filter(|changed| changed.concerns(&problem.field)).collect();
+            if cause.is_empty() {
+                cause = overrides.iter().collect();
+            }
+            let cause: Vec<_> = cause.iter().map(|it| it.to_string()).collect();
+            // What goes by its name alone may be meant for a parameter.
+            let Problem { field, problem } = problem;
+            let problem = with_names(problem, &field, self.parameter_names());
+            let fault = Box::new(fault(self.name(), None, &field, &problem));
+            SceneError::Overridden { overrides: cause.join(", "), fault }
+        })
+    }
+
+    /// The numbers that the text gives names to (`[parameters]`), in its order, with some values
+    /// changed: `parameters.NAME=VALUE` as an override changes one.
+    ///
+    /// # Errors
+    /// As [`Self::scene`], for the parameters alone.
+    pub fn parameters(&self, overrides: &[Override]) -> Result<Vec<Parameter>, SceneError> {
+        Ok(parameters::list(&self.changed(overrides)?).map_err(|problem| self.fault(&problem))?)
+    }
+
+    /// One text that says what all files say: that of the file itself, where it includes none.
+    pub fn whole(&self) -> Cow<'_, str> {
+        match &self.sources[..] {
+            [own] => Cow::Borrowed(&own.text),
+            _ => Cow::Owned(toml::to_string(&self.table).expect("it has only strings as keys")),
+        }
+    }
+
+    /// What errors call it: where it was read from.
+    pub fn name(&self) -> &str {
+        self.sources.last().map_or("", |own| &own.name)
+    }
+
+    /// The files that it includes, and those that these do.
+    pub fn included(&self) -> impl Iterator<Item = &Path> {
+        let included = self.sources.len().saturating_sub(1);
+        self.sources[..included].iter().map(|source| Path::new(&source.name))
+    }
+
+    fn changed(&self, overrides: &[Override]) -> Result<Table, SceneError> {
+        let mut table = self.table.clone();
+        overrides.iter().try_for_each(|changed| changed.apply(&mut table))?;
+        Ok(table)
+    }
+
+    fn parameter_names(&self) -> impl Iterator<Item = &str> {
+        let table = self.table.get(parameters::TABLE).and_then(Value::as_table);
+        table.into_iter().flat_map(Table::keys).map(String::as_str)
+    }
+
+    /// A problem with a field, in the file and the line where it is written.
+    fn fault(&self, problem: &Problem) -> Fault {
+        let place = place_of(problem);
+        if let Some((source, skipped)) = self.source_of_element(&place) {
+            // Files count their things from the first.
+            let place = renumbered(&place, skipped);
+            let field = match problem.field.split_once(']') {
+                Some((_, rest)) => format!("{}[{}]{rest}", place[0], place[1]),
+                None => problem.field.clone(),
+            };
+            let line = source.line_of(&place).map(|(line, _)| line);
+            return fault(&source.name, line, &field, &problem.problem);
+        }
+        // Of several files that say something of a table, the last that says most of it counts.
+        let found = self.sources.iter().map(|source| (source, source.line_of(&place)));
+        let found = found.max_by_key(|(_, found)| found.map_or(0, |(_, steps)| steps));
+        let (name, line) = found.map_or((self.name(), None), |(source, found)| {
+            (&*source.name, found.map(|(line, _)| line))
+        });
+        fault(name, line, &problem.field, &problem.problem)
+    }
+
+    /// The file that has the element of a list to which a path leads, and how many elements the
+    /// files before it have.
+    fn source_of_element(&self, place: &[String]) -> Option<(&SourceText, usize)> {
+        let [list, index, ..] = place else { return None };
+        let index: usize = index.parse().ok()?;
+        let mut skipped = 0;
+        for source in self.sources.iter().filter(|_| include::is_list(list)) {
+            let count = source.table.get(list).and_then(Value::as_array).map_or(0, Vec::len);
+            if index < skipped + count {
+                return Some((source, skipped));
+            }
+            skipped += count;
+        }
+        None
+    }
+}
+
+/// A path to an element of a list, without those `skipped` before it.
+fn renumbered(place: &[String], skipped: usize) -> Vec<String> {
+    let renumber = |(i, name): (usize, &String)| match name.parse::<usize>() {
+        Ok(index) if i == 1 => (index - skipped).to_string(),
+        _ => name.clone(),
+    };
+    place.iter().enumerate().map(renumber).collect()
+}
+
+/// The place of what a problem is about, as names and indices.
+fn place_of(problem: &Problem) -> Vec<String> {
+    let mut place = segments(&problem.field);
+    // "unknown field `x`" is reported at the table that holds x; a field that is missing has no place.
+    if !problem.problem.starts_with("missing field") {
+        place.extend(problem.problem.split('`').nth(1).map(str::to_owned));
+    }
+    place
+}

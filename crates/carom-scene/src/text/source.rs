@@ -1,0 +1,76 @@
+//! The text of one file, and places in it.
+
+use toml::Table;
+use toml::de::{DeTable, DeValue};
+
+use crate::error::Fault;
+use crate::wording::suggestion;
+
+/// The text of a scene file, or of a part of one.
+#[derive(Debug, Clone)]
+pub(super) struct SourceText {
+    /// What errors call it.
+    pub name: String,
+    pub text: String,
+    /// What it says.
+    pub table: Table,
+}
+
+impl SourceText {
+    /// A text that is TOML.
+    pub fn new(name: &str, text: &str) -> Result<Self, Fault> {
+        let table = toml::from_str(text).map_err(|error| of_syntax(name, text, &error))?;
+        Ok(Self { name: name.to_owned(), text: text.to_owned(), table })
+    }
+
+    /// Something wrong with a field of it.
+    pub fn fault(&self, field: &str, problem: &str) -> Fault {
+        let place: Vec<String> = crate::error::segments(field);
+        fault(&self.name, self.line_of(&place).map(|(line, _)| line), field, problem)
+    }
+
+    /// Line of what is at the end of a path of names and indices, or the nearest thing around it
+    /// that is written here; and how many steps of the path lead there.
+    pub fn line_of(&self, path: &[String]) -> Option<(usize, usize)> {
+        let document = DeTable::parse(&self.text).ok()?;
+        let (first, rest) = path.split_first()?;
+        let (key, mut place) = document.get_ref().get_key_value(first.as_str())?;
+        let mut found = (line_at(&self.text, key.span().start), 1);
+        for name in rest {
+            let next = match place.get_ref() {
+                DeValue::Table(table) => {
+                    table.get_key_value(name.as_str()).map(|(key, value)| (key.span(), value))
+                }
+                DeValue::Array(array) => {
+                    let element = name.parse().ok().and_then(|i: usize| array.get(i));
+                    element.map(|value| (value.span(), value))
+                }
+                _ => None,
+            };
+            let Some((span, value)) = next else { break };
+            found = (line_at(&self.text, span.start), found.1 + 1);
+            place = value;
+        }
+        Some(found)
+    }
+}
+
+/// What the reader of TOML says.
+pub(super) fn of_syntax(name: &str, text: &str, error: &toml::de::Error) -> Fault {
+    let line = error.span().map(|span| line_at(text, span.start));
+    fault(name, line, "", error.message())
+}
+
+pub(super) fn fault(name: &str, line: Option<usize>, field: &str, problem: &str) -> Fault {
+    Fault {
+        source_name: name.to_owned(),
+        line,
+        field: field.to_owned(),
+        problem: problem.lines().next().unwrap_or_default().to_owned(),
+        nearest: suggestion(problem),
+    }
+}
+
+fn line_at(text: &str, offset: usize) -> usize {
+    text.as_bytes().iter().take(offset).filter(|&&byte| byte == b'\n').count() + 1
+}

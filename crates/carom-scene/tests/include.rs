@@ -1,0 +1,167 @@
+//! Scene files that include others: what they come to, and where their mistakes are.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use carom_scene::{ChangedFile, Scene, SceneText};
+use tempfile::TempDir;
+
+/// Files of these names and texts in a folder of their own.
+fn folder(files: &[(&str, &str)]) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    for (name, text) in files {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+    folder
+}
+
+fn refusal(path: &Path) -> String {
+    Scene::from_file(path, &[]).unwrap_err().to_string()
+}
+
+const FLOOR: &str = "title = 'A floor'\n[parameters]\nwidth = 4\nhalf = '=width / 2'\n\
+                     [simulation]\nframe_time = 0.02\nrule = 'contact'\n\
+                     [[colliders]]\nname = 'floor'\nshape = 'half-space'\n\
+                     [[colliders]]\nname = 'wall'\nposition = ['=half', 0, 0]\n\
+                     shape = { box = { size = [1, 1, 1] } }\n";
+const BALLS: &str = "include = '../floor.toml'\n[parameters]\nwidth = 6\n\
+                     [simulation]\nframe_time = 0.01\n\
+                     [[colliders]]\nname = 'own'\nposition = ['=half', 5, 0]\n\
+                     shape = { sphere = { radius = 0.1 } }\n\
+                     [[spheres]]\nposition = [0, 1, 0]\nradius = 0.5\n";
+
+fn scene_in(folder: &TempDir) -> PathBuf {
+    folder.path().join("scenes/balls.toml")
+}
+
+#[test]
+fn what_is_included_comes_first_and_own_values_count() {
+    let folder = folder(&[("floor.toml", FLOOR), ("scenes/balls.toml", BALLS)]);
+    let scene = Scene::from_file(&scene_in(&folder), &[]).unwrap();
+    assert_eq!((&*scene.name, &*scene.title), ("balls", ""));
+    let names: Vec<_> = scene.colliders.iter().map(|it| &*it.name).collect();
+    assert_eq!(names, ["floor", "wall", "own"]);
+    // Formulas of the included file follow the parameters of this one.
+    assert_eq!(scene.colliders[1].position[0], 3.0);
+    assert_eq!(scene.simulation.frame_time, 0.01);
+    assert_eq!(scene.simulation.rule, carom_scene::scene::Rule::Contact);
+    let changed = Scene::from_file(&scene_in(&folder), &["width=2".parse().unwrap()]).unwrap();
+    assert_eq!(changed.colliders[1].position[0], 1.0);
+}
+
+#[test]
+fn one_text_says_what_all_files_say() {
+    let folder = folder(&[("floor.toml", FLOOR), ("scenes/balls.toml", BALLS)]);
+    let text = SceneText::from_file(&scene_in(&folder)).unwrap();
+    let whole = SceneText::new(&text.whole(), "whole.toml").unwrap();
+    let overrides = ["width=3".parse().unwrap()];
+    assert_eq!(whole.scene(&overrides).unwrap(), text.scene(&overrides).unwrap());
+    assert_eq!(whole.parameters(&[]).unwrap(), text.parameters(&[]).unwrap());
+    assert_eq!(text.included().count(), 1);
+    // Of one file, the text is as its author wrote it.
+    let floor = SceneText::from_file(&folder.path().join("floor.toml")).unwrap();
+    assert_eq!(floor.whole(), FLOOR);
+}
+
+#[test]
+fn a_mistake_is_told_with_the_file_and_line_where_it_is() {
+    let with = |floor: &str, balls: &str| {
+        let folder = folder(&[("floor.toml", floor), ("scenes/balls.toml", balls)]);
+        let told = refusal(&scene_in(&folder));
+        let part = told.strip_prefix(&format!("{}/", folder.path().display()));
+        part.unwrap_or(&told).to_owned()
+    };
+    let included = "scenes/../floor.toml";
+    for (wrong, word, expected) in [
+        ("shape = 'half-plane'", "shape = 'half-space'", "10: colliders[0].shape: unknown variant"),
+        (
+            "position = ['=halve', 0, 0]",
+            "position = ['=half', 0, 0]",
+            "13: colliders[1].position[0]:",
+        ),
+        ("frame_tim = 0.02", "frame_time = 0.02", "6: simulation.frame_tim: unknown field"),
+        ("half = width", "half = '=width / 2'", "4: "),
+    ] {
+        let told = with(&FLOOR.replace(word, wrong), BALLS);
+        assert!(told.starts_with(&format!("{included}:{expected}")), "{told}");
+    }
+    let own = "scenes/balls.toml";
+    for (wrong, word, expected) in [
+        ("radius = -0.5", "radius = 0.5", "12: spheres[0].radius: must be"),
+        ("name = 'own'\nfriction = -1", "name = 'own'", "8: colliders[0].friction: must be"),
+        ("frame_time = 0", "frame_time = 0.01", "5: simulation.frame_time: must be"),
+        ("width = 'six'", "width = 6", "3: parameters.width: "),
+    ] {
+        let told = with(FLOOR, &BALLS.replace(word, wrong));
+        assert!(told.starts_with(&format!("{own}:{expected}")), "{told}");
+    }
+}
+
+#[test]
+fn all_faults_of_all_files_are_told() {
+    let floor = FLOOR.replace("half-space", "half-plane");
+    let balls = BALLS.replace("radius = 0.5", "radius = -1").replace("name = 'own'", "nam = 'own'");
+    let folder = folder(&[("floor.toml", &floor), ("scenes/balls.toml", &balls)]);
+    let faults = Scene::faults_of_file(&scene_in(&folder)).unwrap();
+    let told: Vec<_> = faults.iter().map(|it| (it.line.unwrap(), &*it.field)).collect();
+    assert_eq!(
+        told,
+        [(7, "colliders[0].nam"), (12, "spheres[0].radius"), (10, "colliders[0].shape")]
+    );
+    assert!(faults[2].source_name.ends_with("floor.toml"));
+}
+
+#[test]
+fn files_that_cannot_be_included_are_refused() {
+    for (include, expected) in [
+        ("'none.toml'", "1: include: cannot read \"none.toml\": "),
+        ("['a.toml', 7]", "1: include: must be the path of a scene file, or a list of such"),
+        ("'.'", "1: include: cannot read \".\": it is no file"),
+        ("'/dev/zero'", "1: include: cannot read \"/dev/zero\": it is no file"),
+        ("'scene.toml'", "1: include: \"scene.toml\" includes this file"),
+        ("'a.toml'", "a.toml:1: include: \"b/../scene.toml\" includes this file"),
+        ("'broken.toml'", "broken.toml:1: "),
+    ] {
+        let folder = folder(&[
+            ("scene.toml", &format!("include = {include}\n")),
+            ("a.toml", "include = 'b/../scene.toml'\n"),
+            ("broken.toml", "include = \n"),
+            ("b/c.toml", ""),
+        ]);
+        let told = refusal(&folder.path().join("scene.toml"));
+        assert!(told.contains(expected), "{include}: {told}");
+    }
+    let text = Scene::from_toml("\ninclude = 'a.toml'", "text").unwrap_err().to_string();
+    assert_eq!(text, "text:2: include: only a file includes others, which lie beside it");
+    // Each includes the next twice: a million files in all.
+    let ladder: Vec<_> = (0..20)
+        .map(|i| (format!("{i}.toml"), format!("include = ['{0}.toml', '{0}.toml']", i + 1)))
+        .chain([("20.toml".to_owned(), String::new())])
+        .collect();
+    let ladder: Vec<_> = ladder.iter().map(|(name, text)| (&**name, &**text)).collect();
+    let folder = folder(&ladder);
+    let told = refusal(&folder.path().join("0.toml"));
+    assert!(told.contains("include: a scene has 100 files at most"), "{told}");
+}
+
+#[test]
+fn a_change_of_an_included_file_is_a_change_of_the_scene() {
+    let folder = folder(&[("floor.toml", FLOOR), ("scenes/balls.toml", BALLS)]);
+    let mut file = ChangedFile::new(&scene_in(&folder));
+    assert!(!file.look());
+    let touch = |name: &str, seconds| {
+        let file = fs::File::options().append(true).open(folder.path().join(name)).unwrap();
+        let now = std::time::SystemTime::now();
+        file.set_modified(now + std::time::Duration::from_secs(seconds)).unwrap();
+    };
+    touch("floor.toml", 10);
+    assert_eq!([file.look(), file.look()], [true, false]);
+    // Broken for a moment, it is still the one that is watched.
+    fs::write(scene_in(&folder), "include = ").unwrap();
+    touch("scenes/balls.toml", 20);
+    assert_eq!([file.look(), file.look()], [true, false]);
+    touch("floor.toml", 30);
+    assert_eq!([file.look(), file.look()], [true, false]);
+}
