@@ -29,3 +29,21 @@ test("arrow keys take the ball to the first collectible", async () => {
   await viewer.keepPicture("maze-collected");
   await viewer.close();
 });
+
+test("a game goes on where it was when the page is loaded again", async () => {
+  const viewer = await desk.open("#scene=maze");
+  await viewer.until(({ maze }) => maze?.collected === 0);
+  await viewer.hold("ArrowLeft", ({ maze }) => maze.ball[0] < -0.7);
+  const { maze: before } = await viewer.status();
+  await viewer.page.reload();
+  await viewer.page.waitForSelector("#loading.done", { state: "attached" });
+  await viewer.widget("Here you were", "Label");
+  const { maze: after } = await viewer.until(({ maze }) => maze);
+  // It stands still, no earlier than the page was left.
+  assert.ok(after.elapsed >= before.elapsed, `${after.elapsed} ${before.elapsed}`);
+  assert.ok(after.ball[0] < -0.7);
+  await viewer.keepPicture("maze-again");
+  await viewer.click("Go on");
+  await viewer.until(({ maze }) => maze.elapsed > after.elapsed);
+  await viewer.close();
+});

@@ -93,6 +93,12 @@ pub enum GameError {
         /// What it was.
         value: f64,
     },
+    /// No game in this maze has got there.
+    #[error("this is no game in this maze: {problem}")]
+    Progress {
+        /// What gives it away.
+        problem: &'static str,
+    },
     /// The scene of the maze makes no sense.
     #[error(transparent)]
     Scene(#[from] SceneError),

@@ -9,6 +9,7 @@ use carom_scene::scene::Scene;
 use crate::error::GameError;
 use crate::maze::{Maze, Role};
 use crate::options::Options;
+use crate::progress::Progress;
 use crate::tilt::{Steering, Tilt, rotation_vector};
 
 /// Impacts of the ball in a frame. A rolling ball needs some ten; a frame that needs more than this
@@ -242,12 +243,18 @@ impl Game {
         for id in touched {
             let Some(place) = self.parts.iter().position(|part| part.id == id) else { continue };
             let Role::Collectible(index) = self.parts[place].role else { continue };
-            self.world.remove_collider(id)?;
-            self.parts.remove(place);
-            self.scene.colliders.remove(place);
-            self.collected += 1;
+            self.take(place)?;
             self.events.push(GameEvent::Collected { index, count: self.collected });
         }
+        Ok(())
+    }
+
+    /// Takes the collectible at this place among what is still there.
+    fn take(&mut self, place: usize) -> Result<(), GameError> {
+        self.world.remove_collider(self.parts[place].id)?;
+        self.parts.remove(place);
+        self.scene.colliders.remove(place);
+        self.collected += 1;
         Ok(())
     }
 
@@ -304,6 +311,66 @@ impl Game {
         self.state = GameState::Rolling;
         (self.collected, self.frames) = (0, 0);
         self.events.clear();
+    }
+
+    /// How far the game has got; of one that is won, the best time alone.
+    pub fn progress(&self) -> Progress {
+        if self.state != GameState::Rolling {
+            let mut again = self.clone();
+            again.play_again();
+            return again.progress();
+        }
+        let ball = self.world.spheres().get(0);
+        Progress {
+            position: ball.position.to_array(),
+            velocity: ball.velocity.to_array(),
+            orientation: ball.orientation.to_array(),
+            angular_velocity: ball.angular_velocity.to_array(),
+            tilt: [self.tilt.about_x, self.tilt.about_z],
+            remaining: self.remaining().collect(),
+            frames: self.frames,
+            best: self.best,
+        }
+    }
+
+    /// Goes on where a game in this maze had got to.
+    ///
+    /// # Errors
+    /// [`GameError`] for what no game in this maze can have come to; this one is then as it was.
+    pub fn resume(&mut self, progress: &Progress) -> Result<(), GameError> {
+        let mut game = self.clone();
+        game.play_again();
+        game.put(progress)?;
+        *self = game;
+        Ok(())
+    }
+
+    /// Puts ball and maze where they were, in a game at its start.
+    fn put(&mut self, progress: &Progress) -> Result<(), GameError> {
+        // A tilt at the limit may be off by a rounding.
+        const SLACK: f64 = 1e-9;
+        let is_taken = |part: &Part| match part.role {
+            Role::Collectible(index) => !progress.remaining.contains(&index),
+            _ => false,
+        };
+        while let Some(place) = self.parts.iter().position(is_taken) {
+            self.take(place)?;
+        }
+        let tilt = progress.tilt();
+        Steering::Towards(tilt).validate()?;
+        if tilt.angle() > self.options.max_tilt_degrees.to_radians() + SLACK {
+            return Err(GameError::Progress { problem: "the maze is tilted too far" });
+        }
+        self.tilt = tilt;
+        self.move_maze(tilt, tilt)?;
+        let ball = progress.ball(self.world.sphere(self.ball)?);
+        self.world.set_sphere(self.ball, ball)?;
+        if !self.world.overlaps(self.sunk()).is_empty() {
+            return Err(GameError::Progress { problem: "the ball is in a wall" });
+        }
+        self.frames = progress.frames;
+        self.best = progress.best.filter(|best| best.is_finite());
+        Ok(())
     }
 
     /// The maze that is played.

@@ -2,8 +2,8 @@
 
 mod common;
 
-use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Role, Steering};
-use common::{collectible, game, open_floor, play, until_event};
+use carom_maze::{Game, GameError, GameEvent, GameState, Maze, Options, Progress, Role, Steering};
+use common::{collectible, game, game_with, open_floor, play, until_event};
 
 const LEFT: Steering = Steering::Turn { about_x: 0.0, about_z: 1.0 };
 const RIGHT: Steering = Steering::Turn { about_x: 0.0, about_z: -1.0 };
@@ -158,4 +158,72 @@ fn the_course_has_four_collectibles_and_one_end_wall() {
     assert_eq!(count(|role| **role == Role::EndWall), 1);
     assert_eq!(count(|role| **role == Role::Ground), 1);
     assert_eq!(count(|role| **role == Role::Ceiling), 1);
+}
+
+#[test]
+fn a_game_goes_on_where_it_had_got_to() {
+    let mut scene = open_floor(0.0);
+    scene.colliders.push(collectible([8.0, 0.5, 8.0]));
+    scene.colliders.push(collectible([1.2, 0.5, 0.0]));
+    // It slides without friction, and rolls with it.
+    for friction in [0.0, 0.15] {
+        let options = Options { friction, ..Options::default() };
+        let mut first = game_with(&scene, options);
+        until_event(&mut first, RIGHT, 10.0);
+        play(&mut first, LEFT, 0.4);
+        let mut second = game_with(&scene, options);
+        second.resume(&first.progress()).unwrap();
+        assert_eq!(second.progress(), first.progress());
+        assert_eq!(second.scene(), first.scene());
+        let events = [&mut first, &mut second].map(|game| until_event(game, LEFT, 20.0));
+        // What is set flies anew: the same motion to rounding, and `contact` starts its contacts
+        // without the impulses of the frame before.
+        let tolerance = if friction == 0.0 { 1e-9 } else { 0.05 };
+        let [GameEvent::Won { time, collected, .. }] = events[0][..] else { panic!("{events:?}") };
+        let [GameEvent::Won { time: other, collected: also, .. }] = events[1][..] else {
+            panic!("{events:?}")
+        };
+        assert_eq!((collected, also), (1, 1));
+        assert!((time - other).abs() <= tolerance, "{time} {other}");
+    }
+}
+
+#[test]
+fn of_a_game_that_is_won_the_best_time_stays() {
+    let mut first = game(&open_floor(0.0));
+    until_event(&mut first, LEFT, 10.0);
+    let mut second = game(&open_floor(0.0));
+    let start = second.world().state_hash();
+    second.resume(&first.progress()).unwrap();
+    assert_eq!((second.state(), second.elapsed()), (GameState::Rolling, 0.0));
+    assert_eq!((second.best(), second.world().state_hash()), (first.best(), start));
+}
+
+#[test]
+fn what_no_game_comes_to_is_refused_and_changes_nothing() {
+    let mut scene = open_floor(0.0);
+    scene.colliders.push(collectible([8.0, 0.5, 8.0]));
+    let mut game = game(&scene);
+    play(&mut game, RIGHT, 0.4);
+    let good = game.progress();
+    let wrong = [
+        Progress { tilt: [1.5, 0.0], ..good.clone() },
+        Progress { tilt: [f64::NAN, 0.0], ..good.clone() },
+        Progress { position: [f64::INFINITY; 3], ..good.clone() },
+        Progress { velocity: [f64::NAN; 3], ..good.clone() },
+        Progress { orientation: [0.0; 4], ..good.clone() },
+        // In the end wall.
+        Progress { position: [-3.0, 0.5, 0.0], tilt: [0.0; 2], ..good.clone() },
+    ];
+    for progress in wrong {
+        game.resume(&progress).unwrap_err();
+        assert_eq!(game.progress(), good);
+    }
+    // Numbers of collectibles that are not there are none.
+    let Progress { remaining, .. } = &good;
+    assert_eq!(remaining[..], [0]);
+    game.resume(&Progress { remaining: vec![7], best: Some(f64::NAN), ..good.clone() }).unwrap();
+    assert_eq!((game.collected(), game.best()), (1, None));
+    game.resume(&good).unwrap();
+    assert_eq!(game.progress(), good);
 }

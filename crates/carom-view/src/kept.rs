@@ -1,7 +1,8 @@
-//! What the interface keeps from start to start: layout, marks, files opened last.
+//! What the interface keeps from start to start: layout, marks, files opened last, a game.
 
 use std::path::{Path, PathBuf};
 
+use carom_maze::Progress;
 use eframe::Storage;
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +23,16 @@ pub struct Kept {
     pub layout: Layout,
     /// Scene files opened last, the last one first.
     pub recent: Vec<PathBuf>,
+    /// The game that was played last.
+    pub game: Option<KeptGame>,
+}
+
+/// A game, to go on with.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct KeptGame {
+    /// A link to its maze.
+    pub maze: String,
+    pub progress: Progress,
 }
 
 /// What is shown of a scene, and around it.

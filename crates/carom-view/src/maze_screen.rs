@@ -7,6 +7,7 @@ use carom_scene::Palette;
 use carom_session::{Link, Pace};
 use egui::{Align2, Area, Frame, Id, Image, Key, Pos2, Response, RichText, Sense, Ui, Vec2};
 
+use crate::kept::KeptGame;
 use crate::layout::is_touched;
 use crate::orbit::{Orbit, Preset, zoom_asked};
 use crate::snapshot::Snapshot;
@@ -38,6 +39,8 @@ pub struct MazeScreen {
     clock: f64,
     /// How long to say what happened last, by the clock of the interface \[s\].
     message: Option<(String, f64)>,
+    /// A game of another time goes on when the player does.
+    waits: bool,
 }
 
 /// What the player wants besides tilting.
@@ -85,6 +88,7 @@ impl MazeScreen {
             finger: None,
             clock: 0.0,
             message: None,
+            waits: false,
         })
     }
 
@@ -96,6 +100,23 @@ impl MazeScreen {
     /// The game.
     pub fn game(&self) -> &Game {
         &self.game
+    }
+
+    /// What it takes to go on with the game at another time.
+    pub fn kept(&self) -> KeptGame {
+        KeptGame { maze: self.link.to_string(), progress: self.game.progress() }
+    }
+
+    /// Goes on with a game of another time, if that was in this maze and got anywhere.
+    pub fn resume(&mut self, kept: &KeptGame) {
+        let is_begun = |screen: &Self| screen.game.elapsed() > 0.0;
+        if kept.maze == self.link.to_string()
+            && self.game.resume(&kept.progress).is_ok()
+            && is_begun(self)
+        {
+            self.pace.set_playing(false);
+            self.waits = true;
+        }
     }
 
     /// A link to the maze.
@@ -110,6 +131,9 @@ impl MazeScreen {
     pub fn advance(&mut self, ui: &Ui, steering: Steering) -> Result<(), GameError> {
         let wall_seconds = ui.input(|input| f64::from(input.unstable_dt));
         let now = ui.input(|input| input.time);
+        if self.waits && (steering != Steering::NONE || self.pace.is_playing()) {
+            self.go_on();
+        }
         for _ in 0..self.pace.frames_due(wall_seconds, self.game.frame_time()) {
             self.clock += self.game.frame_time();
             let before = self.game.ball_in_maze().0;
@@ -265,6 +289,7 @@ impl MazeScreen {
             Image::new((texture, rect.size())).paint_at(ui, rect);
         }
         self.messages(ui, rect.center_top());
+        self.wait(ui);
         self.won(ui)
     }
 
@@ -324,6 +349,34 @@ impl MazeScreen {
             let text_color = egui::Color32::from_rgb(214, 120, 20);
             painter.text(place, Align2::CENTER_TOP, text, font, text_color);
         }
+    }
+
+    /// Asks whether a game of another time goes on.
+    fn wait(&mut self, ui: &Ui) {
+        if !self.waits {
+            return;
+        }
+        let card = |ui: &mut Ui| {
+            ui.label(RichText::new("Here you were").size(24.0).strong());
+            ui.add_space(8.0);
+            if ui.button(RichText::new("Go on").size(18.0)).clicked() {
+                self.go_on();
+            }
+            if ui.button("Start again").clicked() {
+                self.play_again();
+                self.go_on();
+            }
+        };
+        let area = Area::new(Id::unique("here you were")).anchor(Align2::CENTER_CENTER, [0.0, 0.0]);
+        area.show(ui.ctx(), |ui| {
+            let frame = Frame::window(ui.style()).inner_margin(20.0);
+            frame.show(ui, |ui| ui.vertical_centered(card));
+        });
+    }
+
+    fn go_on(&mut self) {
+        self.pace.set_playing(true);
+        self.waits = false;
     }
 
     /// The win text, and what comes next.

@@ -178,7 +178,11 @@ impl App {
 
     fn play_linked(&mut self, maze: Maze, link: Link) {
         match MazeScreen::new(maze, link) {
-            Ok(screen) => {
+            Ok(mut screen) => {
+                self.keep_game();
+                if let Some(kept) = &self.kept.game {
+                    screen.resume(kept);
+                }
                 self.host.show_link(screen.link());
                 self.show(Screen::Maze(Box::new(screen)));
             }
@@ -186,8 +190,16 @@ impl App {
         }
     }
 
+    /// Keeps how far the game has got that is played.
+    fn keep_game(&mut self) {
+        if let Screen::Maze(screen) = &self.screen {
+            self.kept.game = Some(screen.kept());
+        }
+    }
+
     /// Fills the window with something else; a film of what was there before is complete.
     fn show(&mut self, screen: Screen) {
+        self.keep_game();
         self.notices.clear();
         self.chooser.close();
         self.exports.end_film();
@@ -408,6 +420,7 @@ fn act_in_maze(screen: &mut MazeScreen, action: Action) {
 
 impl eframe::App for App {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        self.keep_game();
         self.kept.save(storage);
     }
 

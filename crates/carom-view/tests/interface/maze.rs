@@ -80,3 +80,38 @@ fn the_help_says_how_to_tilt_a_maze_only_where_there_is_one() {
     desk.run_steps(3);
     assert!(desk.query_by_label("arrow keys, or W A S D").is_none());
 }
+
+#[test]
+fn a_maze_that_is_opened_again_goes_on_when_the_player_does() {
+    let mut desk = playing(Maze::course().expect("the course's maze"));
+    let elapsed = |desk: &Desk| desk.state().maze().expect("a game").game().elapsed();
+    let open_again = |desk: &mut Desk| {
+        desk.state_mut().play(Maze::course().expect("the course's maze"));
+        desk.run_steps(3);
+    };
+    // Nothing was played.
+    open_again(&mut desk);
+    assert!(desk.query_by_label("Here you were").is_none());
+    desk.key_down(Key::ArrowRight);
+    desk.run_steps(25);
+    desk.key_up(Key::ArrowRight);
+    desk.run_steps(1);
+    let before = elapsed(&desk);
+    assert!(before > 0.0);
+    open_again(&mut desk);
+    desk.get_by_label("Here you were");
+    desk.run_steps(10);
+    assert_eq!(elapsed(&desk), before);
+    desk.key_down(Key::ArrowLeft);
+    desk.run_steps(5);
+    assert!(elapsed(&desk) > before && desk.query_by_label("Here you were").is_none());
+    desk.key_up(Key::ArrowLeft);
+    open_again(&mut desk);
+    desk.get_by_label("Start again").click();
+    desk.run_steps(3);
+    assert_eq!(elapsed(&desk), 0.0);
+    // Another maze is another game.
+    desk.state_mut().play(Maze::from_text(SHORT, "short").expect("a maze"));
+    desk.run_steps(3);
+    assert!(desk.query_by_label("Here you were").is_none());
+}
