@@ -29,6 +29,16 @@ const PRESSED = new Map([
   ["RadioButton", "checkbox"],
 ]);
 
+/** Elements that are no buttons. */
+const TAGS = new Map([
+  ["slider", "input"],
+  ["number", "input"],
+  ["field", "input"],
+  ["lines", "textarea"],
+  ["text", "div"],
+  ["img", "div"],
+]);
+
 /**
  * Lets the switch start the mirror of a page.
  *
@@ -116,6 +126,8 @@ function kindOf({ role, range }) {
   if (pressed) return pressed;
   if (role === "Image") return "img";
   if (role === "SpinButton") return "number";
+  if (role === "TextInput" || role === "SearchInput") return "field";
+  if (role === "MultilineTextInput") return "lines";
   return role === "Slider" && range ? "slider" : "text";
 }
 
@@ -126,11 +138,13 @@ function kindOf({ role, range }) {
  * @returns {HTMLElement}
  */
 function make(page, id, kind) {
-  const isField = kind === "slider" || kind === "number";
-  const isText = kind === "text" || kind === "img";
-  const element = document.createElement(isField ? "input" : isText ? "div" : "button");
+  const isNumber = kind === "slider" || kind === "number";
+  const element = document.createElement(TAGS.get(kind) ?? "button");
   element.dataset.kind = kind;
-  if (isField) {
+  if (kind === "field" || kind === "lines") {
+    const field = /** @type {HTMLInputElement | HTMLTextAreaElement} */ (element);
+    field.addEventListener("input", () => page.setText(id, field.value));
+  } else if (isNumber) {
     const field = /** @type {HTMLInputElement} */ (element);
     field.type = kind === "slider" ? "range" : "number";
     field.step = "any";
@@ -176,8 +190,8 @@ function describe(element, widget, kind) {
   const name =
     value && !isSwitch && kind === "button" && value !== label ? `${label}: ${value}` : label;
   element.setAttribute("aria-label", name);
-  if (element instanceof HTMLInputElement) {
-    if (range) [element.min, element.max] = range.map(String);
+  if (element instanceof HTMLInputElement || element instanceof HTMLTextAreaElement) {
+    if (range && element instanceof HTMLInputElement) [element.min, element.max] = range.map(String);
     // What is being set is not set back by what was shown a moment ago.
     if (document.activeElement !== element) element.value = value ?? "";
   } else if (kind === "checkbox") {

@@ -81,6 +81,24 @@ test("a slider is set by its number", async () => {
   await viewer.close();
 });
 
+test("a field takes text, and a link can be read", async () => {
+  const viewer = await mirrored("#scene=simtest1");
+  const { page } = viewer;
+  await page.getByRole("button", { name: "Scenes" }).press("Enter");
+  const filter = page.getByRole("textbox", { name: "type to filter" });
+  await filter.fill("billiards");
+  const cards = page.locator("#mirror button").filter({ hasText: "" });
+  await page.waitForFunction(() => {
+    const labels = [...document.querySelectorAll("#mirror [aria-label]")];
+    const told = labels.map((it) => it.getAttribute("aria-label") ?? "").join("; ");
+    return told.includes("Billiards") && !told.includes("SimTest2");
+  });
+  assert.ok((await cards.count()) > 0);
+  assert.equal(await filter.inputValue(), "billiards");
+  await page.keyboard.press("Escape");
+  await viewer.close();
+});
+
 test("Tab leaves the page after the last control, and messages are heard", async () => {
   const viewer = await mirrored("#scene=tutorial1");
   const { page } = viewer;

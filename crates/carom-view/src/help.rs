@@ -3,19 +3,17 @@
 use egui::{Align2, Context, Grid, RichText, ScrollArea, Ui, Window};
 
 use crate::action::{MAZE, MOUSE, SHORTCUTS};
+use crate::layout::show_closable;
 
 /// Shows every shortcut, and what the mouse does; first what steers a maze, where one is played.
 pub fn show(context: &Context, open: &mut bool, is_maze: bool) {
-    Window::new("Keys and mouse")
-        .open(open)
-        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-        .collapsible(false)
-        .resizable(false)
-        .show(context, |ui| {
-            // A small window shows a part of it.
-            let room = ui.ctx().content_rect().height() - 90.0;
-            ScrollArea::vertical().max_height(room.max(120.0)).show(ui, |ui| list(ui, is_maze));
-        });
+    const TITLE: &str = "Keys and mouse";
+    let window = Window::new(TITLE).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).resizable(false);
+    show_closable(TITLE, window, context, open, |ui| {
+        // A small window shows a part of it.
+        let room = ui.ctx().content_rect().height() - 90.0;
+        ScrollArea::vertical().max_height(room.max(120.0)).show(ui, |ui| list(ui, is_maze));
+    });
 }
 
 fn list(ui: &mut Ui, is_maze: bool) {

@@ -1,6 +1,6 @@
 //! How much room there is, and what goes where.
 
-use egui::{Context, Panel, Rect, Ui, Vec2, Window};
+use egui::{Align, Button, Context, Layout, Panel, Rect, Ui, Vec2, Window};
 
 /// Windows less wide than this are those of telephones, in points.
 const NARROW: f32 = 640.0;
@@ -37,6 +37,38 @@ pub fn is_for_fingers(ui: &Ui) -> bool {
 /// Whether somebody points with fingers, or may: a keyboard on the screen would cover things then.
 pub fn is_touched(ui: &Ui) -> bool {
     is_for_fingers(ui) || ui.input(|input| input.has_touch_screen())
+}
+
+/// Shows a window that can be closed: where fingers point, by a button large enough for them.
+pub fn show_closable<'open>(
+    title: &str,
+    window: Window<'open>,
+    context: &Context,
+    open: &'open mut bool,
+    contents: impl FnOnce(&mut Ui),
+) {
+    let plain = window.collapsible(false);
+    if context.global_style().spacing.interact_size.y < FINGER {
+        plain.open(open).show(context, contents);
+        return;
+    }
+    if !*open {
+        return;
+    }
+    plain.title_bar(false).show(context, |ui| {
+        ui.horizontal(|ui| {
+            ui.heading(title);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let close = ui.add(Button::new("✖").min_size(Vec2::splat(FINGER)));
+                close.widget_info(|| {
+                    egui::WidgetInfo::labeled(egui::Role::Button, true, "Close window")
+                });
+                *open &= !close.clicked();
+            });
+        });
+        ui.separator();
+        contents(ui);
+    });
 }
 
 /// A panel at a side of the picture.
@@ -90,13 +122,11 @@ impl Beside {
         }
         let frame = egui::Frame::window(ui.style());
         let outer = frame.total_margin().sum() + Vec2::new(0.0, 30.0);
-        Window::new(self.title)
+        let window = Window::new(self.title)
             .id(egui::Id::unique(("over the picture", self.title)))
-            .open(open)
             .frame(frame)
-            .collapsible(false)
             .fixed_pos(place.min)
-            .fixed_size((place.size() - outer).max(Vec2::splat(60.0)))
-            .show(ui.ctx(), contents);
+            .fixed_size((place.size() - outer).max(Vec2::splat(60.0)));
+        show_closable(self.title, window, ui.ctx(), open, contents);
     }
 }

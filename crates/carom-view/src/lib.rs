@@ -32,6 +32,7 @@ mod plots;
 mod recorder;
 mod snapshot;
 mod studio;
+mod theme;
 mod transport;
 #[cfg(not(target_arch = "wasm32"))]
 mod watched_file;

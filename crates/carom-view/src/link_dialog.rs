@@ -4,6 +4,7 @@ use carom_session::{Link, View};
 use egui::{Align2, Context, TextEdit, Window};
 
 use crate::address::Moment;
+use crate::layout::show_closable;
 
 /// The dialog with a link to what is shown.
 #[derive(Default)]
@@ -63,53 +64,52 @@ impl LinkDialog {
             self.link = Some((moment, make_link()));
         }
         let Some((_, link)) = &self.link else { return };
-        Window::new("Replay link")
-            .open(&mut self.open)
-            .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-            .collapsible(false)
-            .resizable(false)
-            .default_width(460.0)
-            .show(context, |ui| {
-                ui.label(
-                    "It opens this run: the same scene, with everything that was \
-                     changed on the way, at the same time, to the bit.",
+        const TITLE: &str = "Replay link";
+        let window = Window::new(TITLE).anchor(Align2::CENTER_CENTER, [0.0, 0.0]);
+        let window = window.resizable(false).default_width(460.0);
+        let copied = &mut self.copied;
+        show_closable(TITLE, window, context, &mut self.open, |ui| {
+            ui.label(
+                "It opens this run: the same scene, with everything that was \
+                 changed on the way, at the same time, to the bit.",
+            );
+            let mut text = link.as_str();
+            ui.add(
+                TextEdit::multiline(&mut text)
+                    .hint_text("The link")
+                    .desired_width(f32::INFINITY)
+                    .desired_rows(3)
+                    .code_editor(),
+            );
+            if is_local(link) {
+                ui.weak(
+                    "The address leads to this machine alone, where `cargo xtask web --serve` \
+                     serves the page. `carom view --page URL`, $CAROM_PAGE or the configuration \
+                     file name one that others reach.",
                 );
-                let mut text = link.as_str();
-                ui.add(
-                    TextEdit::multiline(&mut text)
-                        .desired_width(f32::INFINITY)
-                        .desired_rows(3)
-                        .code_editor(),
-                );
-                if is_local(link) {
-                    ui.weak(
-                        "The address leads to this machine alone, where `cargo xtask web --serve` \
-                         serves the page. `carom view --page URL`, $CAROM_PAGE or the configuration \
-                         file name one that others reach.",
-                    );
+            }
+            let now = ui.input(|input| input.time);
+            ui.horizontal(|ui| {
+                let command = || format!("carom run --link '{link}'");
+                for (text, copy) in [
+                    ("Copy the link", &(|| link.clone()) as &dyn Fn() -> String),
+                    ("Copy as a command", &command),
+                ] {
+                    if ui.button(text).clicked() {
+                        context.copy_text(copy());
+                        *copied = Some(now);
+                    }
                 }
-                let now = ui.input(|input| input.time);
-                ui.horizontal(|ui| {
-                    let command = || format!("carom run --link '{link}'");
-                    for (text, copy) in [
-                        ("Copy the link", &(|| link.clone()) as &dyn Fn() -> String),
-                        ("Copy as a command", &command),
-                    ] {
-                        if ui.button(text).clicked() {
-                            context.copy_text(copy());
-                            self.copied = Some(now);
-                        }
-                    }
-                    if self.copied.is_some_and(|at| now - at < SAID) {
-                        ui.label("Copied.");
-                        ui.ctx().request_repaint_after_secs(SAID as f32);
-                    }
-                });
-                let hash = run.and_then(|(view, _)| view.playback.state_hash);
-                if let Some(hash) = hash {
-                    ui.monospace(format!("state hash  {hash}"));
+                if copied.is_some_and(|at| now - at < SAID) {
+                    ui.label("Copied.");
+                    ui.ctx().request_repaint_after_secs(SAID as f32);
                 }
             });
+            let hash = run.and_then(|(view, _)| view.playback.state_hash);
+            if let Some(hash) = hash {
+                ui.monospace(format!("state hash  {hash}"));
+            }
+        });
     }
 }
 

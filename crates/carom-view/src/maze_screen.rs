@@ -343,11 +343,14 @@ impl MazeScreen {
     fn messages(&self, ui: &Ui, top: Pos2) {
         let now = ui.input(|input| input.time);
         if let Some((text, _)) = self.message.as_ref().filter(|(_, until)| now < *until) {
-            let painter = ui.painter();
-            let place = top + Vec2::new(0.0, 24.0);
-            let font = egui::FontId::proportional(30.0);
-            let text_color = egui::Color32::from_rgb(214, 120, 20);
-            painter.text(place, Align2::CENTER_TOP, text, font, text_color);
+            let area = Area::new(Id::unique("what happened")).interactable(false);
+            area.pivot(Align2::CENTER_TOP).fixed_pos(top + Vec2::new(0.0, 16.0)).show(
+                ui.ctx(),
+                |ui| {
+                    let frame = Frame::window(ui.style());
+                    frame.show(ui, |ui| ui.label(RichText::new(text).size(26.0).strong()));
+                },
+            );
         }
     }
 

@@ -1,7 +1,7 @@
 //! Playing, stepping, and going through time.
 
 use carom_session::{Command, FASTEST, SLOWEST, View};
-use egui::{Align, Color32, Layout, Rangef, Rect, RichText, Slider, Stroke, Ui, Widget};
+use egui::{Align, Layout, Rangef, Rect, RichText, Slider, Stroke, Ui, Widget};
 
 use crate::action::Action;
 use crate::layout::is_narrow;
@@ -62,7 +62,7 @@ fn clock(ui: &mut Ui, view: &View, is_recording: bool) {
         view.frame, view.setup.simulation.frame_time
     ));
     if is_recording {
-        ui.colored_label(Color32::from_rgb(214, 40, 40), "⏺ recording");
+        ui.colored_label(ui.visuals().error_fg_color, "⏺ recording");
     }
     pace(ui, view);
     // Where there is no room for it, the inspector has it.

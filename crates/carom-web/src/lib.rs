@@ -112,7 +112,13 @@ impl Page {
     /// Sets the number of the part of the interface with this id; with the next picture.
     #[wasm_bindgen(js_name = setNumber)]
     pub fn set_number(&self, id: &str, value: f64) {
-        Widgets::ask(&self.context, id, Some(value));
+        Widgets::ask(&self.context, id, Some(ActionData::NumericValue(value)));
+    }
+
+    /// Sets the text of the field with this id; with the next picture.
+    #[wasm_bindgen(js_name = setText)]
+    pub fn set_text(&self, id: &str, text: &str) {
+        Widgets::ask(&self.context, id, Some(ActionData::Value(text.into())));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use egui::accesskit::{Action, ActionData, ActionRequest, Node, NodeId, Toggled, TreeId};
+use egui::accesskit::{Action, ActionData, ActionRequest, Node, NodeId, Role, Toggled, TreeId};
 use egui::{Context, Event, FullOutput, Plugin, RawInput};
 use serde::Serialize;
 
@@ -50,13 +50,13 @@ impl Widgets {
 
     /// Presses the widget with this id, or sets its value; nothing if it is gone, or before
     /// [`Self::shown`] was called.
-    pub fn ask(context: &Context, id: &str, value: Option<f64>) {
+    pub fn ask(context: &Context, id: &str, value: Option<ActionData>) {
         let Ok(id) = id.parse() else { return };
         let request = ActionRequest {
             action: if value.is_some() { Action::SetValue } else { Action::Click },
             target_tree: TreeId::ROOT,
             target_node: NodeId(id),
-            data: value.map(ActionData::NumericValue),
+            data: value,
         };
         context.with_plugin(|widgets: &mut Self| widgets.requests.push(request));
         context.request_repaint();
@@ -94,10 +94,16 @@ impl Plugin for Widgets {
 
 fn widget(id: NodeId, node: &Node, zoom: f64) -> Option<Widget> {
     let bounds = node.bounds()?;
+    // Lines of a field are in its value.
+    if node.role() == Role::TextRun {
+        return None;
+    }
     let number = node.numeric_value().map(|value| value.to_string());
     let toggled = node.toggled().map(|toggled| (toggled == Toggled::True).to_string());
     let text = node.value().map(str::to_owned);
-    let label = node.label().map(str::to_owned).or_else(|| text.clone())?;
+    // What an empty field says names it.
+    let own = node.label().or(node.placeholder()).map(str::to_owned);
+    let label = own.or_else(|| text.clone())?;
     Some(Widget {
         id: id.0.to_string(),
         role: format!("{:?}", node.role()),

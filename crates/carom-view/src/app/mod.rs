@@ -28,6 +28,7 @@ use crate::maze_screen::{MazeScreen, Wish};
 use crate::notices::Notices;
 use crate::orbit::Preset;
 use crate::studio::Studio;
+use crate::theme::make_readable;
 use crate::watching::{Manner, Watching};
 use crate::written_scene::WrittenScene;
 
@@ -117,6 +118,7 @@ impl App {
             link: LinkDialog::default(),
             kept: Kept::load(host.storage),
         };
+        make_readable(&app.context);
         if app.host.has_coarse_pointer() {
             suit_fingers(&app.context);
         }

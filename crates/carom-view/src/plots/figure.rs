@@ -1,6 +1,7 @@
 //! A figure: curves over one axis, with their names and units.
 
-use egui::{Color32, RichText, Ui};
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Color32, RichText, TextStyle, Ui};
 use egui_plot::{
     AxisHints, Bar, BarChart, GridInput, GridMark, Line, Plot, PlotPoint, PlotPoints, VLine,
 };
@@ -100,7 +101,7 @@ impl Figure {
             // Above the curves: within, a legend would cover them.
             if self.curves.len() > 1 {
                 for Curve { name, color, .. } in &self.curves {
-                    ui.label(RichText::new(format!("■\u{a0}{name}")).color(*color).small());
+                    ui.label(legend(ui, name, *color));
                 }
             }
             save.clicked()
@@ -240,6 +241,15 @@ fn text_of(mark: GridMark) -> String {
     }
     let decimals = (-step_size.log10()).ceil().max(0.0);
     format!("{value:.*}", decimals as usize)
+}
+
+/// The name of a curve beside its colour, which alone would be too faint for a text.
+fn legend(ui: &Ui, name: &str, color: Color32) -> LayoutJob {
+    let font = TextStyle::Small.resolve(ui.style());
+    let mut job = LayoutJob::default();
+    job.append("■\u{a0}", 0.0, TextFormat::simple(font.clone(), color));
+    job.append(name, 0.0, TextFormat::simple(font, ui.visuals().text_color()));
+    job
 }
 
 #[cfg(test)]

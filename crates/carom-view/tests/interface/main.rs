@@ -3,6 +3,7 @@
 //! thread's timing.
 
 mod contact_forces;
+mod contrast;
 mod desk;
 mod every_scene;
 mod files;

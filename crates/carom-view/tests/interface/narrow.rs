@@ -85,6 +85,24 @@ fn what_fingers_press_is_large_enough_for_them_and_the_picture_keeps_half() {
 }
 
 #[test]
+fn fingers_close_sheets_and_dialogs_and_these_stay_in_the_window() {
+    let (scene, _) = Library::new().find("simtest3", &[]).expect("a built-in scene");
+    let start = Some(Start::Scene(Box::new(scene), Source::BuiltIn));
+    let mut desk = desk_of(TELEPHONE, Setup { start, host: Box::new(Telephone), ..setup() });
+    for key in [Key::I, Key::G, Key::F1, Key::U] {
+        press(&mut desk, key);
+        desk.run_steps(3);
+        let close = desk.get_by_label("Close window");
+        let rect = close.rect();
+        assert!(rect.width() >= 43.5 && rect.height() >= 43.5, "{key:?}: {rect}");
+        assert!(rect.right() <= TELEPHONE[0] && rect.bottom() <= TELEPHONE[1], "{key:?}: {rect}");
+        close.click();
+        desk.run_steps(3);
+        assert!(desk.query_by_label("Close window").is_none(), "{key:?}");
+    }
+}
+
+#[test]
 fn the_menu_has_what_the_bar_has_elsewhere() {
     let mut desk = on_a_telephone();
     assert!(desk.query_by_label("Plots").is_none());

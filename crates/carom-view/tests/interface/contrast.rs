@@ -1,0 +1,160 @@
+//! Every text of the interface against what is behind it, measured in rendered pictures.
+
+use std::collections::HashMap;
+
+use carom_maze::Maze;
+use carom_render::Picture;
+use egui::epaint::{Shape, TextShape};
+use egui::{Color32, Key, Rect, Theme};
+use egui_kittest::kittest::Queryable;
+
+use crate::desk::{Desk, desk, go_to, press, setup, watching};
+use crate::maze::{SHORT, playing, win};
+use crate::pictures::set_theme;
+
+/// Web Content Accessibility Guidelines 2.2, 1.4.3 and 1.4.11: of text, and of large text, which is
+/// that of 24 pixels and more, and of graphics.
+const TEXT: f64 = 4.5;
+const LARGE_TEXT: f64 = 3.0;
+const LARGE: f32 = 24.0;
+
+/// Relative luminance of a colour, as the guidelines define it.
+fn luminance(color: [u8; 3]) -> f64 {
+    let [red, green, blue] = color.map(|part| {
+        let part = f64::from(part) / 255.0;
+        if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
+    });
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
+}
+
+fn contrast(one: [u8; 3], other: [u8; 3]) -> f64 {
+    let [one, other] = [one, other].map(|color| luminance(color) + 0.05);
+    (one / other).max(other / one)
+}
+
+/// The colour that most pixels of a part of a picture have.
+fn background(picture: &Picture, part: Rect, pixels_per_point: f32) -> Option<[u8; 3]> {
+    let [width, height] = [picture.width, picture.height].map(|edge| edge as f32);
+    let part = part * pixels_per_point;
+    let part = part.intersect(Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(width, height)));
+    let mut counts: HashMap<[u8; 3], usize> = HashMap::new();
+    for y in part.top() as u32..part.bottom() as u32 {
+        for x in part.left() as u32..part.right() as u32 {
+            let first = 4 * (y * picture.width + x) as usize;
+            let color = std::array::from_fn(|i| picture.pixels[first + i]);
+            *counts.entry(color).or_default() += 1;
+        }
+    }
+    // Where nothing is even, a picture is behind, and no colour is that of it.
+    let all: usize = counts.values().sum();
+    let (color, count) = counts.into_iter().max_by_key(|(color, count)| (*count, *color))?;
+    (5 * count > 2 * all).then_some(color)
+}
+
+/// A colour laid over another, as the interface blends them.
+fn over(color: Color32, below: [u8; 3]) -> [u8; 3] {
+    let [red, green, blue, alpha] = color.to_array();
+    let rest = 255 - u32::from(alpha);
+    let part = |upper: u8, lower: u8| (u32::from(upper) + rest * u32::from(lower) / 255).min(255);
+    std::array::from_fn(|i| part([red, green, blue][i], below[i]) as u8)
+}
+
+fn texts(shape: &Shape, found: &mut Vec<TextShape>) {
+    match shape {
+        Shape::Text(text) => found.push(text.clone()),
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| texts(shape, found)),
+        _ => {}
+    }
+}
+
+/// Texts whose contrast is too low, and how many texts were measured.
+fn measured(desk: &mut Desk, screen: &str) -> (Vec<String>, usize) {
+    desk.remove_cursor();
+    desk.run_steps(3);
+    let disabled: Vec<Rect> = {
+        desk.query_all_by(|node| node.is_disabled()).map(|node| node.rect().expand(1.0)).collect()
+    };
+    let picture = desk.render().expect("a picture");
+    let [width, height] = [picture.width(), picture.height()];
+    let picture = Picture { width, height, pixels: picture.into_raw() };
+    let pixels_per_point = desk.ctx.pixels_per_point();
+    let mut faint = Vec::new();
+    let mut count = 0;
+    let shapes = &desk.output().shapes;
+    // What a dialog dims has no effect while that is open.
+    let window = desk.ctx.content_rect();
+    let dims = |shape: &Shape| match shape {
+        Shape::Rect(rect) => rect.rect.contains_rect(window) && (1..255).contains(&rect.fill.a()),
+        _ => false,
+    };
+    let first = shapes.iter().rposition(|clipped| dims(&clipped.shape)).unwrap_or(0);
+    for clipped in &shapes[first..] {
+        let mut found = Vec::new();
+        texts(&clipped.shape, &mut found);
+        for text in found {
+            let part = text.visual_bounding_rect().intersect(clipped.clip_rect);
+            // What has no effect may be faint.
+            let is_disabled = disabled.iter().any(|rect| rect.contains(part.center()));
+            if is_disabled || !part.is_positive() || text.galley.text().trim().is_empty() {
+                continue;
+            }
+            let Some(below) = background(&picture, part, pixels_per_point) else { continue };
+            for section in &text.galley.job.sections {
+                let own = section.format.color;
+                let own = if own == Color32::PLACEHOLDER { text.fallback_color } else { own };
+                let color = text.override_text_color.unwrap_or(own);
+                let color = color.gamma_multiply(text.opacity_factor);
+                let plain = section.format.background;
+                let below = if plain.a() == 255 { over(plain, below) } else { below };
+                let size = section.format.font_id.size * pixels_per_point;
+                let start = section.byte_range.start.0;
+                let is_graphic = text.galley.text()[start..].starts_with('■');
+                let needed = if size >= LARGE || is_graphic { LARGE_TEXT } else { TEXT };
+                let seen = contrast(over(color, below), below);
+                count += 1;
+                if seen < needed {
+                    let text: String = text.galley.text().chars().take(40).collect();
+                    faint.push(format!("{screen}: {text:?} {seen:.1}, {color:?} on {below:?}"));
+                }
+            }
+        }
+    }
+    (faint, count)
+}
+
+#[test]
+fn every_text_has_a_contrast_of_four_and_a_half() {
+    let mut faint = Vec::new();
+    let mut count = 0;
+    for theme in [Theme::Light, Theme::Dark] {
+        let mut measure = |mut desk: Desk, screen: &str| {
+            set_theme(&mut desk, theme);
+            let (more, measured) = measured(&mut desk, &format!("{screen}, {theme:?}"));
+            faint.extend(more);
+            count += measured;
+        };
+        measure(desk(setup()), "chooser");
+        let mut plots = watching("simtest1");
+        go_to(&mut plots, 3.0);
+        for key in [Key::G, Key::V, Key::K, Key::L] {
+            press(&mut plots, key);
+        }
+        measure(plots, "plots and impacts");
+        let mut help = watching("tutorial1");
+        press(&mut help, Key::F1);
+        measure(help, "help");
+        let mut link = watching("cradle");
+        link.get_by_label("Link").click();
+        link.run_steps(2);
+        measure(link, "link");
+        let mut refused = watching("cradle");
+        refused.state_mut().refuse_link("no such link");
+        measure(refused, "notice");
+        let mut won = playing(Maze::from_text(SHORT, "short").expect("a maze"));
+        measure(playing(Maze::course().expect("the course's maze")), "maze");
+        win(&mut won);
+        measure(won, "won");
+    }
+    assert!(count > 400, "{count} texts measured");
+    assert!(faint.is_empty(), "{} of {count} are faint:\n{}", faint.len(), faint.join("\n"));
+}
