@@ -39,10 +39,12 @@ const INCLINED: f64 = 0.05;
 /// All instances of a drawing, and how many panels of each kind there are.
 #[derive(Debug, Default)]
 pub(crate) struct Instances {
+    /// Those of glass, of which the farthest are the first, then small ones, of which they are the
+    /// last, and then all others.
     pub balls: Vec<PackedBall>,
-    /// How many balls are of glass: the first ones, the farthest before those that they are seen
-    /// through.
+    /// How many balls are of glass, and how many are small.
     pub glass_balls: usize,
+    pub small_balls: usize,
     /// Rectangles and half-spaces.
     pub faces: Vec<PackedPanel>,
     pub boxes: Vec<PackedPanel>,
@@ -54,9 +56,10 @@ pub(crate) struct Instances {
 }
 
 impl Instances {
-    /// Packs a drawing seen from `eye`; half-spaces reach as far as suits what is to be seen.
-    pub fn pack(&mut self, drawing: &Drawing, eye: DVec3, framing: &Framing) {
-        let Self { balls, glass_balls, faces, boxes, arrows, grid, casting } = self;
+    /// Packs a drawing seen from `eye`; half-spaces reach as far as suits what is to be seen. `sharpness`:
+    /// pixels that a length of 1 m covers at a distance of 1 m.
+    pub fn pack(&mut self, drawing: &Drawing, eye: DVec3, framing: &Framing, sharpness: f64) {
+        let Self { balls, glass_balls, small_balls, faces, boxes, arrows, grid, casting } = self;
         balls.clear();
         faces.clear();
         boxes.clear();
@@ -69,7 +72,15 @@ impl Instances {
         *glass_balls = balls.len();
         balls.sort_by(|a, b| distance_squared(b).total_cmp(&distance_squared(a)));
         let is_opaque = |ball: &&Ball| !is_mark(ball) && !is_glass(ball);
-        balls.extend(drawing.balls.iter().filter(is_opaque).map(packed));
+        let is_small = |ball: &&Ball| {
+            ball.radius * sharpness < small_radius(ball) * (ball.center - eye).length()
+        };
+        let opaque = || drawing.balls.iter().filter(is_opaque);
+        balls.extend(opaque().filter(is_small).map(packed));
+        let small = &mut balls[*glass_balls..];
+        small.sort_by(|a, b| distance_squared(a).total_cmp(&distance_squared(b)));
+        *small_balls = small.len();
+        balls.extend(opaque().filter(|ball| !is_small(ball)).map(packed));
         casting[0] = balls.len();
         balls.extend(drawing.balls.iter().filter(is_mark).map(packed));
         let is_hiding = |it: &&Panel| it.opacity == 1.0 && cutaway::hides(it, eye, &framing.balls);
@@ -88,6 +99,15 @@ impl Instances {
         arrows.extend(drawing.arrows.iter().map(|arrow| packed_arrow(arrow, eye)));
         let has_ground = drawing.panels.iter().any(bears_balls);
         *grid = (drawing.has_grid && !has_ground).then(|| packed_grid(eye, framing));
+    }
+}
+
+/// Radius in pixels below which a ball is small: its shape, its pattern and the softness of its shadows
+/// cannot be made out.
+fn small_radius(ball: &Ball) -> f64 {
+    match ball.pattern {
+        Pattern::Plain => 4.0,
+        _ => 1.6,
     }
 }
 

@@ -13,6 +13,7 @@ pub(crate) const GLOBALS: usize = 3 * 16 + (11 + MOST_CUTS) * 4;
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     pub spheres: wgpu::RenderPipeline,
+    pub small_spheres: wgpu::RenderPipeline,
     pub glass: wgpu::RenderPipeline,
     pub surfaces: wgpu::RenderPipeline,
     pub arrows: wgpu::RenderPipeline,
@@ -36,6 +37,9 @@ struct Parts<'a> {
     depth: wgpu::DepthStencilState,
     /// How it is laid over what is there; `None` covers it.
     blend: Option<wgpu::BlendState>,
+    /// Whether its outline is smoothed by covering some samples of a pixel only, as its alpha says:
+    /// what writes its own depth has one for all of them.
+    is_smoothed: bool,
 }
 
 impl Pipelines {
@@ -45,16 +49,22 @@ impl Pipelines {
         let lit = |label, source: &str, attributes, topology| {
             // Sky and grid are behind all there is; glass hides nothing.
             let is_solid = !matches!(label, "sky" | "grid" | "glass");
+            let is_small = label == "small spheres";
             let is_clear = matches!(label, "grid" | "glass");
             Parts {
                 label,
                 source: format!("{LIGHT}{PLACES}{source}"),
-                entries: ["vertex", if label == "glass" { "glass" } else { "fragment" }],
+                entries: match label {
+                    "glass" => ["vertex", "glass"],
+                    "small spheres" => ["small_vertex", "small_fragment"],
+                    _ => ["vertex", "fragment"],
+                },
                 attributes,
                 stride: attributes,
                 topology,
                 depth: depth_state(wgpu::CompareFunction::GreaterEqual, is_solid),
                 blend: is_clear.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                is_smoothed: !is_clear && !is_small,
             }
         };
         let (strip, list) =
@@ -70,11 +80,18 @@ impl Pipelines {
                 topology,
                 depth: depth_state(wgpu::CompareFunction::Less, true),
                 blend: None,
+                is_smoothed: false,
             };
             shadow_pipeline(device, &light_layout, &parts)
         };
         Self {
             spheres: picture(lit("spheres", include_str!("shaders/sphere.wgsl"), 3, strip)),
+            small_spheres: picture(lit(
+                "small spheres",
+                include_str!("shaders/sphere.wgsl"),
+                3,
+                strip,
+            )),
             glass: picture(lit("glass", include_str!("shaders/sphere.wgsl"), 3, strip)),
             surfaces: picture(lit("surfaces", include_str!("shaders/surface.wgsl"), 4, list)),
             arrows: picture(lit("arrows", include_str!("shaders/arrow.wgsl"), 3, list)),
@@ -151,9 +168,7 @@ fn picture_pipeline(
     let multisample = wgpu::MultisampleState {
         count: samples,
         mask: !0,
-        // What writes its own depth has one for all samples of a pixel: its outline is smoothed
-        // by covering some of them only.
-        alpha_to_coverage_enabled: samples > 1 && parts.blend.is_none(),
+        alpha_to_coverage_enabled: samples > 1 && parts.is_smoothed,
     };
     let colors = [Some(wgpu::ColorTargetState {
         format: COLOR_FORMAT,

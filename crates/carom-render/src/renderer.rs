@@ -104,7 +104,8 @@ impl Renderer {
         let texels = map_texels(drawing, seen.1).map(|texels| texels.min(whole_map));
         let [sun, sky] = [(drawing.light.to_sun, texels[0]), (DVec3::Y, texels[1])]
             .map(|(to_light, texels)| LightView::around(seen, to_light, camera.position, texels));
-        self.instances.pack(drawing, camera.position, &framing);
+        let sharpness = 0.5 * f64::from(target.size()[1]) / (0.5 * camera.vertical_fov).tan();
+        self.instances.pack(drawing, camera.position, &framing, sharpness);
         self.buffers.fill(device, queue, &self.instances);
         let globals = globals(drawing, &framing, camera, target, self.quality, [&sun, &sky]);
         queue.write_buffer(&self.globals, 0, bytemuck::cast_slice(&globals));
@@ -158,7 +159,9 @@ impl Renderer {
         draw(&mut pass, &pipelines.surfaces, 6, &buffers.faces, instances.faces.len());
         draw(&mut pass, &pipelines.surfaces, 36, &buffers.boxes, instances.boxes.len());
         let (glass, balls) = (instances.glass_balls, instances.balls.len());
-        draw_some(&mut pass, &pipelines.spheres, 4, &buffers.balls, glass..balls);
+        let small = glass + instances.small_balls;
+        draw_some(&mut pass, &pipelines.spheres, 4, &buffers.balls, small..balls);
+        draw_some(&mut pass, &pipelines.small_spheres, 8, &buffers.balls, glass..small);
         draw(&mut pass, &pipelines.arrows, 9, &buffers.arrows, instances.arrows.len());
         pass.set_pipeline(&pipelines.sky);
         pass.draw(0..3, 0..1);

@@ -341,3 +341,32 @@ fn a_banded_ball_of_a_pixel_does_not_flicker_as_it_turns() {
     assert_eq!(turned(0.7), first);
     assert_eq!(turned(1.5), first);
 }
+
+/// Balls of less than four pixels are drawn in a simpler way, which nobody is to notice.
+#[test]
+fn a_ball_looks_the_same_just_below_the_size_of_small_ones_and_above() {
+    let camera = camera_in_front(5.0);
+    let pixels_per_radius = 0.5 * f64::from(SIZE[1]) / (0.5 * camera.vertical_fov).tan() / 5.0;
+    for quality in [Quality::DRAFT, Quality::FINE] {
+        // Light of many balls, a pixel's grid averaged out, for the area of each.
+        let light = |pixels: f64| {
+            let mut drawing = in_the_dark();
+            let radius = pixels / pixels_per_radius;
+            let place = |i: i32| f64::from(i) * 0.1813;
+            let balls = (-8..=8).flat_map(|i| (-6..=6).map(move |j| (place(i), place(j))));
+            drawing.balls.extend(balls.map(|(x, y)| Ball {
+                pattern: Pattern::Plain,
+                // A sphere about the eye: all are as far from it.
+                ..ball(
+                    camera.position + 5.0 * (DVec3::new(x, y, 0.0) - camera.position).normalize(),
+                    radius,
+                    [1.0, 0.0, 0.0],
+                )
+            }));
+            red_area(&drawn(&drawing, &camera, quality)) / (pixels * pixels)
+        };
+        let [small, round] = [3.97, 4.03].map(light);
+        // Round ones cover quarters of pixels along their outlines, rounded up.
+        assert!((small / round - 1.0).abs() < 0.06, "{quality:?}: {small} {round}");
+    }
+}

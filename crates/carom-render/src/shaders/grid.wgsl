@@ -35,7 +35,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let haze = smoothstep(0.1, 1.0, length(in.place) / in.size.y);
 
     // Shadows straight below tell where balls are; those of the sun would tell it twice.
-    let shade = 0.35 * (1.0 - skylight(in.point, vec3<f32>(0.0, 1.0, 0.0))) * (1.0 - haze);
+    let shade = 0.35 * (1.0 - skylight(in.point, vec3<f32>(0.0, 1.0, 0.0), 1.0)) * (1.0 - haze);
     let line = max(0.16 * fine, 0.26 * coarse) * (1.0 - haze);
     // Lines are lighter than a dark ground, and darker than a light one.
     let tone = select(0.85, 0.12, dot(globals.ground.rgb, vec3<f32>(0.2126, 0.7152, 0.0722)) > 0.2);

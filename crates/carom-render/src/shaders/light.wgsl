@@ -40,14 +40,14 @@ fn tap(place: vec2<f32>, layer: i32, depth: f32) -> f32 {
 }
 
 // How much of the light of a map arrives, from 0 to 1. `part`: of the edge of the map that is used;
-// `spread`: distance of taps, in texels.
+// `spread`: distance of taps, in texels; 0 for a single one.
 fn light_through(map: vec4<f32>, layer: i32, part: f32, spread: f32) -> f32 {
     let of_whole = map.xy * vec2<f32>(0.5, -0.5) + 0.5;
     if any(of_whole < vec2<f32>(0.0)) || any(of_whole > vec2<f32>(1.0)) || map.z > 1.0 {
         return 1.0;
     }
     let place = of_whole * part;
-    if globals.sun.w < 0.5 {
+    if globals.sun.w < 0.5 || spread == 0.0 {
         return tap(place, layer, map.z);
     }
     var sum = 0.0;
@@ -94,15 +94,16 @@ const METAL: f32 = 3.0;
 const GLASS: f32 = 4.0;
 
 // How much of the sun arrives at a point of a surface with this normal, shadows of others counted.
-fn sunlight(point: vec3<f32>, normal: vec3<f32>) -> f32 {
+// `spread`: 1 for soft shadows, 0 for hard ones.
+fn sunlight(point: vec3<f32>, normal: vec3<f32>, spread: f32) -> f32 {
     let off = off_surface(point, normal, globals.to_sun.xyz, globals.to_sun.w, 0.6, 2.4);
-    return light_through(globals.sun_from_eye * vec4<f32>(off, 1.0), 0, globals.ahead.w, 1.2);
+    return light_through(globals.sun_from_eye * vec4<f32>(off, 1.0), 0, globals.ahead.w, 1.2 * spread);
 }
 
 // How much of the sky straight above arrives there.
-fn skylight(point: vec3<f32>, normal: vec3<f32>) -> f32 {
+fn skylight(point: vec3<f32>, normal: vec3<f32>, spread: f32) -> f32 {
     let off = off_surface(point, normal, vec3<f32>(0.0, 1.0, 0.0), globals.zenith.w, 1.0, 3.5);
-    return light_through(globals.sky_from_eye * vec4<f32>(off, 1.0), 1, globals.ground.w, 1.5);
+    return light_through(globals.sky_from_eye * vec4<f32>(off, 1.0), 1, globals.ground.w, 1.5 * spread);
 }
 
 // A point off a surface, so that it does not shade itself: by these many texels where light falls
@@ -121,12 +122,16 @@ fn off_surface(
 }
 
 fn lit(surface: Surface) -> vec3<f32> {
+    return lit_by(surface, 1.0);
+}
+
+fn lit_by(surface: Surface, spread: f32) -> vec3<f32> {
     let n = surface.normal;
     let facing = dot(n, globals.to_sun.xyz);
-    let sunlit = sunlight(surface.point, n);
+    let sunlit = sunlight(surface.point, n, spread);
 
     let upward = 0.5 + 0.5 * n.y;
-    let open = 0.58 + 0.42 * skylight(surface.point, n);
+    let open = 0.58 + 0.42 * skylight(surface.point, n, spread);
     let from_sky = mix(globals.horizon.rgb, globals.zenith.rgb, 0.5) * open;
     let ambient = mix(globals.ground.rgb * 0.55, from_sky, upward);
     let direct = globals.sun.rgb * max(facing, 0.0) * sunlit;

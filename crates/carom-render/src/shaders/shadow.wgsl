@@ -13,8 +13,7 @@ struct Light {
 struct SphereVarying {
     @builtin(position) clip: vec4<f32>,
     @location(0) corner: vec2<f32>,
-    @location(1) @interpolate(flat) center: vec4<f32>,
-    @location(2) @interpolate(flat) finish: f32,
+    @location(1) @interpolate(flat) finish: f32,
 }
 
 @vertex
@@ -28,23 +27,20 @@ fn sphere_vertex(
     var out: SphereVarying;
     out.clip = light.map_from_eye * vec4<f32>(center.xyz + center.w * across, 1.0);
     out.corner = corner;
-    out.center = center;
     out.finish = finish_of(color.w);
     return out;
 }
 
+// The disc of a sphere across the light shades all that the sphere does: what lies between it and the
+// cap before it is in the sphere.
 @fragment
-fn sphere_fragment(in: SphereVarying) -> @builtin(frag_depth) f32 {
+fn sphere_fragment(in: SphereVarying) {
     let outside = dot(in.corner, in.corner);
     // Glass lets half of the light through: every other texel.
     let odd = (i32(in.clip.x) + i32(in.clip.y)) % 2 != 0;
     if outside > 1.0 || (in.finish == 4.0 && odd) {
         discard;
     }
-    let across = in.corner.x * light.right.xyz + in.corner.y * light.up.xyz;
-    let normal = across - sqrt(1.0 - outside) * light.ahead.xyz;
-    let map = light.map_from_eye * vec4<f32>(in.center.xyz + in.center.w * normal, 1.0);
-    return clamp(map.z, 0.0, 1.0);
 }
 
 @vertex

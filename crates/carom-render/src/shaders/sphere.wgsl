@@ -35,16 +35,14 @@ const GLASS_OPACITY: f32 = 0.55;
 fn vertex(@builtin(vertex_index) index: u32, sphere: Instance) -> Varying {
     let radius = sphere.center.w;
     let distance = length(sphere.center.xyz);
-    let ahead = sphere.center.xyz / max(distance, 1e-12);
-    let aside = normalize(cross(ahead, select(vec3(0.0, 1.0, 0.0), vec3(1.0, 0.0, 0.0), abs(ahead.y) > 0.9)));
-    let upward = cross(aside, ahead);
+    let frame = frame_of(sphere.center.xyz);
     // The cone of rays that touch the sphere cuts the plane through its centre in a circle a
     // little larger than it. A margin leaves place for the soft edge.
     let room = max(distance * distance - radius * radius, 1e-6 * distance * distance);
     let reach = radius * distance * inverseSqrt(room);
     let pixel = 2.0 * length(globals.up.xyz) * distance / globals.picture.y;
     let corner = vec2<f32>(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;
-    let ray = sphere.center.xyz + (corner.x * aside + corner.y * upward) * (reach + 1.5 * pixel);
+    let ray = sphere.center.xyz + (corner.x * frame[0] + corner.y * frame[1]) * (reach + 1.5 * pixel);
 
     var out: Varying;
     out.clip = globals.clip_from_eye * vec4<f32>(ray, 1.0);
@@ -148,7 +146,7 @@ fn glass(in: Varying) -> Pixel {
     surface.color = in.color.rgb;
     surface.finish = GLASS;
     let facing = dot(hit.normal, globals.to_sun.xyz);
-    let shine = polish(surface, sunlight(hit.point, hit.normal) * step(0.0, facing));
+    let shine = polish(surface, sunlight(hit.point, hit.normal, 1.0) * step(0.0, facing));
     // Bent where the ray comes in and where it goes out.
     let inner = refract(hit.direction, hit.normal, 1.0 / GLASS_INDEX);
     let exit = hit.normal - 2.0 * dot(hit.normal, inner) * inner;
@@ -165,6 +163,60 @@ fn glass(in: Varying) -> Pixel {
     out.color = vec4<f32>(encoded(seen) * covered, covered);
     out.depth = depth_of(hit.point);
     return out;
+}
+
+// Balls of a few pixels: octagons at their centres, as large as the circles that one sees. What they
+// hide behind them costs nothing, which the depth that a program computes itself does not allow.
+struct SmallVarying {
+    @builtin(position) clip: vec4<f32>,
+    // On the octagon, in radii.
+    @location(0) corner: vec2<f32>,
+    @location(1) @interpolate(flat) center: vec4<f32>,
+    @location(2) @interpolate(flat) color: vec4<f32>,
+}
+
+// Corners of an octagon in the order of a strip, in eighths of a turn, and how far from its middle
+// they are if it has the area of a circle of radius 1.
+const STRIP = array<f32, 8>(0.0, 1.0, 7.0, 2.0, 6.0, 3.0, 5.0, 4.0);
+const OCTAGON: f32 = 1.053926;
+
+@vertex
+fn small_vertex(@builtin(vertex_index) index: u32, sphere: Instance) -> SmallVarying {
+    var strip = STRIP;
+    let angle = (strip[index] + 0.5) * 0.785398163;
+    let corner = OCTAGON * vec2<f32>(cos(angle), sin(angle));
+    let frame = frame_of(sphere.center.xyz);
+    let place = sphere.center.xyz + sphere.center.w * (corner.x * frame[0] + corner.y * frame[1]);
+    var out: SmallVarying;
+    out.clip = globals.clip_from_eye * vec4<f32>(place, 1.0);
+    out.corner = corner;
+    out.center = sphere.center;
+    out.color = sphere.color;
+    if kind_of(sphere.color.w) == BANDED {
+        out.color = vec4<f32>(mix(sphere.color.rgb, other_tone(sphere.color.rgb), BAND), sphere.color.w);
+    }
+    return out;
+}
+
+@fragment
+fn small_fragment(in: SmallVarying) -> @location(0) vec4<f32> {
+    let frame = frame_of(in.center.xyz);
+    let toward = sqrt(max(1.0 - dot(in.corner, in.corner), 0.0));
+    let normal = in.corner.x * frame[0] + in.corner.y * frame[1] - toward * frame[2];
+    var surface: Surface;
+    surface.normal = normalize(normal);
+    surface.point = in.center.xyz + in.center.w * surface.normal;
+    surface.color = in.color.rgb;
+    surface.gloss = 1.0;
+    surface.finish = finish_of(in.color.w);
+    return vec4<f32>(encoded(lit_by(surface, 0.0)), 1.0);
+}
+
+// To the right, upward and ahead for what faces the eye.
+fn frame_of(center: vec3<f32>) -> mat3x3<f32> {
+    let ahead = center / max(length(center), 1e-12);
+    let aside = normalize(cross(ahead, select(vec3(0.0, 1.0, 0.0), vec3(1.0, 0.0, 0.0), abs(ahead.y) > 0.9)));
+    return mat3x3<f32>(aside, cross(aside, ahead), ahead);
 }
 
 // A lighter band and two caps: shows how a ball rolls, from every side.
