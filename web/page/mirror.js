@@ -191,7 +191,8 @@ function describe(element, widget, kind) {
     value && !isSwitch && kind === "button" && value !== label ? `${label}: ${value}` : label;
   element.setAttribute("aria-label", name);
   if (element instanceof HTMLInputElement || element instanceof HTMLTextAreaElement) {
-    if (range && element instanceof HTMLInputElement) [element.min, element.max] = range.map(String);
+    if (range && element instanceof HTMLInputElement)
+      [element.min, element.max] = range.map(String);
     // What is being set is not set back by what was shown a moment ago.
     if (document.activeElement !== element) element.value = value ?? "";
   } else if (kind === "checkbox") {

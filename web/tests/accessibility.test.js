@@ -81,19 +81,15 @@ test("a slider is set by its number", async () => {
   await viewer.close();
 });
 
-test("a field takes text, and a link can be read", async () => {
+test("a field takes text", async () => {
   const viewer = await mirrored("#scene=simtest1");
   const { page } = viewer;
   await page.getByRole("button", { name: "Scenes" }).press("Enter");
   const filter = page.getByRole("textbox", { name: "type to filter" });
   await filter.fill("billiards");
-  const cards = page.locator("#mirror button").filter({ hasText: "" });
-  await page.waitForFunction(() => {
-    const labels = [...document.querySelectorAll("#mirror [aria-label]")];
-    const told = labels.map((it) => it.getAttribute("aria-label") ?? "").join("; ");
-    return told.includes("Billiards") && !told.includes("SimTest2");
-  });
-  assert.ok((await cards.count()) > 0);
+  // Cards are buttons with the names of their scenes.
+  await page.getByRole("button", { name: "billiards", exact: true }).waitFor();
+  await page.getByRole("button", { name: "simtest2", exact: true }).waitFor({ state: "detached" });
   assert.equal(await filter.inputValue(), "billiards");
   await page.keyboard.press("Escape");
   await viewer.close();

@@ -20,6 +20,7 @@ use carom_scene::Library;
 use carom_session::Link;
 use carom_view::{App, Setup};
 use eframe::{CreationContext, WebOptions, WebRunner};
+use egui::accesskit::ActionData;
 use egui::{Context, Ui};
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
