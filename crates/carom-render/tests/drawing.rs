@@ -342,7 +342,7 @@ fn a_banded_ball_of_a_pixel_does_not_flicker_as_it_turns() {
     assert_eq!(turned(1.5), first);
 }
 
-/// Balls of less than four pixels are drawn in a simpler way, which nobody is to notice.
+/// Balls of less than four pixels are drawn in a simpler way, which must not be seen.
 #[test]
 fn a_ball_looks_the_same_just_below_the_size_of_small_ones_and_above() {
     let camera = camera_in_front(5.0);
