@@ -38,6 +38,7 @@ mod requirement;
 pub mod scene;
 mod schema;
 mod settings;
+mod table;
 mod text;
 mod units;
 mod wording;

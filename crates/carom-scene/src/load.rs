@@ -3,15 +3,11 @@
 use std::path::Path;
 
 use serde::Deserialize;
-use toml::{Table, Value};
 
-use crate::error::{Problem, SceneError};
+use crate::error::SceneError;
 use crate::overrides::Override;
-use crate::parameters;
 use crate::scene::Scene;
 use crate::text::SceneText;
-use crate::wording::{in_plain_words, with_names};
-use crate::world;
 
 impl Scene {
     /// Reads a scene from TOML; `source_name` is what errors call it, and without its ending the name of
@@ -72,21 +68,6 @@ impl Scene {
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("a scene has only strings as keys")
     }
-}
-
-/// A scene from its table, or the first problem with it.
-pub(crate) fn read(mut table: Table) -> Result<Scene, Problem> {
-    parameters::resolve(&mut table)?;
-    let scene: Scene = serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
-        let path = error.path().to_string();
-        let path = if path == "." { String::new() } else { path };
-        let problem = in_plain_words(error.into_inner().message().trim());
-        // The reader knows the fields of a scene, from which parameters have been taken out.
-        let problem = with_names(problem, &path, [parameters::TABLE]);
-        Problem::new(path, problem)
-    })?;
-    world::build(&scene)?;
-    Ok(scene)
 }
 
 /// Names only, without the rest of the scene.

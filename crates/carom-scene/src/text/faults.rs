@@ -9,8 +9,8 @@ use toml::{Table, Value};
 use super::source::of_syntax;
 use super::{SceneText, place_of};
 use crate::error::{Fault, Problem, SceneError};
-use crate::load::read;
 use crate::scene::Scene;
+use crate::table::read;
 
 /// Faults of one scene in a list, at most: those after them are likely to follow from them.
 const MOST: usize = 20;

@@ -11,10 +11,10 @@ use toml::{Table, Value};
 
 use self::source::{SourceText, fault};
 use crate::error::{Fault, Problem, SceneError, segments};
-use crate::load::read;
 use crate::overrides::Override;
 use crate::parameters::{self, Parameter};
 use crate::scene::Scene;
+use crate::table::read;
 use crate::wording::with_names;
 
 /// The text of a scene file, with those of the files that it includes.
