@@ -14,9 +14,8 @@ pub fn raised(error: ShootError) -> PyErr {
     match error {
         ShootError::Scene(error) => Failure::from(error).into(),
         ShootError::Physics(error) => Failure::from(error).into(),
-        ShootError::Graphics(GpuError::Size { .. }) | ShootError::Film(FilmError::Size { .. }) => {
-            Failure::value("size", message).into()
-        }
+        ShootError::Graphics(GpuError::Size { .. } | GpuError::Memory { .. })
+        | ShootError::Film(FilmError::Size { .. }) => Failure::value("size", message).into(),
         ShootError::Film(FilmError::Rate { .. }) => Failure::value("frame_rate", message).into(),
         ShootError::Picture(PictureError::Unwritable { source, .. })
         | ShootError::Film(FilmError::Unwritable { source, .. }) => {

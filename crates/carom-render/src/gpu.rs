@@ -33,6 +33,14 @@ pub enum GpuError {
         /// Most pixels along an edge.
         largest: u32,
     },
+    /// A picture for which the device has too little memory.
+    #[error("there is too little graphics memory for a picture of {width} x {height} pixels")]
+    Memory {
+        /// In pixels.
+        width: u32,
+        /// In pixels.
+        height: u32,
+    },
 }
 
 /// A device to draw with, and the queue of its work.
@@ -47,6 +55,29 @@ pub struct Gpu {
 }
 
 impl Gpu {
+    /// What `make` makes for a picture of this size in pixels, if the device has the memory for it.
+    ///
+    /// # Errors
+    /// [`GpuError::Memory`]
+    pub(crate) fn if_it_fits<T>(
+        &self,
+        [width, height]: [u32; 2],
+        make: impl FnOnce() -> T,
+    ) -> Result<T, GpuError> {
+        // What is made of a texture that there is no memory for is invalid, too.
+        let invalid = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let made = make();
+        let [memory, invalid] = [memory.pop(), invalid.pop()].map(|error| {
+            // A page cannot wait for the answer: there, what does not fit is seen when it is drawn.
+            if cfg!(target_arch = "wasm32") { None } else { pollster::block_on(error) }
+        });
+        match memory.or(invalid) {
+            Some(_) => Err(GpuError::Memory { width, height }),
+            None => Ok(made),
+        }
+    }
+
     /// The fastest device there is, without any window.
     ///
     /// # Errors

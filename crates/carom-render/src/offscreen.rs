@@ -29,7 +29,7 @@ impl Offscreen {
     /// Makes the target on a device that is there already.
     ///
     /// # Errors
-    /// [`GpuError::Size`]
+    /// [`GpuError::Size`], [`GpuError::Memory`]
     pub fn on(gpu: Gpu, size: [u32; 2], quality: Quality) -> Result<Self, GpuError> {
         let renderer = Renderer::new(&gpu.device, quality);
         let target = target(&gpu, &renderer, size)?;
@@ -39,7 +39,7 @@ impl Offscreen {
     /// Draws pictures of this size from now on.
     ///
     /// # Errors
-    /// [`GpuError::Size`]; then the size stays as it was.
+    /// [`GpuError::Size`], [`GpuError::Memory`]; then the size stays as it was.
     pub fn resize(&mut self, size: [u32; 2]) -> Result<(), GpuError> {
         if size != self.target.size() {
             self.target = target(&self.gpu, &self.renderer, size)?;
@@ -55,18 +55,22 @@ impl Offscreen {
     /// The picture that the camera sees; waits for it.
     ///
     /// # Errors
-    /// [`GpuError::Lost`] if the device fails.
+    /// [`GpuError::Lost`] if the device fails, [`GpuError::Memory`].
     pub fn draw(&mut self, drawing: &Drawing, camera: &Camera) -> Result<Picture, GpuError> {
-        let readback = self.begin(drawing, camera);
+        let readback = self.begin(drawing, camera)?;
         readback.wait(&self.gpu.device)?;
         readback.picture()
     }
 
     /// Begins to draw the picture that the camera sees.
-    pub fn begin(&mut self, drawing: &Drawing, camera: &Camera) -> Readback {
-        let Gpu { device, queue, .. } = &self.gpu;
-        self.renderer.draw(device, queue, drawing, camera, &self.target);
-        Readback::begin(device, queue, &self.target.picture)
+    ///
+    /// # Errors
+    /// [`GpuError::Memory`]
+    pub fn begin(&mut self, drawing: &Drawing, camera: &Camera) -> Result<Readback, GpuError> {
+        let Self { gpu, renderer, target } = self;
+        let Gpu { device, queue, .. } = &*gpu;
+        renderer.draw(device, queue, drawing, camera, target);
+        gpu.if_it_fits(target.size(), || Readback::begin(device, queue, &target.picture))
     }
 }
 
@@ -77,5 +81,5 @@ fn target(gpu: &Gpu, renderer: &Renderer, size: [u32; 2]) -> Result<Target, GpuE
     if !(1..=largest).contains(&width) || !(1..=largest).contains(&height) {
         return Err(GpuError::Size { width, height, largest });
     }
-    Ok(renderer.target(&gpu.device, size))
+    gpu.if_it_fits(size, || renderer.target(&gpu.device, size))
 }

@@ -293,6 +293,21 @@ fn a_picture_without_pixels_or_too_large_is_refused() {
     }
 }
 
+/// 268 million pixels with four samples each: whether a device has memory for them is its business.
+#[test]
+fn a_picture_for_which_there_is_no_memory_is_refused() {
+    let mut offscreen = Offscreen::new([8, 8], Quality::FINE).expect("a graphics driver");
+    match offscreen.resize([16_384, 16_384]) {
+        Err(GpuError::Memory { width: 16_384, height: 16_384 } | GpuError::Size { .. }) => {}
+        Err(other) => panic!("{other}"),
+        // There was enough.
+        Ok(()) => return,
+    }
+    // It draws as before.
+    let drawn = offscreen.draw(&in_the_dark(), &camera_in_front(3.0)).expect("a picture");
+    assert_eq!((drawn.width, drawn.height), (8, 8));
+}
+
 #[test]
 fn far_from_the_origin_nothing_trembles() {
     // In 32 bits, places at 1e7 m would be a metre apart.

@@ -39,6 +39,11 @@ pub fn is_touched(ui: &Ui) -> bool {
     is_for_fingers(ui) || ui.input(|input| input.has_touch_screen())
 }
 
+/// What one does to press something.
+pub fn press_word(ui: &Ui) -> &'static str {
+    if is_touched(ui) { "Tap" } else { "Click" }
+}
+
 /// Shows a window that can be closed: where fingers point, by a button large enough for them.
 pub fn show_closable<'open>(
     title: &str,
@@ -121,7 +126,8 @@ impl Beside {
             );
         }
         let frame = egui::Frame::window(ui.style());
-        let outer = frame.total_margin().sum() + Vec2::new(0.0, 30.0);
+        let title_bar = if is_for_fingers(ui) { 0.0 } else { 30.0 };
+        let outer = frame.total_margin().sum() + Vec2::new(0.0, title_bar);
         let window = Window::new(self.title)
             .id(egui::Id::unique(("over the picture", self.title)))
             .frame(frame)

@@ -370,7 +370,9 @@ impl MazeScreen {
                 self.go_on();
             }
         };
-        let area = Area::new(Id::unique("here you were")).anchor(Align2::CENTER_CENTER, [0.0, 0.0]);
+        // At the foot, where the maze is not.
+        let place = [0.0, -24.0];
+        let area = Area::new(Id::unique("here you were")).anchor(Align2::CENTER_BOTTOM, place);
         area.show(ui.ctx(), |ui| {
             let frame = Frame::window(ui.style()).inner_margin(20.0);
             frame.show(ui, |ui| ui.vertical_centered(card));

@@ -120,7 +120,7 @@ impl Studio {
     /// Begins to draw a picture of this size in pixels, as fine as can be.
     ///
     /// # Errors
-    /// [`GpuError::Size`]
+    /// [`GpuError::Size`], [`GpuError::Memory`]
     pub fn picture(
         &mut self,
         size: [u32; 2],
@@ -141,6 +141,6 @@ impl Studio {
                 self.offscreen.insert(Offscreen::on(gpu, size, Quality::FINE)?)
             }
         };
-        Ok(offscreen.begin(drawing, camera))
+        offscreen.begin(drawing, camera)
     }
 }

@@ -25,7 +25,7 @@ impl From<GpuError> for Failure {
     fn from(error: GpuError) -> Self {
         let message = error.to_string();
         match error {
-            GpuError::Size { .. } => Self::Usage(message),
+            GpuError::Size { .. } | GpuError::Memory { .. } => Self::Usage(message),
             _ => Self::Fault(message),
         }
     }

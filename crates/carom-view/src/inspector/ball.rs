@@ -6,6 +6,7 @@ use egui::Ui;
 
 use super::friction;
 use super::value::{Field, number, vector};
+use crate::layout::press_word;
 
 /// A ball that is thrown into the scene with the mouse.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +29,7 @@ impl Default for Throw {
 
 pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
     let Some(id) = view.picked else {
-        ui.weak("Click on a ball to pick it.");
+        ui.weak(format!("{} on a ball to pick it.", press_word(ui)));
         return;
     };
     let Some(i) = view.spheres.index_of(id) else {

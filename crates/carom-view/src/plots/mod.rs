@@ -10,6 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use figure::{BLUE, Curve, Figure, GREEN, GREY, RED};
 
+use crate::layout::press_word;
+
 /// Which plots are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
@@ -86,7 +88,8 @@ pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut Shown) -> O
         }
         if shown.picked {
             if view.picked.is_none() {
-                ui.weak("Click on a ball to plot its height and speed.");
+                let press = press_word(ui);
+                ui.weak(format!("{press} on a ball to plot its height and speed."));
             } else {
                 draw(ui, picked(view));
                 ui.horizontal(|ui| {
