@@ -105,7 +105,7 @@ class Scene(parts.Part):
             SceneError: With the field and line of what is wrong.
         """
         with Path(path).open("rb"):
-            """An error of the system stays one."""
+            pass  # An error of the system stays one.
         return cls(**fields_of(json.loads(read_scene_file(path, overrides(changes)))))
 
     def to_toml(self) -> str:

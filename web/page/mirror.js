@@ -12,6 +12,7 @@ const PAUSE = 250;
  * @property {string | null} value
  * @property {[least: number, largest: number] | null} range
  * @property {boolean} disabled
+ * @property {boolean} readOnly whether its text is only for reading
  * @property {number} x
  * @property {number} y
  * @property {number} width
@@ -176,7 +177,7 @@ function setNumber(page, id, field) {
  * @param {string} kind
  */
 function describe(element, widget, kind) {
-  const { label, value, range, disabled, x, y, width, height } = widget;
+  const { label, value, range, disabled, readOnly, x, y, width, height } = widget;
   element.style.translate = `${x}px ${y}px`;
   element.style.width = `${width}px`;
   element.style.height = `${height}px`;
@@ -193,6 +194,7 @@ function describe(element, widget, kind) {
   if (element instanceof HTMLInputElement || element instanceof HTMLTextAreaElement) {
     if (range && element instanceof HTMLInputElement)
       [element.min, element.max] = range.map(String);
+    element.readOnly = readOnly || disabled;
     // What is being set is not set back by what was shown a moment ago.
     if (document.activeElement !== element) element.value = value ?? "";
   } else if (kind === "checkbox") {

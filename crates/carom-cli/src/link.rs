@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use carom_scene::{Library, Source};
+use carom_scene::{Library, SceneText, Source};
 use carom_session::{LOCAL_PAGE, LinkSource, Replay};
 
 use crate::choice::{Choice, RULES};
@@ -67,10 +67,9 @@ pub fn link(library: &Library, args: &Link, config: &Config) -> Result<(), Failu
     Ok(())
 }
 
-/// A scene file, whole.
+/// A scene file with those that it includes, whole.
 fn file(path: &Path) -> Result<LinkSource, Failure> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| Failure::Fault(format!("cannot read {}: {error}", path.display())))?;
+    let text = SceneText::from_file(path)?.whole().into_owned();
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     Ok(LinkSource::File { name, text })
 }

@@ -57,16 +57,21 @@ pub fn check(files: &[PathBuf]) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let mut broken = 0;
     for file in files {
-        let (name, scene, faults) = if file.as_os_str() == STANDARD {
-            let (name, text) = (standard_input::NAME, standard_input::text()?);
-            (name.to_owned(), Scene::from_toml(text, name), Scene::faults(text, name))
+        let is_standard = file.as_os_str() == STANDARD;
+        let name = if is_standard { standard_input::NAME.into() } else { file.to_string_lossy() };
+        let scene = if is_standard {
+            Scene::from_toml(standard_input::text()?, &name)
         } else {
-            let faults = Scene::faults_of_file(file).unwrap_or_default();
-            (file.display().to_string(), Scene::from_file(file, &[]), faults)
+            Scene::from_file(file, &[])
         };
         match scene {
             Ok(scene) => writeln!(out, "{name}: ok, \"{}\"", scene.name)?,
             Err(error) => {
+                let faults = if is_standard {
+                    Scene::faults(standard_input::text()?, &name)
+                } else {
+                    Scene::faults_of_file(file).unwrap_or_default()
+                };
                 // What a single fault says is the error itself.
                 complain(&if faults.len() > 1 { lines(&faults) } else { error.to_string() });
                 broken += 1;

@@ -221,10 +221,10 @@ impl Drawing {
                 finish,
             }),
             _ => {
-                let opacity = match finish {
-                    _ if trigger => TRIGGER_OPACITY,
-                    Finish::Glass => GLASS_OPACITY,
-                    _ => 1.0,
+                let (finish, opacity) = match finish {
+                    _ if trigger => (Finish::default(), TRIGGER_OPACITY),
+                    Finish::Glass => (finish, GLASS_OPACITY),
+                    _ => (finish, 1.0),
                 };
                 self.panels.push(Panel { shape, pose, color, finish, opacity });
             }

@@ -70,7 +70,7 @@ impl Instances {
         let is_glass = |ball: &&Ball| ball.finish == Finish::Glass && !is_mark(ball);
         balls.extend(drawing.balls.iter().filter(is_glass).map(packed));
         *glass_balls = balls.len();
-        balls.sort_by(|a, b| distance_squared(b).total_cmp(&distance_squared(a)));
+        balls.sort_by(|a, b| tangent_squared(b).total_cmp(&tangent_squared(a)));
         let is_opaque = |ball: &&Ball| !is_mark(ball) && !is_glass(ball);
         let is_small = |ball: &&Ball| {
             ball.radius * sharpness < small_radius(ball) * (ball.center - eye).length()
@@ -111,6 +111,12 @@ fn small_radius(ball: &Ball) -> f64 {
     }
 }
 
+/// From the eye to where a ray touches a ball: of balls that are apart, the one with the less of it is
+/// never behind the other.
+fn tangent_squared(ball: &PackedBall) -> f32 {
+    distance_squared(ball) - ball[3] * ball[3]
+}
+
 /// Of the centre of a ball from the eye.
 fn distance_squared(&[x, y, z, ..]: &PackedBall) -> f32 {
     x * x + y * y + z * z
@@ -140,7 +146,7 @@ fn add_panel(
     }
 }
 
-/// Whether a container is a trigger: that is a volume without walls.
+/// Whether a container is drawn as a volume without walls: as a trigger.
 fn is_volume(container: &Panel) -> bool {
     container.opacity < 1.0 && container.finish != Finish::Glass
 }

@@ -250,6 +250,32 @@ fn a_ball_shades_the_floor_away_from_the_sun() {
     assert!(differing.count() <= 4, "but for the mark itself");
 }
 
+/// However far its shadow falls from it: the map of the sun need not reach as deep.
+#[test]
+fn a_single_ball_high_above_a_floor_without_end_shades_it_all_over() {
+    let mut drawing = Drawing::default();
+    drawing.add_collider(Shape::HalfSpace, Pose::at(DVec3::ZERO), [0.8, 0.8, 0.8], false);
+    drawing.light.to_sun = DVec3::new(1.0, 1.0, 0.0).normalize();
+    let camera = Camera::looking_at(DVec3::new(-5.0, 9.0, 9.0), DVec3::new(-5.0, 0.0, 0.0), 0.8);
+    for quality in [Quality::DRAFT, Quality::FINE] {
+        let tone = |drawing: &Drawing, x: f64| {
+            let place = camera.place(DVec3::new(x, 0.0, 0.0), ASPECT).expect("before the eye");
+            let x = (0.5 + 0.5 * f64::from(place.x)) * f64::from(SIZE[0]);
+            let y = (0.5 - 0.5 * f64::from(place.y)) * f64::from(SIZE[1]);
+            u32::from(pixel(&drawn(drawing, &camera, quality), x as u32, y as u32)[1])
+        };
+        let lit = tone(&drawing, -5.0);
+        let mut shaded = drawing.clone();
+        let above = ball(DVec3::new(0.0, 5.0, 0.0), 0.5, [1.0, 0.0, 0.0]);
+        shaded.balls.push(Ball { pattern: Pattern::Plain, ..above });
+        // On both sides of the middle of a shadow of 1.4 m.
+        for x in [-5.5, -5.0, -4.5] {
+            let seen = tone(&shaded, x);
+            assert!(5 * seen < 4 * lit, "{x}: {seen} of {lit}");
+        }
+    }
+}
+
 #[test]
 fn a_fitted_camera_sees_every_corner_and_wastes_little() {
     let bounds = Bounds { min: DVec3::new(-3.0, 0.0, 1.0), max: DVec3::new(5.0, 2.0, 1.5) };

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use crate::text::SceneText;
+use crate::text::named_files;
 
 /// A scene file and those that it includes, and when they were changed last.
 #[derive(Debug, Clone)]
@@ -39,16 +39,16 @@ impl ChangedFile {
         is_any
     }
 
-    /// Lists the files anew; those that were included last where the file cannot be read now.
+    /// Lists the files anew: also those that cannot be read now, and those that were listed last, which
+    /// a file that is broken for a moment does not name.
     fn list(&mut self) {
-        let paths: Vec<PathBuf> = match SceneText::from_file(&self.path) {
-            Ok(text) => text.included().map(Path::to_owned).chain([self.path.clone()]).collect(),
-            Err(_) => {
-                let before = self.files.iter().map(|(path, _)| path.clone());
-                let before = before.filter(|path| *path != self.path);
-                before.chain([self.path.clone()]).collect()
+        let mut paths = named_files(&self.path);
+        let before = self.files.drain(..).map(|(path, _)| path);
+        before.for_each(|path| {
+            if !paths.contains(&path) {
+                paths.push(path);
             }
-        };
+        });
         let dated = |path: PathBuf| {
             let changed = changed(&path);
             (path, changed)

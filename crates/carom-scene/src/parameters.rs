@@ -69,27 +69,48 @@ pub(crate) fn resolve(scene: &mut Table) -> Result<(), Problem> {
     })
 }
 
-/// The values of the parameters, each computed from those before it.
+/// The values of the parameters, in their order; formulas of them may be in any.
 fn values(table: &Table) -> Result<Vec<(String, f64)>, Problem> {
     if table.len() > MOST {
         return Err(Problem::new(TABLE, format!("has more than {MOST} parameters")));
     }
     let mut known: Vec<(String, f64)> = Vec::new();
-    for (name, value) in table {
-        let number = value_of(name, value, &known).map_err(|error| {
-            let problem = match &error {
-                FormulaError::UnknownName { name: other, .. } if table.contains_key(other) => {
-                    format!(
-                        "\"{other}\" comes after \"{name}\": a formula has parameters before it"
-                    )
-                }
-                _ => error.to_string(),
-            };
-            Problem::new(format!("{TABLE}.{name}"), problem)
-        })?;
-        known.push((name.clone(), number));
+    for name in table.keys() {
+        find(name, table, &mut known, &mut Vec::new())?;
     }
+    let place = |name: &String| table.keys().position(|it| it == name);
+    known.sort_by_cached_key(|(name, _)| place(name));
     Ok(known)
+}
+
+/// Computes a parameter, and before it those that its formula names. `way`: those that wait for it.
+fn find<'a>(
+    name: &'a str,
+    table: &'a Table,
+    known: &mut Vec<(String, f64)>,
+    way: &mut Vec<&'a str>,
+) -> Result<(), Problem> {
+    let is_known = |known: &[(String, f64)]| known.iter().any(|(it, _)| it == name);
+    way.push(name);
+    while !is_known(known) {
+        match value_of(name, &table[name], known) {
+            Ok(number) => known.push((name.to_owned(), number)),
+            Err(error) => {
+                let fault = |problem: String| Problem::new(format!("{TABLE}.{name}"), problem);
+                let other = match &error {
+                    FormulaError::UnknownName { name: other, .. } => table.get_key_value(other),
+                    FormulaError::Other(_) => None,
+                };
+                let Some((other, _)) = other else { return Err(fault(error.to_string())) };
+                if way.contains(&other.as_str()) {
+                    return Err(fault(format!("\"{name}\" follows from itself, by \"{other}\"")));
+                }
+                find(other, table, known, way)?;
+            }
+        }
+    }
+    way.pop();
+    Ok(())
 }
 
 /// The value of a parameter.

@@ -5,8 +5,11 @@ use toml::{Table, Value};
 use crate::error::Problem;
 use crate::parameters;
 use crate::scene::Scene;
-use crate::wording::{in_plain_words, with_names};
+use crate::wording::{in_plain_words, table_expected, with_names};
 use crate::world;
+
+/// The field of a scene file that names the files it includes.
+pub(crate) const INCLUDE: &str = "include";
 
 /// A scene from its table, or the first problem with it.
 pub(crate) fn read(mut table: Table) -> Result<Scene, Problem> {
@@ -15,8 +18,14 @@ pub(crate) fn read(mut table: Table) -> Result<Scene, Problem> {
         let path = error.path().to_string();
         let path = if path == "." { String::new() } else { path };
         let problem = in_plain_words(error.into_inner().message().trim());
-        // The reader knows the fields of a scene, from which parameters have been taken out.
-        let problem = with_names(problem, &path, [parameters::TABLE]);
+        if let Some((path, problem)) = table_expected(&path, &problem) {
+            return Problem::new(path, problem);
+        }
+        if problem.starts_with("unknown field `include`") {
+            return Problem::new(path, "`include` stands before the first table of a file");
+        }
+        // The reader knows the fields of a scene, from which others have been taken out.
+        let problem = with_names(problem, &path, [parameters::TABLE, INCLUDE]);
         Problem::new(path, problem)
     })?;
     world::build(&scene)?;

@@ -3,7 +3,7 @@
 use crate::error::nearest;
 
 /// Words that others use for what a scene calls otherwise.
-const SYNONYMS: [(&str, &str); 22] = [
+const SYNONYMS: [(&str, &str); 27] = [
     ("ball", "sphere"),
     ("balls", "spheres"),
     ("bounce", "restitution"),
@@ -15,21 +15,55 @@ const SYNONYMS: [(&str, &str); 22] = [
     ("floor", "half-space"),
     ("ground", "half-space"),
     ("halfspace", "half-space"),
+    ("material", "finish"),
+    ("mirror", "metal"),
     ("mu", "friction"),
     ("obstacles", "colliders"),
     ("omega", "angular_velocity"),
     ("planes", "colliders"),
     ("plane", "half-space"),
     ("quad", "rectangle"),
+    ("shiny", "glossy"),
     ("size", "radius"),
     ("speed", "velocity"),
     ("spin", "angular_velocity"),
+    ("steel", "metal"),
+    ("transparent", "glass"),
     ("wall", "half-space"),
     ("walls", "colliders"),
 ];
 
 /// For those whose language writes numbers with a comma.
 pub(crate) const DECIMAL_POINT: &str = "decimals have a point, not a comma";
+
+/// What is a table though one number or list may seem to be enough, and such a table.
+const TABLES: [(&str, &str); 11] = [
+    ("box", "{ size = [1.0, 1.0, 1.0] }"),
+    ("camera", "[camera]"),
+    ("colors", "[colors]"),
+    ("constant", "{ force = [0.0, -1.0, 0.0] }"),
+    ("container", "{ size = [1.0, 1.0, 1.0] }"),
+    ("gravity", "{ acceleration = [0.0, -9.81, 0.0] }"),
+    ("rectangle", "{ size_x = 2.0, size_z = 2.0 }"),
+    ("simulation", "[simulation]"),
+    ("sphere", "{ radius = 0.5 }"),
+    ("sun", "[sun]"),
+    ("viscous-drag", "{ coefficient = 0.1 }"),
+];
+
+/// What is written as a list or a number though it is a table: its path, and how it is written. The reader
+/// takes a list for the fields of a table in their order.
+pub(crate) fn table_expected(path: &str, message: &str) -> Option<(String, String)> {
+    let of_list = path.strip_suffix(']').and_then(|path| path.rsplit_once('['));
+    let path = match of_list {
+        Some((path, _)) => path,
+        None if message.ends_with("expected a table") => path,
+        None => return None,
+    };
+    let name = path.rsplit('.').next().unwrap_or_default();
+    let (_, table) = TABLES.iter().find(|(table, _)| *table == name)?;
+    Some((path.to_owned(), format!("is a table: {table}")))
+}
 
 /// A message of the reader in plain words.
 pub(crate) fn in_plain_words(message: &str) -> String {
@@ -44,6 +78,12 @@ pub(crate) fn in_plain_words(message: &str) -> String {
     }
     if message == "invalid type: map, expected a sequence" {
         return "is one table, not a list: a list has double brackets, like [[spheres]]".to_owned();
+    }
+    if message.starts_with("wanted exactly 1 element, found 0") {
+        return "says nothing: it has to say one thing".to_owned();
+    }
+    if message.starts_with("wanted exactly 1 element") {
+        return "says several things: it has to say one thing".to_owned();
     }
     let Some((found, expected)) = message.split_once(", expected ") else {
         return message.to_owned();

@@ -65,8 +65,9 @@ fn errors_name_the_line_and_what_may_be_meant() {
     let file = |from: &str, to: &str| problem(&TEXT.replace(from, to), &[]);
     let unknown = file("\"=2.5 * r\"", "\"=2.5 * radius\"");
     assert!(unknown.starts_with("line.toml:13: generators[0].row.step[0]: unknown name `radius`"));
-    let late = file("r = 0.25", "r = \"=count / 16\"");
-    assert!(late.starts_with("line.toml:5: parameters.r: \"count\" comes after \"r\""), "{late}");
+    let circle = file("r = 0.25", "r = \"=s / 16\"\ns = \"=2 * r\"");
+    let expected = "line.toml:6: parameters.s: \"s\" follows from itself, by \"r\"";
+    assert!(circle.starts_with(expected), "{circle}");
     let whole = file("count = 4", "count = 2.5");
     assert!(whole.contains("generators[0].row.count: invalid type: floating point"), "{whole}");
     let text_for_number = file("r = 0.25", "r = \"wide\"");

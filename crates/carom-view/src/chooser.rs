@@ -153,7 +153,7 @@ impl Chooser {
                 }
             });
             ui.separator();
-            ui.weak(if is_for_fingers(ui) {
+            ui.weak(if is_for_fingers(ui.ctx()) {
                 "Tap the one to watch."
             } else {
                 "Arrow keys and Enter, or a click. Or drop a scene file on the window."

@@ -33,6 +33,8 @@ pub struct KeptGame {
     /// A link to its maze.
     pub maze: String,
     pub progress: Progress,
+    /// Whether the ball rolls by friction.
+    pub rolls: bool,
 }
 
 /// What is shown of a scene, and around it.

@@ -30,13 +30,13 @@ pub fn suit_fingers(context: &Context) {
 }
 
 /// Whether all there is to press is large enough for fingers: then there is no keyboard.
-pub fn is_for_fingers(ui: &Ui) -> bool {
-    ui.spacing().interact_size.y >= FINGER
+pub fn is_for_fingers(context: &Context) -> bool {
+    context.global_style().spacing.interact_size.y >= FINGER
 }
 
 /// Whether somebody points with fingers, or may: a keyboard on the screen would cover things then.
 pub fn is_touched(ui: &Ui) -> bool {
-    is_for_fingers(ui) || ui.input(|input| input.has_touch_screen())
+    is_for_fingers(ui.ctx()) || ui.input(|input| input.has_touch_screen())
 }
 
 /// What one does to press something.
@@ -53,7 +53,7 @@ pub fn show_closable<'open>(
     contents: impl FnOnce(&mut Ui),
 ) {
     let plain = window.collapsible(false);
-    if context.global_style().spacing.interact_size.y < FINGER {
+    if !is_for_fingers(context) {
         plain.open(open).show(context, contents);
         return;
     }
@@ -126,7 +126,7 @@ impl Beside {
             );
         }
         let frame = egui::Frame::window(ui.style());
-        let title_bar = if is_for_fingers(ui) { 0.0 } else { 30.0 };
+        let title_bar = if is_for_fingers(ui.ctx()) { 0.0 } else { 30.0 };
         let outer = frame.total_margin().sum() + Vec2::new(0.0, title_bar);
         let window = Window::new(self.title)
             .id(egui::Id::unique(("over the picture", self.title)))

@@ -104,19 +104,24 @@ impl MazeScreen {
 
     /// What it takes to go on with the game at another time.
     pub fn kept(&self) -> KeptGame {
-        KeptGame { maze: self.link.to_string(), progress: self.game.progress() }
+        KeptGame {
+            maze: self.link.to_string(),
+            progress: self.game.progress(),
+            rolls: self.rolls(),
+        }
     }
 
     /// Goes on with a game of another time, if that was in this maze and got anywhere.
     pub fn resume(&mut self, kept: &KeptGame) {
-        let is_begun = |screen: &Self| screen.game.elapsed() > 0.0;
-        if kept.maze == self.link.to_string()
-            && self.game.resume(&kept.progress).is_ok()
-            && is_begun(self)
+        if kept.maze != self.link.to_string()
+            || self.set_rolls(kept.rolls).is_err()
+            || self.game.resume(&kept.progress).is_err()
         {
-            self.pace.set_playing(false);
-            self.waits = true;
+            return;
         }
+        let is_begun = self.game.elapsed() > 0.0;
+        self.pace.set_playing(!is_begun);
+        self.waits = is_begun;
     }
 
     /// A link to the maze.
@@ -210,6 +215,9 @@ impl MazeScreen {
         self.game.play_again();
         self.roll = Roll::START;
         self.message = None;
+        if self.waits {
+            self.go_on();
+        }
     }
 
     /// Whether the ball rolls by friction.
@@ -367,7 +375,6 @@ impl MazeScreen {
             }
             if ui.button("Start again").clicked() {
                 self.play_again();
-                self.go_on();
             }
         };
         // At the foot, where the maze is not.

@@ -16,6 +16,7 @@ pub struct Widgets {
 
 /// A labelled part of the interface.
 #[derive(Debug, Clone, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Widget {
     /// Names it in requests; stays the same from picture to picture.
     id: String,
@@ -26,6 +27,8 @@ pub struct Widget {
     /// From where to where a number goes.
     range: Option<[f64; 2]>,
     disabled: bool,
+    /// Whether its text is only for reading.
+    read_only: bool,
     /// Left edge \[CSS px\].
     x: f64,
     /// Upper edge \[CSS px\].
@@ -111,6 +114,7 @@ fn widget(id: NodeId, node: &Node, zoom: f64) -> Option<Widget> {
         value: number.or(toggled).or(text),
         range: node.min_numeric_value().zip(node.max_numeric_value()).map(<[f64; 2]>::from),
         disabled: node.is_disabled(),
+        read_only: node.is_read_only(),
         x: bounds.x0 * zoom,
         y: bounds.y0 * zoom,
         width: bounds.width() * zoom,

@@ -43,12 +43,16 @@ fn tap(place: vec2<f32>, layer: i32, depth: f32) -> f32 {
 // `spread`: distance of taps, in texels; 0 for a single one.
 fn light_through(map: vec4<f32>, layer: i32, part: f32, spread: f32) -> f32 {
     let of_whole = map.xy * vec2<f32>(0.5, -0.5) + 0.5;
-    if any(of_whole < vec2<f32>(0.0)) || any(of_whole > vec2<f32>(1.0)) || map.z > 1.0 {
+    if any(of_whole < vec2<f32>(0.0)) || any(of_whole > vec2<f32>(1.0)) {
         return 1.0;
     }
     let place = of_whole * part;
+    // What lies behind all that casts shadows is as deep as that.
+    let depth = min(map.z, 1.0);
     if globals.sun.w < 0.5 || spread == 0.0 {
-        return tap(place, layer, map.z);
+        // Two taps a texel apart: of the pattern of what glass shades, always one of each.
+        let half_texel = vec2<f32>(0.5 * globals.picture.z, 0.0);
+        return 0.5 * (tap(place - half_texel, layer, depth) + tap(place + half_texel, layer, depth));
     }
     var sum = 0.0;
     let texel = globals.picture.z * spread;
@@ -56,7 +60,7 @@ fn light_through(map: vec4<f32>, layer: i32, part: f32, spread: f32) -> f32 {
         for (var j = -1; j <= 1; j++) {
             // Turned by atan(1/2), so that taps fall on no row or column twice.
             let step = vec2<f32>(f32(i) + 0.5 * f32(j), f32(j) - 0.5 * f32(i));
-            sum += tap(place + step * texel, layer, map.z);
+            sum += tap(place + step * texel, layer, depth);
         }
     }
     return sum / 9.0;
@@ -87,12 +91,6 @@ struct Surface {
     finish: f32,
 }
 
-// Finishes: of those between, a surface has its own gloss.
-const MATTE: f32 = 1.0;
-const GLOSSY: f32 = 2.0;
-const METAL: f32 = 3.0;
-const GLASS: f32 = 4.0;
-
 // How much of the sun arrives at a point of a surface with this normal, shadows of others counted.
 // `spread`: 1 for soft shadows, 0 for hard ones.
 fn sunlight(point: vec3<f32>, normal: vec3<f32>, spread: f32) -> f32 {
@@ -103,7 +101,12 @@ fn sunlight(point: vec3<f32>, normal: vec3<f32>, spread: f32) -> f32 {
 // How much of the sky straight above arrives there.
 fn skylight(point: vec3<f32>, normal: vec3<f32>, spread: f32) -> f32 {
     let off = off_surface(point, normal, vec3<f32>(0.0, 1.0, 0.0), globals.zenith.w, 1.0, 3.5);
-    return light_through(globals.sky_from_eye * vec4<f32>(off, 1.0), 1, globals.ground.w, 1.5 * spread);
+    let map = globals.sky_from_eye * vec4<f32>(off, 1.0);
+    // Far below, the sky reaches around what hides its zenith.
+    if map.z > 1.0 {
+        return 1.0;
+    }
+    return light_through(map, 1, globals.ground.w, 1.5 * spread);
 }
 
 // A point off a surface, so that it does not shade itself: by these many texels where light falls

@@ -16,6 +16,12 @@ fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
 
 const KINDS: f32 = 8.0;
 
+// Finishes: of those between, a surface has its own gloss.
+const MATTE: f32 = 1.0;
+const GLOSSY: f32 = 2.0;
+const METAL: f32 = 3.0;
+const GLASS: f32 = 4.0;
+
 struct Corner {
     place: vec3<f32>,
     normal: vec3<f32>,

@@ -38,7 +38,7 @@ fn sphere_fragment(in: SphereVarying) {
     let outside = dot(in.corner, in.corner);
     // Glass lets half of the light through: every other texel.
     let odd = (i32(in.clip.x) + i32(in.clip.y)) % 2 != 0;
-    if outside > 1.0 || (in.finish == 4.0 && odd) {
+    if outside > 1.0 || (in.finish == GLASS && odd) {
         discard;
     }
 }

@@ -9,6 +9,7 @@ use toml::{Table, Value};
 use super::source::of_syntax;
 use super::{SceneText, place_of};
 use crate::error::{Fault, Problem, SceneError};
+use crate::parameters;
 use crate::scene::Scene;
 use crate::table::read;
 
@@ -78,7 +79,7 @@ impl SceneText {
             if !(is_known || is_our_doing) {
                 faults.push(found);
             }
-            taken.push(problem.field.clone());
+            taken.extend([problem.field.clone(), place_of(&problem).join(".")]);
             let is_gone = if problem.field == "name" {
                 table.insert("name".to_owned(), Value::from("any")).is_some()
             } else {
@@ -95,8 +96,11 @@ impl SceneText {
     }
 }
 
-/// The path of the field that is missing, where that is the problem.
+/// The path of the field or the parameter that is missing, where that is the problem.
 fn missing(problem: &Problem) -> Option<String> {
+    if let Some(rest) = problem.problem.strip_prefix("unknown name `") {
+        return Some(format!("{}.{}", parameters::TABLE, rest.split('`').next()?));
+    }
     let name = problem.problem.strip_prefix("missing field `")?.split('`').next()?;
     Some(if problem.field.is_empty() {
         name.to_owned()

@@ -5,10 +5,8 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::source::SourceText;
-use crate::error::SceneError;
-
-/// The field of a scene file that names the files it includes.
-const FIELD: &str = "include";
+use crate::error::{SceneError, did_you_mean};
+use crate::table::INCLUDE;
 
 /// Files of one scene at most: a slip, or somebody's joke, would read files without end.
 const MOST_FILES: usize = 100;
@@ -24,45 +22,69 @@ pub(super) fn is_list(field: &str) -> bool {
     LISTS.contains(&field)
 }
 
-/// A text and, before it, those of the files that it includes, in their order. `way` leads to it: the
-/// files that include each other.
+/// A text and, before it, those of the files that it includes, in their order, but for those that were
+/// `met` before. `way` leads to it: the files that include each other.
 pub(super) fn with_included(
     mut own: SourceText,
     way: &[PathBuf],
-    count: &mut usize,
+    met: &mut Vec<PathBuf>,
 ) -> Result<Vec<SourceText>, SceneError> {
     let mut sources = Vec::new();
-    let Some(included) = own.table.remove(FIELD) else {
+    let Some(included) = own.table.remove(INCLUDE) else {
         sources.push(own);
         return Ok(sources);
     };
-    let refused = |problem: &str| Err(own.fault(FIELD, problem).into());
+    let refused = |problem: &str| Err(own.fault(INCLUDE, problem).into());
     let Some(names) = names(&included) else {
         return refused("must be the path of a scene file, or a list of such");
     };
-    let Some(path) = way.last() else {
-        return refused("only a file includes others, which lie beside it");
-    };
     for name in names {
+        let Some(path) = way.last() else {
+            return refused("only a file includes others, which lie beside it");
+        };
         let path = path.parent().unwrap_or(Path::new("")).join(name);
         if way.iter().any(|other| is_same(other, &path)) {
             return refused(&format!("\"{name}\" includes this file"));
         }
-        *count += 1;
-        if *count >= MOST_FILES {
+        if met.iter().any(|other| is_same(other, &path)) {
+            continue;
+        }
+        met.push(path.clone());
+        if met.len() >= MOST_FILES {
             return refused(&format!("a scene has {MOST_FILES} files at most"));
         }
         let text = match read(&path) {
             Ok(text) => text,
-            Err(error) => return refused(&format!("cannot read \"{name}\": {error}")),
+            Err(error) => {
+                let with_ending = Path::new(name).with_extension("toml").display().to_string();
+                let is_meant = path.with_extension("toml").is_file() && with_ending != name;
+                let meant = did_you_mean(&is_meant.then_some(with_ending));
+                return refused(&format!("cannot read \"{name}\": {error}{meant}"));
+            }
         };
         let mut other = SourceText::new(&path.display().to_string(), &text)?;
         other.table.retain(|field, _| !OWN.contains(&field));
         let way: Vec<PathBuf> = way.iter().cloned().chain([path]).collect();
-        sources.extend(with_included(other, &way, count)?);
+        sources.extend(with_included(other, &way, met)?);
     }
     sources.push(own);
     Ok(sources)
+}
+
+/// The files that a file names, and those that these do, as far as they can be read.
+pub(crate) fn named_files(path: &Path) -> Vec<PathBuf> {
+    let mut files: Vec<PathBuf> = Vec::new();
+    let mut waiting = vec![path.to_owned()];
+    while let Some(path) = waiting.pop().filter(|_| files.len() < MOST_FILES) {
+        let text = read(&path).unwrap_or_default();
+        let table: Table = toml::from_str(&text).unwrap_or_default();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let named = table.get(INCLUDE).and_then(names).unwrap_or_default();
+        let named: Vec<PathBuf> = named.into_iter().map(|name| folder.join(name)).collect();
+        files.push(path);
+        waiting.extend(named.into_iter().filter(|it| !files.contains(it)));
+    }
+    files
 }
 
 /// One path or several.
@@ -87,9 +109,17 @@ fn read(path: &Path) -> std::io::Result<String> {
     std::fs::read_to_string(path)
 }
 
+/// Fields of a table that say the same thing in two ways.
+const SAME: [(&str, &str); 2] = [("rotation", "look_at"), ("look_at", "rotation")];
+
 /// Lays a table over another: lists of things one behind the other, tables into each other; of
 /// other values, the upper ones count.
 pub(super) fn lay_over(lower: &mut Table, upper: Table) {
+    for (one, other) in SAME {
+        if upper.contains_key(one) {
+            lower.remove(other);
+        }
+    }
     for (field, value) in upper {
         match (lower.get_mut(&field), value) {
             (Some(Value::Array(list)), Value::Array(more)) if is_list(&field) => list.extend(more),

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
+pub(crate) use self::include::named_files;
 use self::source::{SourceText, fault};
 use crate::error::{Fault, Problem, SceneError, segments};
 use crate::overrides::Override;
@@ -61,7 +62,7 @@ impl SceneText {
     fn of(own: SourceText, way: &[PathBuf]) -> Result<Self, SceneError> {
         let name = Path::new(&own.name).file_stem().unwrap_or_default();
         let name = name.to_string_lossy().into_owned();
-        let sources = include::with_included(own, way, &mut 0)?;
+        let sources = include::with_included(own, way, &mut Vec::new())?;
         let mut table = Table::new();
         sources.iter().for_each(|source| include::lay_over(&mut table, source.table.clone()));
         if !(table.contains_key("name") || name.is_empty()) {
@@ -120,12 +121,6 @@ impl SceneText {
     /// What errors call it: where it was read from.
     pub fn name(&self) -> &str {
         self.sources.last().map_or("", |own| &own.name)
-    }
-
-    /// The files that it includes, and those that these do.
-    pub fn included(&self) -> impl Iterator<Item = &Path> {
-        let included = self.sources.len().saturating_sub(1);
-        self.sources[..included].iter().map(|source| Path::new(&source.name))
     }
 
     fn changed(&self, overrides: &[Override]) -> Result<Table, SceneError> {

@@ -163,7 +163,7 @@ fn large_play_button(ui: &Ui, rect: Rect) -> Option<Action> {
     let shown = area(rect).show(ui.ctx(), |ui| {
         let text = RichText::new("▶  Play").size(22.0).strong();
         let large = Button::new(text).min_size(Vec2::new(150.0, 48.0)).corner_radius(24);
-        let response = ui.add(if is_for_fingers(ui) {
+        let response = ui.add(if is_for_fingers(ui.ctx()) {
             large
         } else {
             large.shortcut_text(Action::PlayOrPause.keys())

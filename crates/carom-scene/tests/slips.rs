@@ -1,0 +1,60 @@
+//! What newcomers write that is not quite a scene, and what they read then: one fault for one slip.
+
+use carom_scene::Scene;
+
+fn told(text: &str) -> Vec<String> {
+    let faults = Scene::faults(&format!("name = 'x'\n{text}"), "x.toml");
+    faults.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn one_slip_is_one_fault_that_says_what_to_write() {
+    for (text, expected) in [
+        (
+            "[[forces]]\ngravity = [0, -9.81, 0]",
+            "3: forces[0].gravity: is a table: { acceleration = [0.0, -9.81, 0.0] }",
+        ),
+        (
+            "[[forces]]\ngravity = 9.81",
+            "3: forces[0].gravity: is a table: { acceleration = [0.0, -9.81, 0.0] }",
+        ),
+        (
+            "[[colliders]]\nshape = { box = [1, 1, 1] }",
+            "3: colliders[0].shape.box: is a table: { size = [1.0, 1.0, 1.0] }",
+        ),
+        (
+            "[[colliders]]\nshape = { sphere = 1 }",
+            "3: colliders[0].shape.sphere: is a table: { radius = 0.5 }",
+        ),
+        ("[[simulation]]\nrule = 'exact'", "2: simulation: is a table: [simulation]"),
+        ("[[forces]]", "2: forces[0]: says nothing: it has to say one thing"),
+        (
+            "[camera]\nposition = [1, 0, 0]\nlook_at = [1, 0, 0]",
+            "3: camera: the way from `position` to `look_at` must be finite and not zero, \
+             not [0.0, 0.0, 0.0]",
+        ),
+        (
+            "[[spheres]]\nradius = 1\ninclude = 'a.toml'",
+            "4: spheres[0].include: `include` stands before the first table of a file",
+        ),
+        (
+            "[parameters]\nw = 'two'\n[[spheres]]\nradius = '=w'",
+            "3: parameters.w: is neither a number, like \"5 cm\", nor a formula, like \"=2*r\"",
+        ),
+    ] {
+        assert_eq!(told(text), [format!("x.toml:{expected}")], "{text}");
+    }
+}
+
+#[test]
+fn what_others_call_otherwise_is_understood() {
+    for (text, meant) in [
+        ("includ = 'a.toml'", "include"),
+        ("[[spheres]]\nradius = 1\nmaterial = 'glass'", "finish"),
+        ("[[spheres]]\nradius = 1\nfinish = 'shiny'", "glossy"),
+        ("[[spheres]]\nradius = 1\nfinish = 'steel'", "metal"),
+    ] {
+        let [told] = &told(text)[..] else { panic!("{:?}", told(text)) };
+        assert!(told.ends_with(&format!("did you mean \"{meant}\"?")), "{told}");
+    }
+}
