@@ -275,7 +275,8 @@ class Row(Part):
         start: Centre of the first [m].
         step: From each centre to the next [m].
         sphere: What spheres have in common.
-        collider: What colliders have in common; its position is an offset, its name gets its number.
+        collider: What colliders have in common; its position is an offset, its name gets its
+            number.
     """
 
     tag: ClassVar[str] = "row"
@@ -288,7 +289,9 @@ class Row(Part):
 
 @dataclass(frozen=True)
 class Lattice(Part):
-    """Spheres or colliders on a box-shaped lattice; x runs fastest, then y, then z. Give one of them.
+    """Spheres or colliders on a box-shaped lattice: give one of them.
+
+    x runs fastest, then y, then z.
 
     Attributes:
         counts: How many along x, y and z, each >= 1.
