@@ -1,8 +1,8 @@
 //! Telling what is in a world.
 
 use carom::World as Physics;
+use carom_scene::Palette;
 use carom_scene::scene::{Collider, Force, Scene, Sphere};
-use carom_scene::{Paint, Palette};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -97,6 +97,5 @@ fn colliders_now(world: &Physics, scene: &Scene) -> Vec<Collider> {
 /// A sphere as scene files write it.
 fn sphere(world: &Physics, members: &Members, index: usize) -> Sphere {
     let sphere = world.spheres().get(index);
-    let Paint { color, finish } = members.look(index);
-    Sphere { color, finish, ..Sphere::of(&sphere) }
+    Sphere::of(&sphere).painted(members.look(index))
 }

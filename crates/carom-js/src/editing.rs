@@ -1,9 +1,9 @@
 //! Changing a world from outside.
 
 use carom::Collider;
+use carom_scene::Palette;
 use carom_scene::part::{self, only};
 use carom_scene::scene::{self, Force};
-use carom_scene::{Paint, Palette};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -75,8 +75,7 @@ impl World {
             let (radius, mass) = (spheres.radii()[index], spheres.masses()[index]);
             let coat = palette.sphere(id.number(), radius, mass);
             let id = self.world.add_sphere(spheres.get(index))?;
-            let paint = Paint { color: Some(coat.color), finish: coat.finish };
-            self.description.palette.add_sphere(id.number(), paint);
+            self.description.palette.add_sphere(id.number(), coat.into());
             self.description.members.add(id, coat);
             added.spheres.push(id.number());
         }

@@ -92,6 +92,6 @@ fn spheres_now(inner: &Inner) -> Vec<Sphere> {
 }
 
 /// A sphere as scene files write it.
-fn described(sphere: &carom::Sphere, Paint { color, finish }: Paint) -> Sphere {
-    Sphere { color, finish, ..Sphere::of(sphere) }
+fn described(sphere: &carom::Sphere, paint: Paint) -> Sphere {
+    Sphere::of(sphere).painted(paint)
 }

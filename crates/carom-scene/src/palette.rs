@@ -27,6 +27,19 @@ impl From<&Sphere> for Paint {
     }
 }
 
+impl From<Coat> for Paint {
+    fn from(Coat { color, finish }: Coat) -> Self {
+        Self { color: Some(color), finish }
+    }
+}
+
+impl Sphere {
+    /// The same sphere with this look.
+    pub fn painted(self, Paint { color, finish }: Paint) -> Self {
+        Self { color, finish, ..self }
+    }
+}
+
 impl From<&Collider> for Paint {
     fn from(collider: &Collider) -> Self {
         Self { color: collider.color, finish: collider.finish }

@@ -48,10 +48,7 @@ impl Setup {
 
 /// Writes into a description of spheres what the physics calls them.
 pub(crate) fn describe_sphere(sphere: &carom::Sphere, description: &mut Sphere) {
-    *description = {
-        let Sphere { color, finish, .. } = *description;
-        Sphere { color, finish, ..Sphere::of(sphere) }
-    };
+    *description = Sphere::of(sphere).painted((&*description).into());
 }
 
 /// Writes into the description of an emitter what the physics calls it.

@@ -226,8 +226,7 @@ impl SphereArrays {
             .with_inertia_factor(or(&self.inertia_factors, index, usual.inertia_factor))
             .with_orientation(or(&self.orientations, index, usual.orientation))
             .with_angular_velocity(self.angular_velocity(index));
-        let Paint { color, finish } = self.paints[index];
-        Sphere { color, finish, ..Sphere::of(&sphere) }
+        Sphere::of(&sphere).painted(self.paints[index])
     }
 }
 
