@@ -129,7 +129,9 @@ impl Chooser {
             }
             ui.separator();
             let height = (size.y - 160.0).clamp(120.0, 620.0);
-            ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
+            // As high at once as it may be, whatever the filter leaves: nothing moves under a pointer.
+            let list = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+            list.auto_shrink(false).show(ui, |ui| {
                 let typed = Path::new(self.filter.trim());
                 if found.is_empty() && typed.is_file() {
                     let button = ui.button(format!("Open {}", typed.display()));

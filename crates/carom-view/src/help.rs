@@ -11,8 +11,9 @@ pub fn show(context: &Context, open: &mut bool, is_maze: bool) {
     let window = Window::new(TITLE).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).resizable(false);
     show_closable(TITLE, window, context, open, |ui| {
         // A small window shows a part of it.
-        let room = ui.ctx().content_rect().height() - 90.0;
-        ScrollArea::vertical().max_height(room.max(120.0)).show(ui, |ui| list(ui, is_maze));
+        let room = (ui.ctx().content_rect().height() - 90.0).max(120.0);
+        let scroll = ScrollArea::vertical().max_height(room).min_scrolled_height(room);
+        scroll.show(ui, |ui| list(ui, is_maze));
     });
 }
 

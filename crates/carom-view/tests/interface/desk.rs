@@ -27,10 +27,15 @@ pub fn desk(setup: Setup) -> Desk {
 
 /// A window of this size in points.
 pub fn desk_of(size: [f32; 2], setup: Setup) -> Desk {
-    let builder = Harness::builder().with_size(size).wgpu();
-    let mut desk = builder.build_eframe(|host| App::new(host, setup).expect("wgpu is there"));
+    let mut desk = just_opened(size, setup);
     desk.run_steps(4);
     desk
+}
+
+/// A window of this size in points that has shown one picture.
+pub fn just_opened(size: [f32; 2], setup: Setup) -> Desk {
+    let builder = Harness::builder().with_size(size).with_max_steps(1).wgpu();
+    builder.build_eframe(|host| App::new(host, setup).expect("wgpu is there"))
 }
 
 /// A desk on which a built-in scene is watched.

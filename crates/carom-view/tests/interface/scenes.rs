@@ -7,7 +7,7 @@ use carom_view::{Setup, Start};
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
 
-use crate::desk::{Desk, desk, go_to, press, scene, setup, watching};
+use crate::desk::{Desk, desk, go_to, just_opened, press, scene, setup, watching};
 
 #[test]
 fn the_chooser_is_there_at_the_start_and_comes_back_on_enter() {
@@ -20,6 +20,23 @@ fn the_chooser_is_there_at_the_start_and_comes_back_on_enter() {
     desk.get_by_label("Choose a scene");
     press(&mut desk, Key::Escape);
     assert!(desk.query_by_label("Choose a scene").is_none());
+}
+
+/// A click meets what was seen a moment before, also where a picture takes a second.
+#[test]
+fn dialogs_stand_still_from_their_first_picture_on() {
+    let mut desk = just_opened([1280.0, 800.0], setup());
+    let stands_still = |desk: &mut Desk, label: &str| {
+        // The first one is not shown: it measures.
+        desk.run_steps(2);
+        let first = desk.get_by_label(label).rect();
+        desk.run_steps(20);
+        assert_eq!(desk.get_by_label(label).rect(), first, "{label}");
+    };
+    stands_still(&mut desk, "Open a file...");
+    press(&mut desk, Key::Escape);
+    desk.key_press(Key::F1);
+    stands_still(&mut desk, "Keys and mouse");
 }
 
 #[test]
