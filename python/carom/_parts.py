@@ -255,6 +255,7 @@ class Emitter(Part):
         needs_room: Whether a sphere is left out that would overlap another one; ``None``: under the
             rule ``contact``.
         name: What it is called.
+        count: How many spheres it emits in all, those left out among them; ``None``: no end.
     """
 
     sphere: Sphere
@@ -264,6 +265,7 @@ class Emitter(Part):
     max_spheres: int | None = None
     needs_room: bool | None = None
     name: str = ""
+    count: int | None = None
 
 
 @dataclass(frozen=True)

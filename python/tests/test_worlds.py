@@ -121,6 +121,19 @@ def test_an_emitter_that_needs_room_leaves_spheres_out() -> None:
     assert (world.emitted.tolist(), world.left_out.tolist()) == ([3], [])
 
 
+def test_an_emitter_ends_with_its_count_and_goes_on_with_a_larger_one() -> None:
+    source = carom.Emitter(carom.Sphere(radius=0.1, velocity=(9, 0, 0)), period=0.5, count=2)
+    world = carom.Scene(name="two", emitters=[source]).world()
+    world.step(5.0)
+    assert world.emitted.tolist() == [0, 1]
+    assert world.emitters[0].count == 2
+    world.set_emitter(0, dataclasses.replace(source, count=3))
+    world.step(5.0)
+    assert world.emitted.tolist() == [2]
+    with pytest.raises(ValueError, match="`count` must be at least 1"):
+        world.set_emitter(0, dataclasses.replace(source, count=0))
+
+
 def test_how_a_world_is_stepped_can_be_changed() -> None:
     world = carom.World()
     box = carom.Simulation(boundary=carom.Periodic((4, 5, float("inf"))), frame_time=0.25)

@@ -158,5 +158,6 @@ pub(crate) fn emitter(emitter: &Emitter, path: &str) -> Result<carom::Emitter, P
         .with_position(vector(emitter.position))
         .with_rotation(quaternion(emitter.rotation))
         .with_max_spheres(emitter.max_spheres)
+        .with_count(emitter.count)
         .with_needs_room(emitter.needs_room))
 }

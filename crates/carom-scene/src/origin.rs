@@ -2,7 +2,7 @@
 
 use carom::{DVec3, EmitterId, World};
 
-use crate::scene::Scene;
+use crate::scene::{Emitter, Scene};
 
 /// What a sphere comes from: an index into the list of its kind in the scene. Emitters of code have
 /// the indices after those of the scene, another one for each change.
@@ -49,16 +49,16 @@ impl Origins {
         self.emissions.follow(time, usize::MAX);
     }
 
-    /// From `time` \[s\] on, there is an emitter of this period \[s\] more, after the others.
-    pub fn add_emitter(&mut self, period: f64, time: f64) {
+    /// From `time` \[s\] on, there is this emitter more, after the others.
+    pub fn add_emitter(&mut self, emitter: &Emitter, time: f64) {
         self.emissions.go_to(time);
-        self.emissions.add(period).ok();
+        self.emissions.add(emitter).ok();
     }
 
     /// From `time` \[s\] on, the emitter at this place in the order is another one.
-    pub fn set_emitter(&mut self, place: usize, period: f64, time: f64) {
+    pub fn set_emitter(&mut self, place: usize, emitter: &Emitter, time: f64) {
         self.emissions.go_to(time);
-        self.emissions.set(place, period).ok();
+        self.emissions.set(place, emitter).ok();
     }
 
     /// From `time` \[s\] on, the emitter at this place in the order is no more.
@@ -116,17 +116,17 @@ impl Emissions {
         settings.spheres_collide = false;
         let (world, frame_time) = (World::new(settings)?, scene.simulation.frame_time);
         let mut emissions = Self { world, frame_time, known: 0, emitters: Vec::new() };
-        scene.emitters.iter().try_for_each(|emitter| emissions.add(emitter.period))?;
+        scene.emitters.iter().try_for_each(|emitter| emissions.add(emitter))?;
         Ok(emissions)
     }
 
-    fn add(&mut self, period: f64) -> Result<(), carom::Error> {
-        let emitter = self.next(period);
+    fn add(&mut self, emitter: &Emitter) -> Result<(), carom::Error> {
+        let emitter = self.next(emitter);
         self.world.add_emitter(emitter).map(drop)
     }
 
-    fn set(&mut self, place: usize, period: f64) -> Result<(), carom::Error> {
-        let emitter = self.next(period);
+    fn set(&mut self, place: usize, emitter: &Emitter) -> Result<(), carom::Error> {
+        let emitter = self.next(emitter);
         self.id(place).map_or(Ok(()), |id| self.world.set_emitter(id, emitter))
     }
 
@@ -140,11 +140,11 @@ impl Emissions {
         self.world.emitters().nth(place).map(|(id, _)| id)
     }
 
-    /// An emitter that its place distinguishes from all before.
-    fn next(&mut self, period: f64) -> carom::Emitter {
+    /// An emitter with the same turns that its place distinguishes from all before.
+    fn next(&mut self, emitter: &Emitter) -> carom::Emitter {
         let sphere = carom::Sphere::new(DVec3::new(self.known as f64, 0.0, 0.0), 1.0);
         self.known += 1;
-        carom::Emitter::new(sphere, period)
+        carom::Emitter::new(sphere, emitter.period).with_count(emitter.count)
     }
 
     /// No more than this many spheres are emitted until `time` \[s\].
@@ -191,7 +191,7 @@ impl Emissions {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Emitter, Generator, Lattice, Row, Rule, Sphere};
+    use crate::scene::{Generator, Lattice, Row, Rule, Sphere};
 
     fn emitter(x: f64, period: f64, mass: f64) -> Emitter {
         let sphere = Sphere { mass: Some(mass), ..Sphere::at([0.0; 3], 0.1) };
@@ -201,6 +201,7 @@ mod tests {
             rotation: [0.0, 0.0, 0.0, 1.0],
             period,
             max_spheres: None,
+            count: None,
             needs_room: None,
             sphere,
         }
@@ -251,6 +252,7 @@ mod tests {
             scene.emitters =
                 vec![emitter(0.0, 0.5, 1.0), emitter(5.0, 0.03, 2.0), emitter(9.0, 0.25, 3.0)];
             scene.emitters[1].max_spheres = Some(3);
+            scene.emitters[2].count = Some(2);
             let mut world = scene.world().unwrap();
             let mut origins = Origins::new(&scene).unwrap();
             for _ in 0..20 {

@@ -148,14 +148,14 @@ impl Palette {
 
     /// An emitter was added at this time \[s\], after those that were there.
     pub fn add_emitter(&mut self, emitter: &Emitter, time: f64) {
-        self.origins.add_emitter(emitter.period, time);
+        self.origins.add_emitter(emitter, time);
         self.emitters.push((&emitter.sphere).into());
     }
 
     /// The emitter at this place in the order was changed at this time \[s\]; the spheres that it
     /// emitted keep their colours.
     pub fn set_emitter(&mut self, place: usize, emitter: &Emitter, time: f64) {
-        self.origins.set_emitter(place, emitter.period, time);
+        self.origins.set_emitter(place, emitter, time);
         self.emitters.push((&emitter.sphere).into());
     }
 
@@ -243,6 +243,7 @@ mod tests {
             rotation: [0.0, 0.0, 0.0, 1.0],
             period,
             max_spheres: None,
+            count: None,
             needs_room: None,
             sphere: sphere(color),
         }

@@ -58,5 +58,6 @@ pub(crate) fn describe_emitter(emitter: &carom::Emitter, description: &mut Emitt
     description.rotation = emitter.rotation.to_array();
     description.period = emitter.period;
     description.max_spheres = emitter.max_spheres;
+    description.count = emitter.count;
     description.needs_room = emitter.needs_room;
 }

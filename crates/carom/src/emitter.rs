@@ -21,7 +21,7 @@ const OVERLAP: f64 = 1e-3;
 /// More spheres than this in one frame are a mistake in `period`, not a wish.
 const MAX_PER_FRAME: f64 = 1e6;
 
-/// Emits a sphere at the times 0, period, 2 period, ... after it entered the world.
+/// Emits a sphere at the times 0, period, 2 period, ... after it entered the world, [`Self::count`] in all.
 ///
 /// When it emits depends on no sphere. One that is in the way is overlapped, or has the sphere that is due left
 /// out: [`Self::needs_room`].
@@ -54,16 +54,19 @@ pub struct Emitter {
     pub period: f64,
     /// With this many of its spheres alive, the oldest makes place for the next; `None`: no limit.
     pub max_spheres: Option<u32>,
+    /// How many spheres it emits in all, those left out among them; `None`: no end.
+    pub count: Option<u32>,
     /// Whether a sphere is left out that would overlap another one by more than a thousandth of the sum of
     /// their radii; `None`: under the rule `contact`. Its id is never given to another one.
     pub needs_room: Option<bool>,
 }
 
 impl Emitter {
-    /// Emits this sphere at the origin of the world every `period` \[s\], without a limit.
+    /// Emits this sphere at the origin of the world every `period` \[s\], without an end.
     pub fn new(sphere: Sphere, period: f64) -> Self {
         let (position, rotation) = (DVec3::ZERO, DQuat::IDENTITY);
-        Self { sphere, position, rotation, period, max_spheres: None, needs_room: None }
+        let (max_spheres, count, needs_room) = (None, None, None);
+        Self { sphere, position, rotation, period, max_spheres, count, needs_room }
     }
 
     /// The same emitter with its origin at this place in the world \[m\].
@@ -79,6 +82,11 @@ impl Emitter {
     /// The same emitter with at most this many of its spheres alive; `None`: no limit.
     pub fn with_max_spheres(self, max_spheres: impl Into<Option<u32>>) -> Self {
         Self { max_spheres: max_spheres.into(), ..self }
+    }
+
+    /// The same emitter of this many spheres in all; `None`: no end.
+    pub fn with_count(self, count: impl Into<Option<u32>>) -> Self {
+        Self { count: count.into(), ..self }
     }
 
     /// This emitter with another [`Self::needs_room`].
@@ -103,7 +111,8 @@ impl Emitter {
         let emits_in_turn = self.period > DUE_TOLERANCE && self.period.is_finite();
         let requirement = "finite and longer than 1e-9 s";
         validate::require(emits_in_turn, "period", requirement, self.period)?;
-        self.max_spheres.map_or(Ok(()), |max| validate::at_least_one("max_spheres", max))
+        self.max_spheres.map_or(Ok(()), |max| validate::at_least_one("max_spheres", max))?;
+        self.count.map_or(Ok(()), |count| validate::at_least_one("count", count))
     }
 
     /// The sphere as it appears in the world.
@@ -135,9 +144,28 @@ impl EmitterState {
         Self { emitter, start, emitted: 0, ring: VecDeque::new() }
     }
 
-    /// When its next sphere is due \[s\].
+    /// When its next sphere is due \[s\]; infinite after the last one.
     fn due(&self) -> f64 {
+        if self.is_done() {
+            return f64::INFINITY;
+        }
         self.start + self.emitted as f64 * self.emitter.period
+    }
+
+    fn is_done(&self) -> bool {
+        self.emitter.count.is_some_and(|count| self.emitted >= u64::from(count))
+    }
+
+    /// Goes on as another emitter at this time \[s\]: with another period it starts anew, and one that was
+    /// done emits what it has more from now on.
+    pub fn set(&mut self, emitter: Emitter, time: f64) {
+        let was_done = self.is_done();
+        if emitter.period != self.emitter.period {
+            (self.start, self.emitted) = (time, 0);
+        } else if was_done {
+            self.start = time - self.emitted as f64 * self.emitter.period;
+        }
+        self.emitter = emitter;
     }
 
     fn needs(&self, room: Room) -> bool {
@@ -151,6 +179,8 @@ impl EmitterState {
     /// Refuses a period so short that one frame would have to emit spheres without end.
     pub fn validate_at(&self, time: f64) -> Result<(), InvalidValue> {
         let due = (time + DUE_TOLERANCE - self.start) / self.emitter.period - self.emitted as f64;
+        let left = self.emitter.count.map(|count| f64::from(count) - self.emitted as f64);
+        let due = left.map_or(due, |left| due.min(left));
         let requirement = "longer: more than a million spheres are due in one frame";
         validate::require(due < MAX_PER_FRAME, "period", requirement, self.emitter.period)
     }

@@ -158,6 +158,42 @@ fn one_that_says_nothing_overlaps_but_under_the_rule_contact() {
 }
 
 #[test]
+fn one_with_a_count_ends_and_goes_on_with_a_larger_one() {
+    for rule in [discrete(), Rule::Exact(Exact::default()), Rule::Contact(Contact::default())] {
+        let settings = Settings::default().with_rule(rule).with_spheres_collide(false);
+        let mut world = World::new(settings).unwrap();
+        let three = emitter(0.25, None).with_count(3);
+        let id = world.add_emitter(three).unwrap();
+        assert_eq!(frames_of_emission(&mut world, 40, 0.125), [0, 2, 4], "{rule:?}");
+        // At 5 s: two more, as far apart as the others, and not those that were due long ago.
+        world.set_emitter(id, three.with_count(5)).unwrap();
+        assert_eq!(frames_of_emission(&mut world, 40, 0.125), [0, 2], "{rule:?}");
+        assert_eq!(world.spheres().len(), 5);
+    }
+}
+
+#[test]
+fn what_is_left_out_counts_and_what_gave_way_does_too() {
+    let mut world =
+        exact_world(Boundary::Open, emitter(1.0, None).with_count(3).with_needs_room(true));
+    let report = world.step(9.0).unwrap();
+    assert_eq!((report.emitted.len(), report.left_out.len()), (1, 2));
+    let mut world = exact_world(Boundary::Open, emitter(1.0, Some(1)).with_count(3));
+    let report = world.step(9.0).unwrap();
+    assert_eq!((report.emitted.len(), report.retired.len()), (3, 2));
+}
+
+#[test]
+fn a_count_bounds_what_a_short_period_asks_for() {
+    let mut world = world(discrete());
+    world.add_emitter(emitter(1e-8, None).with_count(7)).unwrap();
+    world.step(0.02).unwrap();
+    assert_eq!(world.step(0.02).unwrap().emitted.len(), 6);
+    let none = world.add_emitter(emitter(1.0, None).with_count(0)).unwrap_err();
+    assert_eq!(none.to_string(), "emitter 1: `count` must be at least 1, not 0");
+}
+
+#[test]
 fn the_oldest_sphere_makes_room_for_the_next() {
     let mut world = exact_world(Boundary::Open, emitter(1.0, Some(1)).with_needs_room(true));
     let report = world.step(3.5).unwrap();

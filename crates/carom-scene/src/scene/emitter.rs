@@ -7,7 +7,7 @@ use super::rotation;
 use super::sphere::Sphere;
 use super::values::{Quaternion, Vector, unturned};
 
-/// Emits a sphere at the times 0, period, 2 period, ...
+/// Emits a sphere at the times 0, period, 2 period, ..., `count` in all.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Emitter {
@@ -28,6 +28,10 @@ pub struct Emitter {
     #[schemars(range(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_spheres: Option<u32>,
+    /// How many spheres it emits in all, those left out among them; no end where it is missing.
+    #[schemars(range(min = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub count: Option<u32>,
     /// Whether a sphere is left out that would overlap another one; so under the rule `contact` where it is
     /// missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]

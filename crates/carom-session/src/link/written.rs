@@ -134,6 +134,8 @@ struct Emitter {
     period: f64,
     max_spheres: Option<u32>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    count: Option<u32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     needs_room: Option<bool>,
     sphere: Sphere,
 }
@@ -326,6 +328,7 @@ impl From<&carom::Emitter> for Emitter {
             rotation: emitter.rotation.to_array(),
             period: emitter.period,
             max_spheres: emitter.max_spheres,
+            count: emitter.count,
             needs_room: emitter.needs_room,
             sphere: (&emitter.sphere).into(),
         }
@@ -338,6 +341,7 @@ impl From<Emitter> for carom::Emitter {
             .with_position(DVec3::from_array(emitter.position))
             .with_rotation(DQuat::from_array(emitter.rotation))
             .with_max_spheres(emitter.max_spheres)
+            .with_count(emitter.count)
             .with_needs_room(emitter.needs_room)
     }
 }

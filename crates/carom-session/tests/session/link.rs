@@ -136,7 +136,8 @@ fn edits() -> Vec<Edit> {
     let emitter = carom::Emitter::new(sphere.with_density(b), a)
         .with_position(vector)
         .with_rotation(DQuat::from_xyzw(a, b, c, d))
-        .with_max_spheres(u32::MAX);
+        .with_max_spheres(u32::MAX)
+        .with_count(u32::MAX - 1);
     let boundary = Boundary::Periodic { size: [f64::INFINITY, b, d] };
     let friction = Friction::sliding(a).with_rolling(b).with_spinning(c);
     let simulation = Simulation { frame_time: b, boundary, ..Simulation::default() };
@@ -164,7 +165,7 @@ fn edits() -> Vec<Edit> {
         Edit::Emitter(EmitterId::from_number(1), Box::new(emitter)),
         Edit::Emitter(
             EmitterId::from_number(0),
-            Box::new(emitter.with_max_spheres(None).with_sphere(sphere)),
+            Box::new(emitter.with_max_spheres(None).with_count(None).with_sphere(sphere)),
         ),
         Edit::Sphere(SphereId::from_number(u64::MAX / 2), Box::new(all)),
         Edit::Sphere(SphereId::from_number(0), Box::default()),

@@ -19,7 +19,8 @@ pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
             let mut after = before;
             // With another period it starts anew, and emits at once.
             number_at_last(ui, Field::positive("period", "s"), &mut after.period);
-            most(ui, &mut after.max_spheres);
+            limit(ui, "at most", 25, &mut after.max_spheres);
+            limit(ui, "in all", 60, &mut after.count);
             room(ui, &mut after.needs_room, view.setup.simulation.rule == Rule::Contact);
             let mut velocity = after.sphere.velocity.to_array();
             vector(ui, Field::any("velocity", "m/s"), &mut velocity);
@@ -53,15 +54,15 @@ fn room(ui: &mut Ui, needs_room: &mut Option<bool>, is_contact: bool) {
     });
 }
 
-/// How many of its balls live at a time.
-fn most(ui: &mut Ui, max_spheres: &mut Option<u32>) {
+/// How many of its balls live at a time, or there are in all; `usual` where a limit is begun with.
+fn limit(ui: &mut Ui, what: &str, usual: u32, limit: &mut Option<u32>) {
     ui.horizontal(|ui| {
-        name(ui, "at most");
-        let mut is_limited = max_spheres.is_some();
+        name(ui, what);
+        let mut is_limited = limit.is_some();
         if ui.checkbox(&mut is_limited, "limited").changed() {
-            *max_spheres = is_limited.then_some(25);
+            *limit = is_limited.then_some(usual);
         }
-        match max_spheres {
+        match limit {
             Some(most) => ui.add(DragValue::new(most).range(1..=u32::MAX).suffix(" balls")),
             None => ui.weak("any number"),
         };

@@ -408,7 +408,7 @@ impl World {
     }
 
     /// Changes an emitter. It emits the new kind of sphere from the next one on; with another
-    /// period it starts anew, now.
+    /// period it starts anew, now; one that was done emits what a larger `count` adds from now on.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is no such emitter, [`Error::Invalid`] for a number that
@@ -418,10 +418,7 @@ impl World {
         let unknown = Error::Unknown(Subject::Emitter(id));
         let state = self.state.emitters.get_mut(id.0).ok_or(unknown)?;
         emitter.validate().map_err(|invalid| invalid.about(Subject::Emitter(id)))?;
-        if emitter.period != state.emitter.period {
-            (state.start, state.emitted) = (time, 0);
-        }
-        state.emitter = emitter;
+        state.set(emitter, time);
         Ok(())
     }
 
