@@ -147,11 +147,7 @@ impl SurfaceContact {
         if let Some(Separation { distance, normal, point }) = separation {
             self.normal = normal;
             self.velocity = motion.velocity_at(point);
-            let is_flat = match form {
-                Form::HalfSpace { .. } => true,
-                Form::Rectangle(rectangle) => rectangle.normal == normal,
-                Form::Sphere { .. } | Form::Box(_) => false,
-            };
+            let is_flat = is_flat(form, normal);
             self.point = is_flat.then(|| point + sub_step.h * self.velocity);
             self.bias = distance.max(0.0) / sub_step.h;
             self.watch_for_impact(run, distance, sub_step);
@@ -225,16 +221,20 @@ impl SurfaceContact {
     }
 
     /// Has the contact keep a sphere that meets nothing out of the surface near the end of its way, should
-    /// others push it there.
+    /// others push it there: unless it has passed the surface by then, and others may send it back.
     fn aim_at_end(&mut self, flight: &Flight, radius: f64, place: &Place, sub_step: &SubStep) {
         let (form, motion) = place;
         let (there, velocity) = flight.after(sub_step.h);
         let moved = there - sub_step.h * motion.velocity_at(there);
         let separation = sphere_surface(form, moved, radius);
         let Some(Separation { distance, normal, point }) = separation else { return };
-        self.normal = normal;
-        self.velocity = motion.velocity_at(point);
-        let leaving = (velocity - self.velocity).dot(normal);
+        let surface_velocity = motion.velocity_at(point);
+        let leaving = (velocity - surface_velocity).dot(normal);
+        let was_behind = (flight.position - point).dot(normal) < LEAST_IN_FRONT * radius;
+        if was_behind || (leaving > 0.0 && !is_flat(form, normal)) {
+            return;
+        }
+        (self.normal, self.velocity) = (normal, surface_velocity);
         self.bias = distance.max(0.0) / sub_step.h - leaving;
     }
 
@@ -354,6 +354,15 @@ impl SurfaceContact {
         let in_front = self.point.map_or(f64::INFINITY, |point| (center - point).dot(self.normal));
         let missing = LEAST_IN_FRONT * radius - in_front;
         if missing > 0.0 { center + missing * self.normal } else { center }
+    }
+}
+
+/// Whether a surface has this normal in more than one place.
+fn is_flat(form: &Form, normal: DVec3) -> bool {
+    match form {
+        Form::HalfSpace { .. } => true,
+        Form::Rectangle(rectangle) => rectangle.normal == normal,
+        Form::Sphere { .. } | Form::Box(_) => false,
     }
 }
 
