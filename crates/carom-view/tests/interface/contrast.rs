@@ -98,7 +98,9 @@ fn measured(desk: &mut Desk, screen: &str) -> (Vec<String>, usize) {
             if is_disabled || !part.is_positive() || text.galley.text().trim().is_empty() {
                 continue;
             }
-            let Some(below) = background(&picture, part, pixels_per_point) else { continue };
+            // Of a letter like I there is more than of what is behind it.
+            let around = part.expand2(Vec2::new(2.0, 0.0)).intersect(clipped.clip_rect);
+            let Some(below) = background(&picture, around, pixels_per_point) else { continue };
             for section in &text.galley.job.sections {
                 let own = section.format.color;
                 let own = if own == Color32::PLACEHOLDER { text.fallback_color } else { own };
