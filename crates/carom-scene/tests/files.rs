@@ -257,6 +257,12 @@ fn spheres_that_overlap_at_the_start_are_refused_unless_allowed() {
         let allowed = bad.replacen("[camera]", "[simulation]\nallow_overlap = true\n[camera]", 1);
         read(&allowed).unwrap();
     }
+    let across = "[simulation]\nboundary = { periodic = { size = [6, 6, 6] } }\n\
+                  [[generators]]\n[generators.lattice]\ncounts = [2, 1, 1]\n\
+                  start = [-3, 0, 0]\nspacing = [6, 1, 1]\nsphere = { radius = 0.5 }\n";
+    assert!(
+        refusal(across).contains("number 1 overlaps sphere number 0 (generators[0]) by 1.000e0 m")
+    );
     // Spheres that do not collide cannot overlap.
     let free = GOOD.replacen("start = [0, 5, 0]", "start = [0, 2.5, 0]", 1);
     read(&free.replacen("[camera]", "[simulation]\nspheres_collide = false\n[camera]", 1)).unwrap();

@@ -340,6 +340,40 @@ fn in_periodic_boxes_of_any_width_balls_meet_as_in_a_search_among_all_images() {
 }
 
 #[test]
+fn overlaps_are_seen_across_the_faces_of_a_periodic_box() {
+    let periodic = Boundary::Periodic { size: vec(6.0, f64::INFINITY, 8.0) };
+    let overlaps = |places: &[DVec3], shape: Option<Shape>| {
+        let mut world = World::new(Settings::default().with_boundary(periodic)).unwrap();
+        for &place in places {
+            world.add_sphere(Sphere::new(place, 0.5)).unwrap();
+        }
+        if let Some(shape) = shape {
+            world.add_collider(Collider::new(shape, Pose::at(vec(2.8, 0.0, 0.0)))).unwrap();
+        }
+        let overlaps = world.overlaps(1e-12);
+        overlaps.iter().map(|overlap| overlap.depth).collect::<Vec<_>>()
+    };
+    let assert_depths = |found: Vec<f64>, expected: &[f64]| {
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        // Roundings of coordinates of a few metres.
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-14), "{found:?}");
+    };
+    // Through a face, an edge of the box, and from outside of it; not along the open axis.
+    assert_depths(overlaps(&[vec(-2.9, 0.0, 0.0), vec(2.9, 0.0, 0.0)], None), &[0.8]);
+    let apart = 0.2 * 2f64.sqrt();
+    assert_depths(overlaps(&[vec(-2.9, 0.0, -3.9), vec(2.9, 0.0, 3.9)], None), &[1.0 - apart]);
+    assert_depths(overlaps(&[vec(8.0, 0.0, 0.0), vec(2.0, 0.0, 0.0)], None), &[1.0]);
+    assert_depths(overlaps(&[vec(0.0, -2.9, 0.0), vec(0.0, 2.9, 0.0)], None), &[]);
+    assert_depths(overlaps(&[vec(-2.5, 0.0, 0.0), vec(2.5, 0.0, 0.0)], None), &[]);
+    // Each two once, also where they overlap without a face between them.
+    assert_depths(overlaps(&[vec(2.0, 0.0, 0.0), vec(2.75, 0.0, 0.0)], None), &[0.25]);
+    // Images of colliders that are at rest, but not of half-spaces.
+    let sphere = Shape::Sphere { radius: 0.4 };
+    assert_depths(overlaps(&[vec(-2.8, 0.0, 0.0)], Some(sphere)), &[0.5]);
+    assert_depths(overlaps(&[vec(-2.8, 2.0, 0.0)], Some(Shape::HalfSpace)), &[]);
+}
+
+#[test]
 fn a_periodic_box_needs_the_rule_and_the_room() {
     let boundary = Boundary::Periodic { size: DVec3::splat(3.0) };
     let settings = Settings::default().with_boundary(boundary).with_rule(discrete());

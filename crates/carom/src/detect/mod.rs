@@ -6,6 +6,7 @@ pub(crate) mod broad_phase;
 mod classify;
 pub(crate) mod contact;
 pub(crate) mod contacts;
+pub(crate) mod image_overlaps;
 pub(crate) mod instant;
 mod separation;
 mod sphere_box;

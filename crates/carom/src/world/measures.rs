@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use super::World;
 use crate::detect::contacts::{self, Search};
+use crate::detect::image_overlaps;
 use crate::invariants;
-use crate::report::Overlap;
+use crate::report::{BodyPair, Overlap};
 
 impl World {
     /// Kinetic energy \[J\], that of rotation included.
@@ -57,13 +58,20 @@ impl World {
     }
 
     /// Spheres that overlap each other (where spheres collide) or a solid collider by more than
-    /// `tolerance` \[m\], in order of their bodies, each two bodies once.
+    /// `tolerance` \[m\], in order of their bodies, each two bodies once; in a periodic box across its
+    /// faces, too.
     pub fn overlaps(&self, tolerance: f64) -> Vec<Overlap> {
         let mut overlaps = Vec::new();
         let now = self.state.now();
         contacts::of_overlaps(&now, tolerance, &mut Search::default(), |contact| {
             overlaps.push(Overlap::of(contact, &now.system));
         });
+        let period = now.system.settings.boundary.period();
+        if period.is_finite_mask().any() {
+            image_overlaps::visit(&now, period, tolerance, |bodies, depth| {
+                overlaps.push(Overlap { between: BodyPair::of(bodies, &now.system), depth });
+            });
+        }
         // A box has several surfaces: the deepest overlap counts.
         let order =
             |a: &Overlap, b: &Overlap| a.between.cmp(&b.between).then(b.depth.total_cmp(&a.depth));

@@ -1,0 +1,87 @@
+//! Overlaps across the faces of a periodic box: of spheres with images of others, and of surfaces at rest.
+
+use glam::DVec3;
+
+use super::broad_phase::BroadPhase;
+use super::contact::Bodies;
+use super::instant::Instant;
+use super::sphere_surface;
+use super::surface_tree::Bounds;
+use crate::surface::{Form, Role};
+
+/// A sphere, or an image of one.
+#[derive(Clone, Copy)]
+struct Image {
+    sphere: u32,
+    center: DVec3,
+    /// Whether it is the one in the box about the origin.
+    is_own: bool,
+}
+
+/// Visits what overlaps by more than `tolerance` \[m\] in a box with these edges \[m\], infinite along open
+/// axes, and by how much; the same bodies perhaps several times.
+pub(crate) fn visit(
+    instant: &Instant,
+    period: DVec3,
+    tolerance: f64,
+    mut visit: impl FnMut(Bodies, f64),
+) {
+    let radii = &instant.system.spheres.radius;
+    let largest = radii.iter().copied().fold(0.0, f64::max);
+    let mut images = Vec::new();
+    let bodies = instant.motion.position.iter().zip(radii);
+    for (sphere, (&center, radius)) in (0..).zip(bodies) {
+        add_images(sphere, center, radius + largest, period, &mut images);
+    }
+    if instant.system.settings.spheres_collide {
+        let radius = |image: &Image| radii[image.sphere as usize];
+        let mut broad_phase = BroadPhase::default();
+        let all = (0..).zip(&images).map(|(place, image)| (place, image.center, radius(image)));
+        broad_phase.rebuild(all, 0.0);
+        broad_phase.for_each_pair(|i, j| {
+            let [one, other] = [i, j].map(|place| &images[place as usize]);
+            let depth = radius(one) + radius(other) - one.center.distance(other.center);
+            let is_seen = one.sphere != other.sphere && (one.is_own || other.is_own);
+            if is_seen && depth > tolerance {
+                visit(Bodies::pair([one.sphere, other.sphere]), depth);
+            }
+        });
+    }
+    let mut near = Vec::new();
+    for image in images.iter().filter(|image| !image.is_own) {
+        let radius = radii[image.sphere as usize];
+        near.clear();
+        instant.system.tree.near(&Bounds::around(image.center, DVec3::splat(radius)), &mut near);
+        for &index in &near {
+            let surface = &instant.system.surfaces[index as usize];
+            let has_images =
+                !matches!(surface.form, Form::HalfSpace { .. }) && surface.motion.is_at_rest();
+            let separation = sphere_surface(&surface.form, image.center, radius);
+            let depth = separation.map_or(0.0, |separation| -separation.distance);
+            if has_images && surface.role != Role::Reports && depth > tolerance {
+                visit(Bodies::Surface { sphere: image.sphere, surface: index }, depth);
+            }
+        }
+    }
+}
+
+/// Adds a sphere where it is in the box about the origin, and its images that come within `reach` \[m\] of
+/// that box.
+fn add_images(sphere: u32, center: DVec3, reach: f64, period: DVec3, images: &mut Vec<Image>) {
+    let is_periodic = period.is_finite_mask();
+    let boxes = (center / period).round();
+    let center = center - DVec3::select(is_periodic, boxes * period, DVec3::ZERO);
+    let offsets = |axis: usize| if is_periodic.test(axis) { -1..=1 } else { 0..=0 };
+    for x in offsets(0) {
+        for y in offsets(1) {
+            for z in offsets(2) {
+                let boxes = DVec3::new(f64::from(x), f64::from(y), f64::from(z));
+                let shift = DVec3::select(is_periodic, boxes * period, DVec3::ZERO);
+                let (place, is_own) = (center + shift, boxes == DVec3::ZERO);
+                if is_own || (place.abs() - reach).cmple(0.5 * period).all() {
+                    images.push(Image { sphere, center: place, is_own });
+                }
+            }
+        }
+    }
+}
