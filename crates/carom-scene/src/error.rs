@@ -120,6 +120,11 @@ pub(crate) fn segments(path: &str) -> Vec<String> {
     path.split(['.', '[', ']']).filter(|part| !part.is_empty()).map(str::to_owned).collect()
 }
 
+/// Whether a name is another one with a slip or two.
+pub(crate) fn is_much_like(name: &str, other: &str) -> bool {
+    strsim::jaro_winkler(&name.to_lowercase(), other) > 0.9
+}
+
 /// The candidate most like `name`, if any is like it at all.
 pub(crate) fn nearest<'a>(
     name: &str,

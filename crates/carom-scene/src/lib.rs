@@ -19,6 +19,7 @@ mod bodies;
 mod builtin;
 mod changed_file;
 mod check;
+mod color_text;
 mod error;
 mod expand;
 mod force;

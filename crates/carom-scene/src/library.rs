@@ -177,6 +177,9 @@ impl Library {
         if !name.is_empty() && file.is_file() {
             return Ok((Scene::from_file(&file, overrides)?, Source::File(file)));
         }
+        let beside = files_in(Path::new(".")).unwrap_or_default();
+        let names = beside.iter().filter_map(|path| path.file_name()?.to_str());
+        known.extend(names.map(str::to_owned));
         let is_word = |word: &str| !word.is_empty() && word.to_lowercase() == wanted;
         let holds = |own: &&String| own.split(|it: char| !it.is_alphanumeric()).any(is_word);
         let nearest = || nearest(name, known.iter().map(String::as_str));

@@ -5,6 +5,7 @@
 
 use toml::{Table, Value};
 
+use crate::color_text;
 use crate::error::Problem;
 use crate::formula::{self, FormulaError, NamedValues};
 use crate::units::{self, Place};
@@ -55,8 +56,8 @@ pub(crate) fn list(scene: &Table) -> Result<Vec<Parameter>, Problem> {
     Ok(list.collect())
 }
 
-/// Takes the parameters out of a scene, and puts numbers in the place of its formulas and of its numbers with
-/// units.
+/// Takes the parameters out of a scene, and puts numbers in the place of its formulas, of its numbers with
+/// units and of its colours.
 pub(crate) fn resolve(scene: &mut Table) -> Result<(), Problem> {
     let known = match scene.remove(TABLE) {
         Some(Value::Table(table)) => values(&table)?,
@@ -141,13 +142,17 @@ fn number_in(text: &str, place: Place, known: &NamedValues) -> Option<Result<f64
     }
 }
 
-/// Puts numbers in the place of the formulas and the numbers with units in a value. The field of a problem
+/// Puts numbers in the place of the formulas, the numbers with units and the colours in a value. The field of a problem
 /// is what lies below the value.
 fn replace(value: &mut Value, place: Place, known: &NamedValues) -> Result<(), Problem> {
     match value {
         Value::String(text) => {
             if let Some(number) = number_in(text, place, known) {
                 *value = in_toml(number.map_err(|error| Problem::new("", error.to_string()))?);
+            } else if let Place::Field(field) = place
+                && let Some(color) = color_text::numbers_of(field, text)
+            {
+                *value = color.map_err(|problem| Problem::new("", problem))?;
             }
             Ok(())
         }

@@ -5,6 +5,7 @@ use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
 use serde_json::{Value, json};
 
+use crate::color_text;
 use crate::parameters;
 use crate::scene::Scene;
 
@@ -23,8 +24,10 @@ pub fn json_schema() -> String {
     text
 }
 
-/// Where there may be a number, there may be a formula, and where there may be a fraction, a unit.
+/// Where there may be a number, there may be a formula, and where there may be a fraction, a unit; where a
+/// colour, its name.
 fn allow_text(schema: &mut Schema) {
+    allow_color_names(schema);
     let Some(types) = schema.get_mut("type") else { return };
     let mut all = match types.take() {
         Value::Array(all) => all,
@@ -42,6 +45,18 @@ fn allow_text(schema: &mut Schema) {
     *types = if all.len() == 1 { all.remove(0) } else { Value::Array(all) };
     if let Some(pattern) = pattern {
         schema.insert("pattern".to_owned(), json!(pattern));
+    }
+}
+
+/// Colours are lists of three numbers.
+fn allow_color_names(schema: &mut Schema) {
+    let Some(Value::Object(properties)) = schema.get_mut("properties") else { return };
+    let fields = properties.iter_mut().filter(|(name, _)| color_text::FIELDS.contains(&&***name));
+    for (_, field) in fields.filter(|(_, field)| field["minItems"] == 3) {
+        field["type"] = match field["type"].take() {
+            Value::Array(types) => types.into_iter().chain([json!("string")]).collect(),
+            one => json!([one, "string"]),
+        };
     }
 }
 

@@ -2,10 +2,10 @@
 
 use toml::{Table, Value};
 
-use crate::error::Problem;
+use crate::error::{Problem, is_much_like, nearest};
 use crate::parameters;
-use crate::scene::Scene;
-use crate::wording::{in_plain_words, table_expected, with_names};
+use crate::scene::{Scene, Simulation};
+use crate::wording::{in_plain_words, table_expected, with_form, with_names};
 use crate::world;
 
 /// The field of a scene file that names the files it includes.
@@ -18,6 +18,10 @@ pub(crate) fn read(mut table: Table) -> Result<Scene, Problem> {
         let path = error.path().to_string();
         let path = if path == "." { String::new() } else { path };
         let problem = in_plain_words(error.into_inner().message().trim());
+        let problem = with_form(problem, &path);
+        if let Some(problem) = of_simulation(&problem, &path) {
+            return Problem::new(path, problem);
+        }
         if let Some((path, problem)) = table_expected(&path, &problem) {
             return Problem::new(path, problem);
         }
@@ -30,4 +34,17 @@ pub(crate) fn read(mut table: Table) -> Result<Scene, Problem> {
     })?;
     world::build(&scene)?;
     Ok(scene)
+}
+
+/// What to write for a field of the simulation that stands before the first table.
+fn of_simulation(problem: &str, path: &str) -> Option<String> {
+    let name = problem.strip_prefix("unknown field `")?.split('`').next()?;
+    if path.contains(['.', '[']) {
+        return None;
+    }
+    let schema = schemars::schema_for!(Simulation);
+    let fields = schema.get("properties")?.as_object()?.keys();
+    // Names of the scene itself are more like it, if only a little.
+    let meant = nearest(name, fields.map(String::as_str)).filter(|it| is_much_like(name, it))?;
+    Some(format!("unknown field `{name}`; \"{meant}\" stands in [simulation]"))
 }

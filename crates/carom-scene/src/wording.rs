@@ -3,19 +3,23 @@
 use crate::error::nearest;
 
 /// Words that others use for what a scene calls otherwise.
-const SYNONYMS: [(&str, &str); 27] = [
+const SYNONYMS: [(&str, &str); 35] = [
+    ("angle", "degrees"),
     ("ball", "sphere"),
     ("balls", "spheres"),
     ("bounce", "restitution"),
     ("bounciness", "restitution"),
+    ("box", "shape"),
     ("colour", "color"),
     ("cube", "box"),
     ("cuboid", "box"),
     ("elasticity", "restitution"),
     ("floor", "half-space"),
+    ("gravity", "forces"),
     ("ground", "half-space"),
     ("halfspace", "half-space"),
     ("material", "finish"),
+    ("m", "mass"),
     ("mirror", "metal"),
     ("mu", "friction"),
     ("obstacles", "colliders"),
@@ -23,14 +27,18 @@ const SYNONYMS: [(&str, &str); 27] = [
     ("planes", "colliders"),
     ("plane", "half-space"),
     ("quad", "rectangle"),
+    ("r", "radius"),
     ("shiny", "glossy"),
     ("size", "radius"),
     ("speed", "velocity"),
     ("spin", "angular_velocity"),
     ("steel", "metal"),
     ("transparent", "glass"),
+    ("type", "shape"),
+    ("vel", "velocity"),
     ("wall", "half-space"),
     ("walls", "colliders"),
+    ("weight", "mass"),
 ];
 
 /// For those whose language writes numbers with a comma.
@@ -65,6 +73,18 @@ pub(crate) fn table_expected(path: &str, message: &str) -> Option<(String, Strin
     Some((path.to_owned(), format!("is a table: {table}")))
 }
 
+/// A message about what has one table by the name of its kind, with such a one.
+pub(crate) fn with_form(message: String, path: &str) -> String {
+    let form = match path.split('[').next() {
+        _ if !message.ends_with("it has to say one thing") => return message,
+        Some("forces") => "gravity = { acceleration = [0.0, -9.81, 0.0] }",
+        Some("generators") => "[generators.row] with its fields below",
+        Some("colliders") => "shape = { box = { size = [1.0, 1.0, 1.0] } }",
+        _ => return message,
+    };
+    format!("{message}, like {form}")
+}
+
 /// A message of the reader in plain words.
 pub(crate) fn in_plain_words(message: &str) -> String {
     let message = message.lines().next().unwrap_or_default();
@@ -94,6 +114,36 @@ pub(crate) fn in_plain_words(message: &str) -> String {
         other => other,
     };
     format!("{found}, expected {}", name_of_type(expected))
+}
+
+/// A message in one line; without the list of all that would have been right, where one of them is meant.
+pub(crate) fn without_list(message: &str, is_meant: bool) -> &str {
+    let line = message.lines().next().unwrap_or_default();
+    match line.split_once(", expected one of ") {
+        Some((unknown, _)) if is_meant => unknown,
+        _ => line,
+    }
+}
+
+/// What is meant by a value that is no TOML, at this place of a text.
+pub(crate) fn slip_of_syntax(text: &str, place: usize, message: &str) -> Option<String> {
+    let line_start = text.get(..place)?.rfind('\n').map_or(0, |end| end + 1);
+    let line = text.get(line_start..)?.lines().next()?;
+    let (before, after) = line.split_at_checked(place - line_start)?;
+    let is_digit = |it: char| it.is_ascii_digit();
+    if before.ends_with(is_digit) && after.trim_start_matches(',').starts_with(is_digit) {
+        return Some(DECIMAL_POINT.to_owned());
+    }
+    // The value around the place, in a list perhaps.
+    let start = before.rfind(['=', '[', ',', '{']).map_or(0, |end| end + 1);
+    let value = line[start..].split([',', ']', '}', '#']).next()?.trim();
+    let is_number = value.starts_with(|it: char| is_digit(it) || "+-.".contains(it));
+    if is_number && value.ends_with(char::is_alphabetic) {
+        return Some(format!("`{value}` is no number; one with a unit has quotes: \"{value}\""));
+    }
+    let is_word = value.starts_with(char::is_alphabetic) && !value.contains(['"', '\'']);
+    (message.contains("must be quoted") && is_word)
+        .then(|| format!("a text stands in quotes: \"{value}\""))
 }
 
 /// Names in a message, as [`suggestion`] reads them.

@@ -27,7 +27,32 @@ fn one_slip_is_one_fault_that_says_what_to_write() {
             "3: colliders[0].shape.sphere: is a table: { radius = 0.5 }",
         ),
         ("[[simulation]]\nrule = 'exact'", "2: simulation: is a table: [simulation]"),
-        ("[[forces]]", "2: forces[0]: says nothing: it has to say one thing"),
+        (
+            "[[forces]]",
+            "2: forces[0]: says nothing: it has to say one thing, like \
+             gravity = { acceleration = [0.0, -9.81, 0.0] }",
+        ),
+        (
+            "[[generators]]\ntype = 'row'\ncount = 5",
+            "2: generators[0]: says several things: it has to say one thing, like \
+             [generators.row] with its fields below",
+        ),
+        (
+            "durration = 3",
+            "2: durration: unknown field `durration`; \"duration\" stands in [simulation]",
+        ),
+        ("rule = 'exact'", "2: rule: unknown field `rule`; \"rule\" stands in [simulation]"),
+        ("[[spheres]]\nradius = 0,1", "3: decimals have a point, not a comma"),
+        (
+            "[[spheres]]\nposition = [0, 5 cm, 0]",
+            "3: `5 cm` is no number; one with a unit has quotes: \"5 cm\"",
+        ),
+        ("[simulation]\nrule = exact", "3: a text stands in quotes: \"exact\""),
+        (
+            "[[spheres]]\nradius = 1\ncolor = 'reddish'",
+            "4: spheres[0].color: \"reddish\" is no colour: write three numbers from 0 to 1, a name \
+             like \"red\", or \"#c0392b\"",
+        ),
         (
             "[camera]\nposition = [1, 0, 0]\nlook_at = [1, 0, 0]",
             "3: camera: the way from `position` to `look_at` must be finite and not zero, \
@@ -50,6 +75,13 @@ fn one_slip_is_one_fault_that_says_what_to_write() {
 fn what_others_call_otherwise_is_understood() {
     for (text, meant) in [
         ("includ = 'a.toml'", "include"),
+        ("gravity = [0, -9.81, 0]", "forces"),
+        ("[[spheres]]\nradius = 1\nweight = 2", "mass"),
+        ("[[colliders]]\nbox = { size = [1, 1, 1] }", "shape"),
+        (
+            "[[colliders]]\nshape = 'half-space'\nrotation = { axis = [1, 0, 0], angle = 3 }",
+            "degrees",
+        ),
         ("[[spheres]]\nradius = 1\nmaterial = 'glass'", "finish"),
         ("[[spheres]]\nradius = 1\nfinish = 'shiny'", "glossy"),
         ("[[spheres]]\nradius = 1\nfinish = 'steel'", "metal"),

@@ -4,7 +4,7 @@ use toml::Table;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::Fault;
-use crate::wording::suggestion;
+use crate::wording::{slip_of_syntax, suggestion, without_list};
 
 /// The text of a scene file, or of a part of one.
 #[derive(Debug, Clone)]
@@ -57,17 +57,20 @@ impl SourceText {
 
 /// What the reader of TOML says.
 pub(super) fn of_syntax(name: &str, text: &str, error: &toml::de::Error) -> Fault {
-    let line = error.span().map(|span| line_at(text, span.start));
-    fault(name, line, "", error.message())
+    let Some(span) = error.span() else { return fault(name, None, "", error.message()) };
+    let problem = slip_of_syntax(text, span.start, error.message());
+    let problem = problem.as_deref().unwrap_or(error.message());
+    fault(name, Some(line_at(text, span.start)), "", problem)
 }
 
 pub(super) fn fault(name: &str, line: Option<usize>, field: &str, problem: &str) -> Fault {
+    let nearest = suggestion(problem);
     Fault {
         source_name: name.to_owned(),
         line,
         field: field.to_owned(),
-        problem: problem.lines().next().unwrap_or_default().to_owned(),
-        nearest: suggestion(problem),
+        problem: without_list(problem, nearest.is_some()).to_owned(),
+        nearest,
     }
 }
 

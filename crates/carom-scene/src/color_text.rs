@@ -1,0 +1,47 @@
+//! Colours as text: `red`, `#c0392b`, `hsl(210 60% 40%)`, as CSS writes them.
+
+use toml::Value;
+
+/// Fields that hold a colour.
+pub(crate) const FIELDS: [&str; 4] = ["color", "background", "spheres", "colliders"];
+
+/// The red, green and blue in \[0, 1\] that a text in a field of this name means; `None` for a field
+/// that holds no colour.
+///
+/// # Errors
+/// What is wrong with the text.
+pub(crate) fn numbers_of(field: &str, text: &str) -> Option<Result<Value, String>> {
+    if !FIELDS.contains(&field) {
+        return None;
+    }
+    let color = csscolorparser::parse(text).ok().filter(|color| color.a == 1.0);
+    let numbers = color.map(|color| {
+        let [red, green, blue, _] = color.to_rgba8();
+        [red, green, blue].map(|part| Value::Float(f64::from(part) / 255.0))
+    });
+    let expected = "three numbers from 0 to 1, a name like \"red\", or \"#c0392b\"";
+    let wrong = || format!("\"{text}\" is no colour: write {expected}");
+    Some(numbers.map(|parts| Value::Array(parts.to_vec())).ok_or_else(wrong))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_hexadecimal_digits_are_colours_and_other_texts_are_not() {
+        let parts = |text: &str| {
+            let Some(Ok(Value::Array(parts))) = numbers_of("color", text) else { panic!("{text}") };
+            parts.iter().filter_map(Value::as_float).map(|it| (255.0 * it).round()).collect()
+        };
+        let read: [Vec<f64>; 4] =
+            ["red", "SteelBlue", "#c0392b", "hsl(120 100% 50%)"].map(|text| parts(text));
+        let expected = [[255., 0., 0.], [70., 130., 180.], [192., 57., 43.], [0., 255., 0.]];
+        assert_eq!(read, expected.map(Vec::from));
+        for text in ["reddish", "", "#12", "rgb(0 0 0 / 50%)"] {
+            let error = numbers_of("color", text).unwrap().unwrap_err();
+            assert!(error.starts_with(&format!("\"{text}\" is no colour")), "{error}");
+        }
+        assert_eq!(numbers_of("name", "red"), None);
+    }
+}
