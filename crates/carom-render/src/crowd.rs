@@ -22,13 +22,17 @@ impl Framing {
         Some(Self { whole: whole.unwrap_or(balls), balls })
     }
 
-    /// What the first seconds of a scene sweep, unless what is drawn of it now has left that.
+    /// What the first seconds of a scene sweep, with what is drawn of it now; that alone, once it has left
+    /// the former.
     pub fn of_run(first: Option<Self>, drawing: &Drawing) -> Self {
         let now = Self::of_drawing(drawing);
-        let has_left = |first: &Self| {
-            now.is_some_and(|now| !first.whole.holds(&Bounds::at(now.balls.center())))
+        let (Some(first), Some(now)) = (first, now) else {
+            return first.or(now).unwrap_or(Self::UNIT);
         };
-        first.filter(|first| !has_left(first)).or(now).unwrap_or(Self::UNIT)
+        if !first.whole.holds(&Bounds::at(now.balls.center())) {
+            return now;
+        }
+        Self { whole: first.whole.with(now.balls), balls: first.balls.with(now.balls) }
     }
 }
 

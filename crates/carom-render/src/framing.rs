@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use carom::{Collider, DVec3, Shape, World};
 use carom_scene::Scene;
+use carom_scene::scene::Simulation;
 
 use crate::bounds::Bounds;
 
@@ -33,13 +34,16 @@ const STAYING: [f64; 2] = [1.0, 40.0];
 /// The same of balls that fly farther than that.
 const LEAVING: [f64; 2] = [0.25, 12.0];
 
+/// The same where all balls fly farther: none becomes a dot beside others.
+const ALL_LEAVING: [f64; 2] = [2.0, 250.0];
+
 impl Framing {
     /// Where there is nothing to see.
     pub const UNIT: Self = Self { whole: Bounds::UNIT, balls: Bounds::UNIT };
 
-    /// What the first seconds of a scene sweep; `None` for a scene without balls and surfaces that
-    /// end. Balls that fly away are left out once they have left, and scenes of very many balls are
-    /// taken as they stand at the start.
+    /// What the first seconds of a scene sweep, or all of a shorter one; `None` for a scene without balls
+    /// and surfaces that end. Balls that fly away from others are left out once they have left, and scenes
+    /// of very many balls are taken as they stand at the start.
     pub fn of_scene(scene: &Scene) -> Option<Self> {
         let mut world = scene.world().ok()?;
         let visible: Vec<_> = scene.all_colliders().iter().map(|it| it.visible).collect();
@@ -56,9 +60,10 @@ impl Framing {
         let around = |[of_box, of_balls]: [f64; 2]| {
             start.grown((of_box * start.radius()).max(of_balls * radius))
         };
-        let limits = [STAYING, LEAVING].map(around);
-        let [staying, leaving] = sweep(&mut world, scene.simulation.frame_time, limits);
+        let limits = [STAYING, LEAVING, ALL_LEAVING].map(around);
+        let [staying, leaving, all_leaving] = sweep(&mut world, &scene.simulation, limits);
         let balls = staying.map_or(balls, |swept| balls.with(swept));
+        let leaving = if staying.is_some() { leaving } else { all_leaving };
         let whole = leaving.map_or(start, |swept| start.with(swept)).with(balls);
         Some(Self { whole, balls })
     }
@@ -106,19 +111,25 @@ fn feet<'a>(
     Bounds::around(feet.map(Bounds::at))
 }
 
-/// The boxes around what balls sweep in the first seconds: those that stay within `far`, and the others
-/// as long as they are within `near`.
-fn sweep(world: &mut World, frame_time: f64, [far, near]: [Bounds; 2]) -> [Option<Bounds>; 2] {
+/// The boxes around what balls sweep in the first seconds: those that stay within `far`; the others as
+/// long as they are within `near`; and these as long as they are within `farthest`.
+fn sweep(
+    world: &mut World,
+    simulation: &Simulation,
+    [far, near, farthest]: [Bounds; 3],
+) -> [Option<Bounds>; 3] {
     #[derive(Clone, Copy, Default)]
     struct Swept {
         far: Option<Bounds>,
         near: Option<Bounds>,
+        farthest: Option<Bounds>,
         left: bool,
     }
     let add =
         |to: &mut Option<Bounds>, more: Bounds| *to = Some(to.map_or(more, |it| it.with(more)));
     let mut of_balls = BTreeMap::<u64, Swept>::new();
-    let frames = (FIRST_SECONDS / frame_time).ceil() as usize;
+    let frame_time = simulation.frame_time;
+    let frames = (FIRST_SECONDS.min(simulation.duration) / frame_time).ceil() as usize;
     let mut work = 0;
     for _ in 0..frames {
         work += world.spheres().len().max(1);
@@ -134,10 +145,13 @@ fn sweep(world: &mut World, frame_time: f64, [far, near]: [Bounds; 2]) -> [Optio
             if near.holds(&sphere) {
                 add(&mut swept.near, sphere);
             }
+            if farthest.holds(&sphere) {
+                add(&mut swept.farthest, sphere);
+            }
         }
     }
     let around = |left: bool, which: fn(&Swept) -> Option<Bounds>| {
         Bounds::around(of_balls.values().filter(|it| it.left == left).filter_map(which))
     };
-    [around(false, |it| it.far), around(true, |it| it.near)]
+    [around(false, |it| it.far), around(true, |it| it.near), around(true, |it| it.farthest)]
 }

@@ -45,6 +45,30 @@ fn a_ball_that_flies_away_does_not_make_dots_of_the_others() {
 }
 
 #[test]
+fn a_ball_that_falls_alone_is_in_the_picture_all_the_time() {
+    let ball = "spheres = [{ position = [0.0, 20.0, 0.0], radius = 0.1 }]\n";
+    let second = "simulation = { duration = 1.0 }\n";
+    let whole = framing(&format!("{second}{GRAVITY}{ball}")).whole;
+    // It falls g/2 in a second.
+    assert!((whole.min.y - (20.0 - 4.905 - 0.1)).abs() < 1e-9, "{whole:?}");
+    // Three seconds of a longer scene, or a picture in which the ball is more than a dot.
+    let whole = framing(&format!("{GRAVITY}{ball}")).whole;
+    assert!((-10.0..-4.0).contains(&whole.min.y), "{whole:?}");
+}
+
+#[test]
+fn a_heap_that_grows_out_of_the_first_picture_is_in_the_later_one() {
+    let first = framing("spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.5 }]");
+    let mut drawing = Drawing::default();
+    for x in [-3.0, -1.0, 0.0, 1.0, 3.0] {
+        let place = carom::Pose::at(DVec3::X * x);
+        drawing.add_collider(carom::Shape::Sphere { radius: 0.5 }, place, [1.0; 3], false);
+    }
+    let now = Framing::of_run(Some(first), &drawing);
+    assert!(now.whole.holds(&first.whole) && now.whole.max.x > 3.4, "{now:?}");
+}
+
+#[test]
 fn what_emitters_throw_is_in_the_picture_before_it_is_there() {
     let emitter = "[[emitters]]\nposition = [0.0, 5.0, 0.0]\nperiod = 0.5\n\
                    sphere = { radius = 0.5, velocity = [0.0, -2.0, 0.0] }\n";
