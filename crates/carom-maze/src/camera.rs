@@ -3,9 +3,9 @@
 use carom::{DQuat, DVec3};
 use carom_scene::scene::Camera;
 
-/// How far the camera looks down \[rad\]: the course's.
-const PITCH: f64 = 50.0 / 180.0 * std::f64::consts::PI;
-const VERTICAL_FOV_DEGREES: f64 = 60.0;
+/// How far the camera looks down \[rad\]: so that a wall hides little of what lies behind it.
+const PITCH: f64 = 66.0 / 180.0 * std::f64::consts::PI;
+const VERTICAL_FOV_DEGREES: f64 = 40.0;
 /// Width of a picture in its heights.
 const ASPECT: f64 = 16.0 / 9.0;
 /// The maze may be this much larger: room for its tilt.

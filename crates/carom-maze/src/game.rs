@@ -51,7 +51,7 @@ pub enum GameEvent {
         time: f64,
         /// How many collectibles were taken.
         collected: usize,
-        /// Whether no game before was won in less time.
+        /// Whether all were, and no game before was won so in less time.
         is_best: bool,
     },
 }
@@ -274,10 +274,9 @@ impl Game {
         let impacts = self.world.report().impacts.iter().map(|impact| impact.between);
         if impacts.chain(in_contact).any(touches) {
             let (time, collected) = (self.elapsed(), self.collected);
-            let is_best = self.best.is_none_or(|best| time < best);
-            if is_best {
-                self.best = Some(time);
-            }
+            let has_all = self.remaining().next().is_none();
+            let is_best = has_all && self.best.is_none_or(|best| time < best);
+            self.best = if is_best { Some(time) } else { self.best };
             self.state = GameState::Won { time };
             self.events.push(GameEvent::Won { time, collected, is_best });
         }
@@ -458,7 +457,7 @@ impl Game {
         self.frames as f64 * self.options.frame_time
     }
 
-    /// The least time in which this game was won \[s\].
+    /// The least time in which this game was won with all collectibles \[s\].
     pub fn best(&self) -> Option<f64> {
         self.best
     }

@@ -2,7 +2,7 @@
 
 use carom_scene::SceneError;
 
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Place};
 use crate::error::MazeError;
 use crate::floor::Floor;
 use crate::layout;
@@ -18,7 +18,7 @@ impl Maze {
     ///
     /// # Errors
     /// [`MazeError::Text`], with line and column: an unknown character, no start or two, no end, no
-    /// way between them that is wide enough for the ball, too large, or nothing at all.
+    /// way between them or to a collectible that is wide enough for the ball, too large, or nothing at all.
     pub fn from_text(text: &str, name: &str) -> Result<Self, MazeError> {
         let drawing = Drawing::read(text, name)?;
         let at_start =
@@ -36,6 +36,12 @@ impl Maze {
         let is_reached = |cell: &usize| way[*cell].is_finite();
         if !floor.cells_at_end_walls().iter().any(is_reached) {
             return Err(at_start(TextProblem::NoWay));
+        }
+        let collectibles = drawing.places(Place::Collectible).zip(maze.collectible_reaches());
+        for (place, (center, radius)) in collectibles {
+            if !floor.cells_touching(center, radius).iter().any(is_reached) {
+                return Err(TextProblem::NoWayTo.at(name, drawing.place_in_text(place)));
+            }
         }
         Ok(maze)
     }

@@ -44,4 +44,7 @@ pub enum TextProblem {
     /// The ball cannot get from the start to an end wall.
     #[error("no way from this start to an end wall that is wide enough for the ball")]
     NoWay,
+    /// The ball cannot get from the start to a collectible.
+    #[error("no way from the start to this collectible that is wide enough for the ball")]
+    NoWayTo,
 }

@@ -39,6 +39,19 @@ fn touching_an_end_wall_wins_and_then_nothing_moves() {
 }
 
 #[test]
+fn only_with_all_collectibles_a_game_is_the_best() {
+    let mut scene = open_floor(0.0);
+    scene.colliders.push(collectible([1.0, 0.5, 0.0]));
+    let mut game = game(&scene);
+    let events = until_event(&mut game, LEFT, 10.0);
+    assert!(
+        matches!(events[..], [GameEvent::Won { collected: 0, is_best: false, .. }]),
+        "{events:?}"
+    );
+    assert_eq!(game.best(), None);
+}
+
+#[test]
 fn playing_again_starts_anew_and_keeps_the_best_time() {
     let mut scene = open_floor(0.0);
     scene.colliders.push(collectible([-1.0, 0.5, 0.0]));

@@ -29,6 +29,7 @@ fn errors_of_drawings_tell_line_and_column() {
         ("####\n# E#\n####", None, TextProblem::NoStart),
         ("####\n#S #\n####", None, TextProblem::NoEnd),
         ("######\n#S# E#\n######", Some((2, 2)), TextProblem::NoWay),
+        ("#######\n#S E#o#\n#######", Some((2, 6)), TextProblem::NoWayTo),
         ("", None, TextProblem::Empty),
         ("title: nothing\n\n  \n", None, TextProblem::Empty),
     ] {

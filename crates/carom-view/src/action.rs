@@ -134,7 +134,7 @@ shortcuts! {
     Compare: [key(Key::X)], "the same scene under two rules, side by side";
     Theme: [key(Key::T)], "light or dark";
     Help: [key(Key::F1), key(Key::Questionmark)], "this list";
-    Close: [key(Key::Escape)], "close a dialog";
+    Close: [key(Key::Escape)], "close a dialog or a message";
 }
 
 /// What steers a maze, for the help.

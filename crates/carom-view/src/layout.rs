@@ -14,6 +14,14 @@ pub fn is_narrow(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() < NARROW
 }
 
+/// Windows less high than this are those of telephones on their side, in points.
+const LOW: f32 = 480.0;
+
+/// Whether there is room for one line of a bar only.
+pub fn has_room_for_one_line(ui: &Ui) -> bool {
+    is_narrow(ui) || ui.ctx().content_rect().height() < LOW
+}
+
 /// Least edge of what fingers press, in points (Web Content Accessibility Guidelines 2.2, 2.5.5).
 const FINGER: f32 = 44.0;
 

@@ -17,8 +17,9 @@ use crate::studio::{Canvas, Studio};
 /// it.
 const FRICTION: f64 = 0.15;
 
-/// What the player is to do.
-const GOAL: &str = "Collect everything, then touch the red wall.";
+/// What the player is to do, where there is something to collect and where there is nothing.
+const GOALS: [&str; 2] =
+    ["The red wall wins. Collect everything on the way for a best time.", "Touch the red wall."];
 
 /// A game being played.
 pub struct MazeScreen {
@@ -326,10 +327,9 @@ impl MazeScreen {
     /// Collectibles, times and what is to be done, in a line above the picture.
     fn counts(&self, ui: &mut Ui) {
         let of = self.game.maze().collectibles().count();
-        let mut counts = vec![
-            format!("Collected {} of {of}", self.game.collected()),
-            format!("Time {:.1} s", self.game.elapsed()),
-        ];
+        let collected = (of > 0).then(|| format!("Collected {} of {of}", self.game.collected()));
+        let mut counts: Vec<String> = collected.into_iter().collect();
+        counts.push(format!("Time {:.1} s", self.game.elapsed()));
         counts.extend(self.game.best().map(|best| format!("Best {best:.1} s")));
         let is_touched = is_touched(ui);
         let row = |ui: &mut Ui| {
@@ -337,7 +337,7 @@ impl MazeScreen {
                 ui.label(RichText::new(count).size(16.0).strong());
                 ui.separator();
             }
-            ui.label(GOAL);
+            ui.label(GOALS[usize::from(of == 0)]);
             ui.weak(if is_touched {
                 "Drag with a finger to tilt the maze."
             } else {
@@ -394,7 +394,8 @@ impl MazeScreen {
     /// The win text, and what comes next.
     fn won(&mut self, ui: &Ui) -> Option<Wish> {
         let GameState::Won { time } = self.game.state() else { return None };
-        let is_best = self.game.best().is_some_and(|best| time <= best);
+        let has_all = self.game.remaining().next().is_none();
+        let is_best = has_all && self.game.best().is_some_and(|best| time <= best);
         let mut again = false;
         let mut wish = None;
         Area::new(Id::unique("won")).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(
@@ -405,14 +406,15 @@ impl MazeScreen {
                         ui.label(RichText::new("You win!").size(44.0).strong());
                         let of = self.game.maze().collectibles().count();
                         let collected = self.game.collected();
-                        ui.label(
-                            RichText::new(format!("{time:.1} s, {collected} of {of} collected"))
-                                .size(18.0),
-                        );
+                        let with = match of {
+                            0 => String::new(),
+                            _ => format!(", {collected} of {of} collected"),
+                        };
+                        ui.label(RichText::new(format!("{time:.1} s{with}")).size(18.0));
                         ui.label(match self.game.best() {
                             _ if is_best => "The best time so far.".to_owned(),
                             Some(best) => format!("Best time {best:.1} s."),
-                            None => String::new(),
+                            None => format!("Collect all {of} for a best time."),
                         });
                         ui.add_space(12.0);
                         again = ui.button(RichText::new("Play again").size(18.0)).clicked();

@@ -5,7 +5,10 @@ use egui::{ScrollArea, Ui};
 
 use super::{App, Screen};
 use crate::action::Action;
-use crate::layout::is_narrow;
+use crate::layout::{has_room_for_one_line, is_for_fingers};
+
+/// Between the buttons of the bar, in points: so all fit in 1280.
+const CLOSE: f32 = 4.0;
 
 impl App {
     /// What there is to choose in the maze game. Returns another maze to play.
@@ -74,14 +77,21 @@ impl App {
     pub(super) fn bar(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         ui.horizontal_wrapped(|ui| {
+            if !is_for_fingers(ui.ctx()) {
+                ui.spacing_mut().item_spacing.x = CLOSE;
+            }
             if ui.button("Scenes").on_hover_text(Action::Choose.hint()).clicked() {
                 actions.push(Action::Choose);
             }
-            if let Some((name, _)) = self.shown() {
+            let name = match &self.screen {
+                Screen::Maze(screen) => Some(screen.game().maze().title().to_owned()),
+                _ => self.shown().map(|(name, _)| name),
+            };
+            if let Some(name) = name {
                 ui.strong(name);
                 ui.separator();
             }
-            if is_narrow(ui) {
+            if has_room_for_one_line(ui) {
                 let height = ui.ctx().content_rect().height() - 2.0 * ui.spacing().interact_size.y;
                 let menu = ui.menu_button("Menu", |ui| {
                     let area =

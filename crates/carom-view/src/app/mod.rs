@@ -282,6 +282,7 @@ impl App {
                 self.help = false;
                 self.link.close();
                 self.chooser.close();
+                self.notices.clear();
             }
             Action::Screenshot => self.screenshot(),
             Action::Record => self.record(),
