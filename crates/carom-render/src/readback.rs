@@ -19,11 +19,7 @@ pub struct Readback {
 
 impl Readback {
     /// Begins to copy a texture of 4 bytes a pixel into memory.
-    pub(crate) fn begin(
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        texture: &wgpu::Texture,
-    ) -> Self {
+    pub fn begin(device: &wgpu::Device, queue: &wgpu::Queue, texture: &wgpu::Texture) -> Self {
         let size = [texture.width(), texture.height()];
         let row = aligned_row(size[0]);
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {

@@ -15,6 +15,7 @@ embed!(
     "cradle.toml",
     "galton.toml",
     "gas.toml",
+    "bounce.toml",
     "chain-reaction.toml",
     "hourglass.toml",
     "avalanche.toml",

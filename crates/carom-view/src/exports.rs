@@ -1,11 +1,9 @@
 //! What leaves the interface: pictures, films and scene files.
 
 use std::ops::Range;
-use std::sync::{Arc, Mutex};
 
 use carom_render::{Picture, stamp};
 use carom_scene::scene::Scene;
-use egui::{ColorImage, Context, Pos2, Rect, ScreenshotCallback, Vec2, ViewportCommand};
 
 use crate::host::Host;
 use crate::naming::{file_name, stamp_text};
@@ -18,52 +16,29 @@ use crate::studio::Studio;
 #[derive(Default)]
 pub struct Exports {
     pictures: Vec<Pending>,
-    screens: Vec<PendingScreen>,
     recorder: Option<Recorder>,
 }
 
 /// A picture that is being drawn.
 struct Pending {
     snapshot: Snapshot,
-    scene: String,
-    /// \[s\]
-    time: f64,
-}
-
-/// A picture of a part of the window that is awaited, and what it is called.
-struct PendingScreen {
+    /// What its file is called.
     name: String,
-    image: Arc<Mutex<Option<ColorImage>>>,
+    /// What is written on it.
+    stamp: Option<String>,
 }
 
 impl Exports {
-    /// Saves a part of the window, in points, as it is in the next picture, with plots of a scene at a
-    /// time \[s\].
-    pub fn save_screen(&mut self, context: &Context, part: Rect, scene: String, time: f64) {
-        let pixels_per_point = context.pixels_per_point();
-        let part = part.intersect(context.content_rect());
-        let image = Arc::new(Mutex::new(None));
-        let (inbox, waiting) = (image.clone(), context.clone());
-        let callback = ScreenshotCallback::new(move |screen| {
-            // The window may have become smaller meanwhile.
-            let [width, height] = screen.size.map(|it| it as f32 / pixels_per_point);
-            let whole = Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height));
-            let part = part.intersect(whole);
-            if let Ok(mut inbox) = inbox.lock()
-                && part.is_positive()
-            {
-                *inbox = Some(screen.region(&part, Some(pixels_per_point)));
-            }
-            waiting.request_repaint();
-        });
-        context.send_viewport_cmd(ViewportCommand::Screenshot(callback));
-        let name = format!("{}-plots", file_name(&scene, time));
-        self.screens.push(PendingScreen { name, image });
+    /// Saves plots of a scene at a time \[s\] when they have been drawn.
+    pub fn save_plots(&mut self, plots: Snapshot, scene: &str, time: f64) {
+        let name = format!("{}-plots", file_name(scene, time));
+        self.pictures.push(Pending { snapshot: plots, name, stamp: None });
     }
 
     /// Saves a picture of a scene at a time \[s\], which is written on it, when it has been drawn.
-    pub fn save_picture(&mut self, snapshot: Snapshot, scene: String, time: f64) {
-        self.pictures.push(Pending { snapshot, scene, time });
+    pub fn save_picture(&mut self, snapshot: Snapshot, scene: &str, time: f64) {
+        let (name, stamp) = (file_name(scene, time), Some(stamp_text(scene, time)));
+        self.pictures.push(Pending { snapshot, name, stamp });
     }
 
     /// Whether a film is being recorded.
@@ -108,19 +83,12 @@ impl Exports {
     pub fn collect(&mut self, studio: &Studio, to: &mut Outlet) -> bool {
         let device = studio.device();
         let is_ready = |pending: &mut Pending| pending.snapshot.is_ready(device);
-        for Pending { snapshot, scene, time } in self.pictures.extract_if(.., is_ready) {
+        for Pending { snapshot, name, stamp } in self.pictures.extract_if(.., is_ready) {
             match snapshot.picture() {
-                Ok(picture) => to.save_picture(picture, &scene, time),
+                Ok(picture) => to.save_picture(picture, &name, stamp.as_deref()),
                 Err(error) => to.notices.complain(error),
             }
         }
-        self.screens.retain(|screen| {
-            let taken = screen.image.lock().ok().and_then(|mut image| image.take());
-            taken.is_none_or(|image| {
-                to.save_screen(&screen.name, &image);
-                false
-            })
-        });
         if let Some(recorder) = &mut self.recorder
             && let Err(error) = recorder.collect(device)
         {
@@ -158,19 +126,10 @@ impl Outlet<'_> {
         self.save(&format!("{}-{name}", file_name(scene, time)), "csv", csv.as_bytes());
     }
 
-    fn save_screen(&mut self, name: &str, image: &ColorImage) {
-        let [width, height] = image.size.map(|it| it as u32);
-        let pixels = image.pixels.iter().flat_map(|it| it.to_srgba_unmultiplied()).collect();
-        match (Picture { width, height, pixels }).to_png() {
-            Ok(content) => self.save(name, "png", &content),
-            Err(error) => self.notices.complain(error),
-        }
-    }
-
-    fn save_picture(&mut self, mut picture: Picture, scene: &str, time: f64) {
-        stamp(&mut picture, &stamp_text(scene, time));
+    fn save_picture(&mut self, mut picture: Picture, name: &str, text: Option<&str>) {
+        text.into_iter().for_each(|text| stamp(&mut picture, text));
         match picture.to_png() {
-            Ok(content) => self.save(&file_name(scene, time), "png", &content),
+            Ok(content) => self.save(name, "png", &content),
             Err(error) => self.notices.complain(error),
         }
     }

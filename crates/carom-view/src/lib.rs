@@ -28,6 +28,7 @@ mod maze_screen;
 mod naming;
 mod notices;
 mod orbit;
+mod page;
 mod plots;
 mod recorder;
 mod snapshot;

@@ -19,7 +19,7 @@ const FRICTION: f64 = 0.15;
 
 /// What the player is to do, where there is something to collect and where there is nothing.
 const GOALS: [&str; 2] =
-    ["The red wall wins. Collect everything on the way for a best time.", "Touch the red wall."];
+    ["Touch the red wall; collect all for a best time.", "Touch the red wall."];
 
 /// A game being played.
 pub struct MazeScreen {

@@ -5,8 +5,10 @@ use std::sync::{Arc, Mutex};
 use carom_render::{
     Camera, Drawing, Gpu, GpuError, Offscreen, Quality, Readback, Renderer, Target,
 };
-use egui::{TextureId, Vec2};
+use egui::{Context, TextureId, Ui, Vec2};
 use egui_wgpu::{RenderState, wgpu};
+
+use crate::page;
 
 /// The graphics device of the interface, with a renderer for all its pictures.
 pub struct Studio {
@@ -115,6 +117,12 @@ impl Studio {
         if let Some(Shown { target, .. }) = &canvas.shown {
             self.renderer.draw(device, queue, drawing, camera, target);
         }
+    }
+
+    /// Begins to draw a page of the interface of this size in points, in the colours of the window that
+    /// `like` is of.
+    pub fn page(&self, like: &Context, size: Vec2, content: impl FnMut(&mut Ui)) -> Readback {
+        page::draw(&self.state, like, size, content)
     }
 
     /// Begins to draw a picture of this size in pixels, as fine as can be.

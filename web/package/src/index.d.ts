@@ -36,7 +36,7 @@ export interface SphereDescription {
   density?: number;
   /** Coefficient of restitution in [0, 1]; 1 unless given. */
   restitution?: number;
-  /** Coulomb's coefficient of friction, >= 0, by `contact`; that of what it touches unless given. */
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
   friction?: number;
   /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
   rollingFriction?: number;
@@ -68,7 +68,7 @@ export interface Sphere {
   mass: number;
   /** Coefficient of restitution in [0, 1]. */
   restitution: number;
-  /** Coulomb's coefficient of friction, >= 0, by `contact`; that of what it touches unless given. */
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
   friction?: number;
   /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
   rollingFriction?: number;
@@ -169,7 +169,7 @@ export interface ColliderDescription {
   angularVelocity?: Vector;
   /** Coefficient of restitution in [0, 1]; 1 unless given. */
   restitution?: number;
-  /** Coulomb's coefficient of friction, >= 0, by `contact`; that of what it touches unless given. */
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
   friction?: number;
   /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
   rollingFriction?: number;
@@ -177,7 +177,7 @@ export interface ColliderDescription {
   spinningFriction?: number;
   /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
   tangentialRestitution?: number;
-  /** A trigger reports contact and deflects nothing. */
+  /** A trigger reports contact at the end of a frame, and deflects nothing. */
   trigger?: boolean;
   /** Whether it is to be drawn. */
   visible?: boolean;
@@ -201,7 +201,7 @@ export interface Collider {
   /** [rad/s] */
   angularVelocity: [number, number, number];
   restitution: number;
-  /** Coulomb's coefficient of friction, >= 0, by `contact`; that of what it touches unless given. */
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
   friction?: number;
   /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
   rollingFriction?: number;
@@ -545,7 +545,8 @@ export class World {
   /** Numbers of the spheres that emitters left out, for there was no room (`needs_room` of an emitter, the
    *  default under the rule `contact`): no sphere ever has them. */
   readonly leftOut: number[];
-  /** Spheres inside triggers at the end of the last frame. */
+  /** Spheres inside triggers at the end of the last frame. One that goes through a trigger within a frame is
+   *  not among them: make a trigger wider than the way of a frame, or the steps shorter. */
   readonly triggers: { collider: number; sphere: number }[];
   /** The work of the last frame. */
   readonly work: StageCounts;
@@ -561,7 +562,7 @@ export class World {
    *  since, or by other rules. By `exact`, reading them solves for the forces. */
   readonly contacts: PersistentContact[];
   /** Whether spheres are turned or turn, or may come to: an emitter emits such, or there is friction,
-   *  which acts by `contact`. */
+   *  which acts by `exact` and `contact`. */
   readonly hasSpin: boolean;
 
   /** [J], the energy of rotation included. */
@@ -608,7 +609,9 @@ export class World {
 
   /** Changes what is given of a sphere. @throws {CaromError} */
   setSphere(id: number, changes: SphereDescription): void;
-  /** Changes what is given of a collider. @throws {CaromError} */
+  /** Changes what is given of a collider. In a new place it is at once: what is there it does not push, and
+   *  a ball whose centre is in a box then falls through. What moves gets a `velocity` [m/s] and an
+   *  `angular_velocity` [rad/s], which take it along in the next steps. @throws {CaromError} */
   setCollider(id: number, changes: Partial<ColliderDescription>): void;
   /** Puts a force in the place of another. @throws {CaromError} */
   setForce(id: number, force: Force): void;

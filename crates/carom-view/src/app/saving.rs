@@ -2,7 +2,8 @@
 
 use super::{App, Screen};
 use crate::exports::Outlet;
-use crate::plots::Wanted;
+use crate::naming::stamp_text;
+use crate::plots::{self, Wanted};
 use crate::snapshot::Snapshot;
 
 /// Smallest picture that is saved \[pixels\].
@@ -26,7 +27,7 @@ impl App {
         let [width, height] = SMALLEST_PICTURE;
         let size = [width.max(window.x as u32), height.max(window.y as u32)];
         if let Some(snapshot) = self.snapshot(size) {
-            self.exports.save_picture(snapshot, name, time);
+            self.exports.save_picture(snapshot, &name, time);
         }
     }
 
@@ -49,7 +50,11 @@ impl App {
                 let mut outlet = Outlet { host: &mut *self.host, notices: &mut self.notices };
                 outlet.save_table(&scene, time, &name, &csv);
             }
-            Wanted::Picture(part) => self.exports.save_screen(&self.context, part, scene, time),
+            Wanted::Picture(figures) => {
+                let heading = stamp_text(&scene, time);
+                let page = plots::print(&figures, &heading, &self.context, &self.studio);
+                self.exports.save_plots(Snapshot { parts: vec![page] }, &scene, time);
+            }
         }
     }
 

@@ -6,7 +6,7 @@ use egui_plot::{
     AxisHints, Bar, BarChart, GridInput, GridMark, Line, Plot, PlotPoint, PlotPoints, VLine,
 };
 
-const HEIGHT: f32 = 118.0;
+const HEIGHT: f32 = 132.0;
 pub const BLUE: Color32 = Color32::from_rgb(66, 133, 214);
 pub const GREEN: Color32 = Color32::from_rgb(60, 160, 100);
 pub const RED: Color32 = Color32::from_rgb(214, 80, 70);
@@ -98,28 +98,38 @@ impl Figure {
                 let text = format!("Save the numbers of {}", self.title);
                 egui::WidgetInfo::labeled(egui::Role::Button, true, text)
             });
-            // Above the curves: within, a legend would cover them.
-            if self.curves.len() > 1 {
-                for Curve { name, color, .. } in &self.curves {
-                    ui.label(legend(ui, name, *color));
-                }
-            }
+            self.name_curves(ui);
             save.clicked()
         });
-        self.plot(ui);
+        self.plot(ui, if self.mark.is_some() { HEIGHT } else { 1.5 * HEIGHT });
         is_wanted.inner
     }
 
-    fn plot(&self, ui: &mut Ui) {
-        let text = |mark, _: &_| text_of(mark);
-        let mut across = AxisHints::new_x().label_spacing(1.0..=2.0).formatter(text);
-        let is_over_time = self.mark.is_some();
-        if !is_over_time {
-            across = across.label(labelled(&self.across.0, self.across.1));
+    /// Draws it without anything to press, so high in points below its title.
+    pub fn print(&self, ui: &mut Ui, height: f32) {
+        ui.horizontal_wrapped(|ui| {
+            ui.strong(labelled(&self.title, self.unit));
+            self.name_curves(ui);
+        });
+        self.plot(ui, height);
+    }
+
+    /// Names the curves, where there are several: within the plot, a legend would cover them.
+    fn name_curves(&self, ui: &mut Ui) {
+        if self.curves.len() > 1 {
+            for Curve { name, color, .. } in &self.curves {
+                ui.label(legend(ui, name, *color));
+            }
         }
+    }
+
+    fn plot(&self, ui: &mut Ui, height: f32) {
+        let text = |mark, _: &_| text_of(mark);
+        let across = AxisHints::new_x().label_spacing(1.0..=2.0).formatter(text);
+        let across = across.label(labelled(&self.across.0, self.across.1));
         let up = AxisHints::new_y().label_spacing(1.0..=2.0).min_thickness(46.0);
         let mut plot = Plot::new(&self.title)
-            .height(if is_over_time { HEIGHT } else { 1.5 * HEIGHT })
+            .height(height)
             .allow_scroll(false)
             .allow_drag(false)
             .allow_zoom(false)
@@ -128,8 +138,12 @@ impl Figure {
             .x_grid_spacer(marks)
             .y_grid_spacer(marks)
             .custom_y_axes(vec![up.formatter(text)]);
-        if is_over_time {
+        if self.mark.is_some() {
             plot = plot.include_x(0.0);
+        }
+        if self.curves.iter().all(|curve| curve.points.len() < 2) {
+            // One value has no scale.
+            plot = plot.include_x(0.0).include_x(1.0);
         }
         plot.show(ui, |plot| {
             for Curve { name, color, points, form } in &self.curves {

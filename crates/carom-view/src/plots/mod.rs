@@ -4,13 +4,16 @@ mod distribution;
 mod figure;
 
 use carom::StageCounts;
+use carom_render::Readback;
 use carom_session::View;
-use egui::{Rect, ScrollArea, Ui};
+use egui::{Context, Pos2, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 use serde::{Deserialize, Serialize};
 
-use figure::{BLUE, Curve, Figure, GREEN, GREY, RED};
+pub use figure::Figure;
+use figure::{BLUE, Curve, GREEN, GREY, RED};
 
 use crate::layout::press_word;
+use crate::studio::Studio;
 
 /// Which plots are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -50,14 +53,13 @@ impl Default for Shown {
 pub enum Wanted {
     /// A table in a file whose name ends with this.
     Table { name: String, csv: String },
-    /// A picture of this part of the window, in points.
-    Picture(Rect),
+    /// A picture of these.
+    Picture(Vec<Figure>),
 }
 
 /// All plots that are switched on, below each other. From `left` on \[s\] some balls have left: what
 /// they do then sets no scale. Returns what is to be saved.
 pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut Shown) -> Option<Wanted> {
-    let place = ui.max_rect();
     let mut wanted = None;
     ui.horizontal_wrapped(|ui| {
         ui.checkbox(&mut shown.energy, "Energy");
@@ -67,15 +69,13 @@ pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut Shown) -> O
         ui.checkbox(&mut shown.gas, "Gas");
         ui.checkbox(&mut shown.work, "Work");
         if ui.small_button("PNG").on_hover_text("Save a picture of these plots").clicked() {
-            wanted = Some(Wanted::Picture(place));
+            wanted = Some(Wanted::Picture(all(view, left, shown)));
         }
     });
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        let mut draw = |ui: &mut Ui, figures: Vec<Figure>| {
-            for mut figure in figures {
-                if figure.mark.is_some() {
-                    figure.scale_until = left;
-                }
+        let mut draw = |ui: &mut Ui, mut figures: Vec<Figure>| {
+            scale(&mut figures, left);
+            for figure in figures {
                 if figure.show(ui) {
                     let name = figure.title.to_lowercase().replace(' ', "-");
                     wanted = Some(Wanted::Table { name, csv: figure.to_csv() });
@@ -106,6 +106,58 @@ pub fn show(ui: &mut Ui, view: &View, left: Option<f64>, shown: &mut Shown) -> O
         }
     });
     wanted
+}
+
+/// All figures that are switched on, in their order.
+fn all(view: &View, left: Option<f64>, shown: &Shown) -> Vec<Figure> {
+    let mut figures = over_time(view, shown);
+    if shown.gas {
+        figures.extend(gas(view));
+    }
+    if shown.picked && view.picked.is_some() {
+        figures.extend(picked(view));
+        figures.push(phase_space(view, shown.direction));
+    }
+    if shown.work {
+        figures.extend(work(view));
+    }
+    scale(&mut figures, left);
+    figures
+}
+
+/// Has the time after some balls have left set no scale.
+fn scale(figures: &mut [Figure], left: Option<f64>) {
+    for figure in figures.iter_mut().filter(|figure| figure.mark.is_some()) {
+        figure.scale_until = left;
+    }
+}
+
+/// Size of a figure that is saved, with its title and its margins, in points.
+const PRINTED: Vec2 = Vec2::new(480.0, 250.0);
+
+/// Room for the heading above figures that are saved, in points.
+const HEADING: f32 = 40.0;
+
+/// Begins to draw figures below a heading, in two columns where there are several.
+pub fn print(figures: &[Figure], heading: &str, context: &Context, studio: &Studio) -> Readback {
+    let columns = figures.len().clamp(1, 2);
+    let rows = figures.len().div_ceil(columns).max(1);
+    let size = PRINTED * Vec2::new(columns as f32, rows as f32) + Vec2::new(0.0, HEADING);
+    studio.page(context, size, |ui| {
+        let text = RichText::new(heading).size(18.0).strong();
+        ui.put(
+            Rect::from_min_size(Pos2::new(12.0, 8.0), Vec2::new(size.x - 24.0, 24.0)),
+            |ui: &mut Ui| ui.horizontal(|ui| ui.label(text.clone())).response,
+        );
+        for (i, figure) in figures.iter().enumerate() {
+            let place = Vec2::new((i % columns) as f32, (i / columns) as f32) * PRINTED;
+            let corner = Pos2::new(0.0, HEADING) + place;
+            let part = Rect::from_min_size(corner, PRINTED).shrink(12.0);
+            ui.scope_builder(UiBuilder::new().max_rect(part).id_salt(i), |ui| {
+                figure.print(ui, part.height() - 28.0);
+            });
+        }
+    })
 }
 
 const DIRECTIONS: [&str; 3] = ["x", "y", "z"];

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use carom_maze::Maze;
 use carom_render::Picture;
 use egui::epaint::{Shape, TextShape};
-use egui::{Color32, Key, Rect, Theme};
+use egui::{Color32, Key, Rect, Theme, Vec2};
 use egui_kittest::kittest::Queryable;
 
 use crate::desk::{Desk, desk, go_to, press, setup, watching};

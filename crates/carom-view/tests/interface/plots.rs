@@ -50,10 +50,12 @@ fn numbers_of_a_figure_are_saved_with_their_units() {
 fn a_picture_of_the_plots_is_saved() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut desk = plotting("tutorial1", folder.path());
+    go_to(&mut desk, 3.0);
     desk.get_by_label("PNG").click();
     desk.run_steps(8);
     let picture = Picture::from_png(&saved(folder.path(), "-plots.png")).expect("a picture");
-    assert!(picture.width >= 200 && picture.height >= 300, "{} {}", picture.width, picture.height);
+    // Three plots in two columns, twice as fine as the window.
+    assert!(picture.width >= 1600 && picture.height >= 900, "{} {}", picture.width, picture.height);
     let colors: std::collections::BTreeSet<_> = picture.pixels.chunks(4).collect();
     assert!(colors.len() > 20, "text and curves have many colours");
 }

@@ -1,0 +1,77 @@
+//! A page of the interface that no window shows, as a picture.
+
+use carom_render::{COLOR_FORMAT, Readback};
+use egui::{Context, Rect, Theme, Ui, Vec2};
+use egui_wgpu::{RenderState, Renderer, RendererOptions, ScreenDescriptor, wgpu};
+
+/// Fine enough for slides and print.
+const PIXELS_PER_POINT: f32 = 2.0;
+
+/// Passes until everything knows its size.
+const PASSES: usize = 3;
+
+/// Begins to draw a page of this size in points, in the colours of the window that `like` is of.
+pub fn draw(
+    RenderState { device, queue, .. }: &RenderState,
+    like: &Context,
+    size: Vec2,
+    mut content: impl FnMut(&mut Ui),
+) -> Readback {
+    let context = Context::default();
+    for theme in [Theme::Light, Theme::Dark] {
+        context.set_style_of(theme, like.style_of(theme));
+    }
+    context.set_theme(like.theme());
+    context.set_pixels_per_point(PIXELS_PER_POINT);
+    let mut renderer = Renderer::new(device, COLOR_FORMAT, RendererOptions::default());
+    let mut shapes = Vec::new();
+    for _ in 0..PASSES {
+        let screen_rect = Some(Rect::from_min_size(egui::Pos2::ZERO, size));
+        let input = egui::RawInput { screen_rect, ..Default::default() };
+        let mut output = context.run_ui(input, |ui| {
+            ui.painter().rect_filled(ui.max_rect(), 0.0, ui.visuals().panel_fill);
+            content(ui);
+        });
+        for (id, images) in &output.textures_delta.set {
+            images.iter().for_each(|image| renderer.update_texture(device, queue, *id, image));
+        }
+        output.textures_delta.clear();
+        shapes = output.shapes;
+    }
+    let [width, height] = [size.x, size.y].map(|edge| (edge * PIXELS_PER_POINT) as u32);
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("page"),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: COLOR_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let screen =
+        ScreenDescriptor { size_in_pixels: [width, height], pixels_per_point: PIXELS_PER_POINT };
+    let primitives = context.tessellate(shapes, PIXELS_PER_POINT);
+    let mut encoder = device.create_command_encoder(&Default::default());
+    renderer.update_buffers(device, queue, &mut encoder, &primitives, &screen);
+    let view = texture.create_view(&Default::default());
+    let mut pass = encoder
+        .begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("page"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            ..Default::default()
+        })
+        .forget_lifetime();
+    renderer.render(&mut pass, &primitives, &screen);
+    drop(pass);
+    queue.submit([encoder.finish()]);
+    Readback::begin(device, queue, &texture)
+}
