@@ -34,8 +34,7 @@ mod tests {
             let Some(Ok(Value::Array(parts))) = numbers_of("color", text) else { panic!("{text}") };
             parts.iter().filter_map(Value::as_float).map(|it| (255.0 * it).round()).collect()
         };
-        let read: [Vec<f64>; 4] =
-            ["red", "SteelBlue", "#c0392b", "hsl(120 100% 50%)"].map(|text| parts(text));
+        let read: [Vec<f64>; 4] = ["red", "SteelBlue", "#c0392b", "hsl(120 100% 50%)"].map(parts);
         let expected = [[255., 0., 0.], [70., 130., 180.], [192., 57., 43.], [0., 255., 0.]];
         assert_eq!(read, expected.map(Vec::from));
         for text in ["reddish", "", "#12", "rgb(0 0 0 / 50%)"] {
