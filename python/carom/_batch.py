@@ -13,11 +13,12 @@ from carom import _tables as tables
 from carom._carom import BatchEngine
 from carom._library import load
 from carom._scene import Scene
+from carom._strict import Strict
 from carom._world import World
 from carom.errors import CaromError, StepError
 
 
-class Batch(BatchEngine):
+class Batch(Strict, BatchEngine):
     """Worlds with the same number of spheres that step together, on all cores.
 
     Each world is, to the bit, what it would be alone, however many there are and on however many

@@ -15,6 +15,7 @@ from carom import _tables as tables
 from carom._carom import Engine
 from carom._contact_account import ContactAccount
 from carom._stage_counts import StageCounts
+from carom._strict import Strict
 from carom._text import read_part, read_parts, toml_of, toml_value
 from carom._trajectory import Trajectory
 from carom._zone_account import ZoneAccount
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from carom._scene import Scene
 
 
-class World(Engine):
+class World(Strict, Engine):
     """Spheres that move.
 
     A world is made from a scene, and then has a life of its own. Arrays of spheres (``positions``,

@@ -1,6 +1,7 @@
 """What is refused names the argument, in the words of the engine, and changes nothing."""
 
 import pickle
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -190,6 +191,29 @@ def test_runs_that_make_no_sense(world: carom.World) -> None:
     refused(world, lambda: world.run(1e300), carom.CaromError, "more than can be counted")
     refused(world, lambda: world.run(1, every=0), carom.CaromError, "every: must be at least 1")
     refused(world, lambda: world.run(1, frames=1), TypeError, "seconds and frames")
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [("velocites", "velocities"), ("position", "positions"), ("gravity", None)],
+)
+def test_what_a_world_has_not_cannot_be_set(
+    world: carom.World, name: str, meant: str | None
+) -> None:
+    hint = f"; did you mean '{meant}'?" if meant else ""
+    for one, kind in [(world, "World"), (carom.Batch("tutorial3", 2), "Batch")]:
+        text = f"a carom.{kind} has no attribute '{name}'{hint}"
+        with pytest.raises(AttributeError, match=f"^{re.escape(text)}$"):
+            setattr(one, name, 0)
+
+
+def test_a_class_of_ones_own_has_attributes_of_its_own() -> None:
+    class Labelled(carom.World):
+        pass
+
+    world = Labelled()
+    setattr(world, "label", "empty")  # noqa: B010
+    assert vars(world) == {"label": "empty"}
 
 
 def test_an_unknown_scene_is_told_with_the_nearest_name() -> None:

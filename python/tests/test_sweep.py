@@ -60,6 +60,32 @@ def place(world: carom.World) -> float:
 GRID: dict[str, Any] = {"height": [0.5, 1.0, 2.0], "e": np.array([0.0, 0.5, 1.0])}
 
 
+FILE = """
+name = "dropped"
+[parameters]
+height = 1.0
+[[forces]]
+gravity = { acceleration = [0, -9.81, 0] }
+[[spheres]]
+position = [0, "=height + 0.5", 0]
+radius = 0.5
+[[colliders]]
+shape = "half-space"
+"""
+
+
+def test_parameters_of_a_scene_file_are_swept_by_their_names(tmp_path: Path) -> None:
+    file = tmp_path / "dropped.toml"
+    file.write_text(FILE, encoding="utf-8")
+    grid: dict[str, Any] = {"height": [1.0, 4.0], "spheres.0.restitution": [0.5, 1.0]}
+    runs = carom.sweep(str(file), grid, measure=rebound, client="serial")
+    # e times the speed of the fall.
+    expected = [e * (2 * 9.81 * height) ** 0.5 for height in (1.0, 4.0) for e in (0.5, 1.0)]
+    assert runs.to_pandas()["speed"].tolist() == pytest.approx(expected, rel=1e-12)
+    with pytest.raises(carom.SceneError, match="heigth"):
+        carom.sweep(str(file), {"heigth": [1.0]}, measure=rebound, client="serial")
+
+
 # The table
 
 

@@ -130,7 +130,7 @@ def test_an_emitter_ends_with_its_count_and_goes_on_with_a_larger_one() -> None:
     world.set_emitter(0, dataclasses.replace(source, count=3))
     world.step(5.0)
     assert world.emitted.tolist() == [2]
-    with pytest.raises(ValueError, match="`count` must be at least 1"):
+    with pytest.raises(ValueError, match="count: must be at least 1"):
         world.set_emitter(0, dataclasses.replace(source, count=0))
 
 

@@ -7,17 +7,27 @@ import os
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from carom._library import find
 from carom._scene import Scene
 from carom._sweep.cluster import check_client, performing
-from carom._sweep.experiment import Experiment, Fault, Maker, Measured, Outcome, Run, fault
+from carom._sweep.experiment import (
+    Experiment,
+    Fault,
+    Maker,
+    Measured,
+    Outcome,
+    Run,
+    Written,
+    fault,
+)
 from carom._sweep.experiment import experiment as make_experiment
 from carom._sweep.plan import Plan, make_plan
 from carom._sweep.runs import Failure, Runs
 from carom._sweep.store import Key, Store
-from carom.errors import CaromError, RunError
+from carom.errors import CaromError, RunError, SceneError
 
 if TYPE_CHECKING:
     import pandas
@@ -44,7 +54,7 @@ def sweep(
 
     A parameter goes where its name says: to the parameter of the function that makes the scene, to
     the parameter of ``measure``, or to both; any other name is the path of a value in the scene,
-    as in `Scene.with_changes`.
+    as in `Scene.with_changes`, or a parameter of the scene file, if its path is given.
 
     Repeats are the same run with other seeds. The seed goes to the parameter ``seed`` of the
     function that makes the scene; if it has none, into the random fillings of the scene (the second
@@ -96,8 +106,8 @@ def sweep(
     _check_choices(measure, version, on_error)
     check_client(client)
     plan = make_plan(grid, samples, repeats, seed)
-    source = find(scene) if isinstance(scene, str) else scene
-    if not isinstance(source, Scene) and not callable(source):
+    source = _source(scene)
+    if not isinstance(source, Scene | Written) and not callable(source):
         kind = type(source).__name__
         raise TypeError(f"scene: must be a carom.Scene, a name or a function, not a {kind}")
     experiment = make_experiment(source, measure, plan.names)
@@ -121,6 +131,22 @@ def sweep(
             for outcomes in stack.enter_context(batches):
                 book.enter(outcomes)
     return book.runs()
+
+
+def _source(scene: Scene | str | Maker) -> Scene | Written | Maker:
+    """What is run: of a scene file the text, so that its own parameters can be changed."""
+    if not isinstance(scene, str):
+        return scene
+    found, path = find(scene), Path(scene)
+    if not isinstance(found, Scene) or path.suffix != ".toml":
+        return found
+    text = path.read_text(encoding="utf-8")
+    try:
+        Scene.from_toml(text, source=scene)
+    except SceneError:
+        # It includes files, which a text alone cannot.
+        return found
+    return Written(text, scene)
 
 
 class _Book:

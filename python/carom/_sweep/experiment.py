@@ -50,6 +50,15 @@ class Outcome(NamedTuple):
 
 
 @dataclass(frozen=True)
+class Written:
+    """The text of a scene file, whose parameters are changed by their names."""
+
+    text: str
+    source: str
+    """What errors call it."""
+
+
+@dataclass(frozen=True)
 class Experiment:
     """A scene, a measurement, and which parameters go where.
 
@@ -61,7 +70,7 @@ class Experiment:
         paths: Parameters that are values in the scene.
     """
 
-    scene: Scene | Maker
+    scene: Scene | Written | Maker
     measure: Callable[..., Any]
     to_scene: frozenset[str]
     to_measure: frozenset[str]
@@ -69,18 +78,22 @@ class Experiment:
 
     def scene_of(self, run: Run) -> Scene:
         """The scene at the start of a run."""
-        if isinstance(self.scene, Scene):
-            made = self.scene
+        changes = {name: run.parameters[name] for name in sorted(self.paths)}
+        if isinstance(self.scene, Written):
+            made = Scene.from_toml(self.scene.text, source=self.scene.source, changes=changes)
         else:
-            made = self.scene(**_chosen(run, self.to_scene))
-            if not isinstance(made, Scene):
-                kind = type(made).__name__
-                raise TypeError(f"scene: the function returned a {kind}, not a carom.Scene")
-        if self.paths:
-            made = made.with_changes({name: run.parameters[name] for name in sorted(self.paths)})
+            made = self.scene if isinstance(self.scene, Scene) else self._made(self.scene, run)
+            made = made.with_changes(changes) if changes else made
         if run.seed is None or SEED in self.to_scene or not _is_random(made):
             return made
         return made.with_seed(run.seed)
+
+    def _made(self, make: Maker, run: Run) -> Scene:
+        made = make(**_chosen(run, self.to_scene))
+        if not isinstance(made, Scene):
+            kind = type(made).__name__
+            raise TypeError(f"scene: the function returned a {kind}, not a carom.Scene")
+        return made
 
     def takes_seeds(self, run: Run) -> bool:
         """Whether runs with other seeds are other runs."""
@@ -98,7 +111,7 @@ class Experiment:
 
 
 def experiment(
-    scene: Scene | Maker, measure: Callable[..., Any], names: Iterable[str]
+    scene: Scene | Written | Maker, measure: Callable[..., Any], names: Iterable[str]
 ) -> Experiment:
     """Finds out what takes which parameters, and the seed.
 
@@ -107,12 +120,12 @@ def experiment(
     """
     names = frozenset(names)
     to_scene: frozenset[str] = frozenset()
-    if not isinstance(scene, Scene):
+    if not isinstance(scene, Scene | Written):
         to_scene = _taken(scene, {*names, SEED}, skip=0)
     to_measure = _taken(measure, {*names, SEED}, skip=1)
     left = names - to_scene - to_measure
     for name in sorted(left):
-        if not isinstance(scene, Scene) and "." not in name:
+        if not isinstance(scene, Scene | Written) and "." not in name:
             raise TypeError(
                 f"{name}: neither the function that makes the scene nor measure takes it"
             )
