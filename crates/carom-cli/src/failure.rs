@@ -44,12 +44,35 @@ impl Failure {
 /// the usual variables says otherwise.
 fn refuse(message: &str) {
     let red = clap::builder::styling::AnsiColor::Red.on_default().bold();
+    let message = legible(message);
     writeln!(anstream::stderr(), "{red}carom:{red:#} {message}").ok();
 }
 
 /// Writes a line to the standard error stream. If that is gone too, the line is lost.
 pub fn complain(line: &str) {
-    writeln!(io::stderr(), "{line}").ok();
+    writeln!(io::stderr(), "{}", legible(line)).ok();
+}
+
+/// A message as a terminal shows it: what files and links hold may be long, and must not steer the terminal.
+fn legible(message: &str) -> String {
+    message.lines().map(legible_line).collect::<Vec<_>>().join("\n")
+}
+
+fn legible_line(line: &str) -> String {
+    /// In characters.
+    const LONGEST: usize = 4000;
+    let mut text = String::new();
+    for character in line.chars().take(LONGEST) {
+        match character {
+            '\t' => text.push(character),
+            _ if character.is_control() => text.extend(character.escape_unicode()),
+            _ => text.push(character),
+        }
+    }
+    match line.chars().count().saturating_sub(LONGEST) {
+        0 => text,
+        left => format!("{text}... and {left} characters more"),
+    }
 }
 
 impl From<SceneError> for Failure {
@@ -120,5 +143,17 @@ impl From<io::Error> for Failure {
         } else {
             Self::Fault(format!("cannot write the output: {error}"))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_would_steer_a_terminal_is_written_out_and_what_is_long_is_cut() {
+        assert_eq!(legible("a\u{1b}[31mb\u{9b}2J\nc"), "a\\u{1b}[31mb\\u{9b}2J\nc");
+        let long = legible(&("x".repeat(200_000) + "\nend"));
+        assert!(long.ends_with("x... and 196000 characters more\nend") && long.len() < 4100);
     }
 }

@@ -142,6 +142,16 @@ fn trajectory(path: &Path) -> Result<Trajectory, RecordingError> {
     Trajectory::create(path)
 }
 
+/// Where a file is or will be, the same for all paths to it.
+fn place_of(file: &Path) -> PathBuf {
+    let folder = match file.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let in_folder = || Some(folder.canonicalize().ok()?.join(file.file_name()?));
+    file.canonicalize().ok().or_else(in_folder).unwrap_or_else(|| file.to_owned())
+}
+
 /// The files of a run.
 struct Outputs {
     trajectory: Option<Trajectory>,
@@ -154,10 +164,17 @@ impl Outputs {
     fn create(args: &Run, rule: Rule) -> Result<Self, Failure> {
         let files =
             [("--out", &args.out), ("--impacts", &args.impacts), ("--ledger", &args.ledger)];
-        for (i, (name, file)) in files.iter().enumerate() {
-            let same = files[..i].iter().find(|(_, other)| file.is_some() && other == file);
+        let named = files.iter().filter_map(|(name, file)| Some((*name, file.as_deref()?)));
+        let named: Vec<(&str, &Path)> = named.collect();
+        for (i, (name, file)) in named.iter().enumerate() {
+            let same = named[..i].iter().find(|(_, other)| place_of(other) == place_of(file));
             if let Some((other, _)) = same {
                 return Err(Failure::Usage(format!("{other} and {name} are the same file")));
+            }
+            let ending = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+            if *name != "--out" && ["npz", "pvd", "vtp"].contains(&ending.as_str()) {
+                let text = format!("{name} {}: it is a table, .csv", file.display());
+                return Err(Failure::Usage(text));
             }
         }
         if args.ledger.is_some() && rule != Rule::Exact {
