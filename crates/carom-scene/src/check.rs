@@ -37,6 +37,23 @@ pub(crate) fn check_numbers(scene: &Scene) -> Result<(), Problem> {
     check_tolerance(scene)
 }
 
+/// Refuses characters in texts for people that would steer what shows them.
+pub(crate) fn check_texts(scene: &Scene) -> Result<(), Problem> {
+    let texts = [
+        ("name", &scene.name),
+        ("title", &scene.title),
+        ("description", &scene.description),
+        ("origin", &scene.origin),
+    ];
+    for (field, text) in texts {
+        // Lines end with either of them, as the file's do.
+        let is_space = |it: char| field == "description" && matches!(it, '\n' | '\r' | '\t');
+        let is_shown = |it: char| !it.is_control() || is_space(it);
+        check(text.chars().all(is_shown), field, || "must have no control characters".into())?;
+    }
+    Ok(())
+}
+
 /// Every colour in a scene, with its path.
 fn colors(scene: &Scene) -> Vec<(String, Color)> {
     let mut colors = Vec::new();

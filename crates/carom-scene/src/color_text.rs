@@ -2,19 +2,37 @@
 
 use toml::Value;
 
-/// Fields that hold a colour.
-pub(crate) const FIELDS: [&str; 4] = ["color", "background", "spheres", "colliders"];
+/// Fields that hold a colour: everywhere, and in the table of the colours.
+const FIELDS: [&str; 1] = ["color"];
+const TABLE: &str = "colors";
+const FIELDS_OF_TABLE: [&str; 3] = ["background", "spheres", "colliders"];
 
-/// The red, green and blue in \[0, 1\] that a text in a field of this name means; `None` for a field
-/// that holds no colour.
+/// Whether a field of this name holds a colour, in a table that is of this name if it is in a scene.
+fn is_color(table: Option<&str>, field: &str) -> bool {
+    FIELDS.contains(&field) || (table == Some(TABLE) && FIELDS_OF_TABLE.contains(&field))
+}
+
+/// Whether some table has colours in fields of this name.
+pub(crate) fn may_be_color(field: &str) -> bool {
+    is_color(Some(TABLE), field)
+}
+
+/// The red, green and blue in \[0, 1\] that a text means, in a field of this name in a table of that name;
+/// `None` for a field that holds no colour.
 ///
 /// # Errors
 /// What is wrong with the text.
-pub(crate) fn numbers_of(field: &str, text: &str) -> Option<Result<Value, String>> {
-    if !FIELDS.contains(&field) {
+pub(crate) fn numbers_of(
+    table: Option<&str>,
+    field: &str,
+    text: &str,
+) -> Option<Result<Value, String>> {
+    if !is_color(table, field) {
         return None;
     }
-    let color = csscolorparser::parse(text).ok().filter(|color| color.a == 1.0);
+    // The reader takes digits without their mark, too: 100 would be a dark green.
+    let is_marked = !text.chars().all(|it| it.is_ascii_hexdigit());
+    let color = csscolorparser::parse(text).ok().filter(|color| color.a == 1.0 && is_marked);
     let numbers = color.map(|color| {
         let [red, green, blue, _] = color.to_rgba8();
         [red, green, blue].map(|part| Value::Float(f64::from(part) / 255.0))
@@ -31,16 +49,20 @@ mod tests {
     #[test]
     fn names_and_hexadecimal_digits_are_colours_and_other_texts_are_not() {
         let parts = |text: &str| {
-            let Some(Ok(Value::Array(parts))) = numbers_of("color", text) else { panic!("{text}") };
+            let Some(Ok(Value::Array(parts))) = numbers_of(None, "color", text) else {
+                panic!("{text}")
+            };
             parts.iter().filter_map(Value::as_float).map(|it| (255.0 * it).round()).collect()
         };
         let read: [Vec<f64>; 4] = ["red", "SteelBlue", "#c0392b", "hsl(120 100% 50%)"].map(parts);
         let expected = [[255., 0., 0.], [70., 130., 180.], [192., 57., 43.], [0., 255., 0.]];
         assert_eq!(read, expected.map(Vec::from));
-        for text in ["reddish", "", "#12", "rgb(0 0 0 / 50%)"] {
-            let error = numbers_of("color", text).unwrap().unwrap_err();
+        for text in ["reddish", "", "#12", "100", "c0392b", "rgb(0 0 0 / 50%)"] {
+            let error = numbers_of(None, "color", text).unwrap().unwrap_err();
             assert!(error.starts_with(&format!("\"{text}\" is no colour")), "{error}");
         }
-        assert_eq!(numbers_of("name", "red"), None);
+        assert_eq!(numbers_of(None, "name", "red"), None);
+        assert_eq!(numbers_of(None, "spheres", "red"), None);
+        assert!(numbers_of(Some("colors"), "spheres", "red").unwrap().is_ok());
     }
 }

@@ -131,7 +131,7 @@ pub(crate) fn nearest<'a>(
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<String> {
     // Below this, suggestions are guesses.
-    const SIMILAR: f64 = 0.75;
+    const SIMILAR: f64 = 0.8;
     let name = name.to_lowercase();
     let mut best = (SIMILAR, None);
     for candidate in candidates {

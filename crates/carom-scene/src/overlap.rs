@@ -12,9 +12,10 @@ pub(crate) fn refuse(
     first_of_generator: &[usize],
 ) -> Result<(), Problem> {
     let is_real = |overlap: &carom::Overlap| overlap.depth > rounding(world, overlap);
-    let Some(overlap) = world.overlaps(0.0).into_iter().find(is_real) else {
+    let Some(overlap) = world.find_overlap(is_real) else {
         return Ok(());
     };
+    let overlap = with_lowest(world, overlap);
     let index = |sphere: carom::SphereId| sphere.number() as usize;
     let path = |sphere: carom::SphereId| match first_of_generator
         .partition_point(|&first| first <= index(sphere))
@@ -41,6 +42,22 @@ pub(crate) fn refuse(
         overlap.depth,
     );
     Err(Problem::new(path(sphere), text))
+}
+
+/// Of the spheres that overlap the first one of a pair, the one with the lowest number.
+fn with_lowest(world: &World, overlap: carom::Overlap) -> carom::Overlap {
+    let carom::BodyPair::Spheres(first, _) = overlap.between else { return overlap };
+    let spheres = world.spheres();
+    let (center, radius) = {
+        let index = first.number() as usize;
+        (spheres.positions()[index], spheres.radii()[index])
+    };
+    let others = spheres.ids().iter().zip(spheres.positions()).zip(spheres.radii());
+    let mut pairs = others.filter(|((id, _), _)| **id != first).map(|((&id, &other), &r)| {
+        let between = carom::BodyPair::Spheres(first.min(id), first.max(id));
+        carom::Overlap { between, depth: radius + r - center.distance(other) }
+    });
+    pairs.find(|pair| pair.depth > rounding(world, pair)).unwrap_or(overlap)
 }
 
 /// Overlap \[m\] that bodies meant to touch can have: coordinates in a file have fewer digits than

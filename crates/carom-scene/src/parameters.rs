@@ -149,10 +149,6 @@ fn replace(value: &mut Value, place: Place, known: &NamedValues) -> Result<(), P
         Value::String(text) => {
             if let Some(number) = number_in(text, place, known) {
                 *value = in_toml(number.map_err(|error| Problem::new("", error.to_string()))?);
-            } else if let Place::Field(field) = place
-                && let Some(color) = color_text::numbers_of(field, text)
-            {
-                *value = color.map_err(|problem| Problem::new("", problem))?;
             }
             Ok(())
         }
@@ -160,10 +156,21 @@ fn replace(value: &mut Value, place: Place, known: &NamedValues) -> Result<(), P
             replace(element, place, known).map_err(|problem| problem.below(&format!("[{i}]")))
         }),
         Value::Table(table) => {
+            let table_name = match place {
+                Place::Field(name) => Some(name),
+                Place::Parameter => None,
+            };
             let mut fields = table.iter_mut().filter(|(name, _)| *name != NAME);
             fields.try_for_each(|(name, value)| {
-                let place = Place::Field(name);
-                replace(value, place, known).map_err(|it| it.below(&format!(".{name}")))
+                let color =
+                    value.as_str().and_then(|it| color_text::numbers_of(table_name, name, it));
+                let replaced = match color {
+                    Some(color) => {
+                        color.map(|color| *value = color).map_err(|it| Problem::new("", it))
+                    }
+                    None => replace(value, Place::Field(name), known),
+                };
+                replaced.map_err(|it| it.below(&format!(".{name}")))
             })
         }
         _ => Ok(()),

@@ -51,7 +51,7 @@ fn allow_text(schema: &mut Schema) {
 /// Colours are lists of three numbers.
 fn allow_color_names(schema: &mut Schema) {
     let Some(Value::Object(properties)) = schema.get_mut("properties") else { return };
-    let fields = properties.iter_mut().filter(|(name, _)| color_text::FIELDS.contains(&&***name));
+    let fields = properties.iter_mut().filter(|(name, _)| color_text::may_be_color(name));
     for (_, field) in fields.filter(|(_, field)| field["minItems"] == 3) {
         field["type"] = match field["type"].take() {
             Value::Array(types) => types.into_iter().chain([json!("string")]).collect(),

@@ -129,9 +129,15 @@ pub(crate) fn without_list(message: &str, is_meant: bool) -> &str {
 pub(crate) fn slip_of_syntax(text: &str, place: usize, message: &str) -> Option<String> {
     let line_start = text.get(..place)?.rfind('\n').map_or(0, |end| end + 1);
     let line = text.get(line_start..)?.lines().next()?;
-    let (before, after) = line.split_at_checked(place - line_start)?;
+    let (before, _) = line.split_at_checked(place - line_start)?;
     let is_digit = |it: char| it.is_ascii_digit();
-    if before.ends_with(is_digit) && after.trim_start_matches(',').starts_with(is_digit) {
+    let has_comma = |value: &str| {
+        let number = value.trim_start().trim_start_matches(['+', '-']);
+        let rest = number.trim_start_matches(is_digit);
+        rest.len() < number.len()
+            && rest.strip_prefix(',').is_some_and(|it| it.starts_with(is_digit))
+    };
+    if line.split('=').skip(1).any(has_comma) {
         return Some(DECIMAL_POINT.to_owned());
     }
     // The value around the place, in a list perhaps.
@@ -140,6 +146,9 @@ pub(crate) fn slip_of_syntax(text: &str, place: usize, message: &str) -> Option<
     let is_number = value.starts_with(|it: char| is_digit(it) || "+-.".contains(it));
     if is_number && value.ends_with(char::is_alphabetic) {
         return Some(format!("`{value}` is no number; one with a unit has quotes: \"{value}\""));
+    }
+    if ["True", "False"].contains(&value) {
+        return Some(format!("`{value}` is written small: {}", value.to_lowercase()));
     }
     let is_word = value.starts_with(char::is_alphabetic) && !value.contains(['"', '\'']);
     (message.contains("must be quoted") && is_word)

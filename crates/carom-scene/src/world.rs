@@ -3,7 +3,7 @@
 use carom::{Sides, World};
 
 use crate::bodies::{add_sphere, collider, emitter};
-use crate::check::check_numbers;
+use crate::check::{check_numbers, check_texts};
 use crate::error::Problem;
 use crate::generate;
 use crate::overlap;
@@ -27,7 +27,9 @@ pub(crate) fn build(scene: &Scene) -> Result<World, Problem> {
     if scene.name.trim().is_empty() {
         return Err(Problem::new("name", "must not be empty"));
     }
+    check_texts(scene)?;
     check_numbers(scene)?;
+    generate::check_total(scene)?;
     let mut world =
         World::new(scene.settings()).map_err(|error| settings_problem(&scene.simulation, error))?;
     add_forces(&mut world, &scene.forces)?;

@@ -269,6 +269,48 @@ fn spheres_that_overlap_at_the_start_are_refused_unless_allowed() {
 }
 
 #[test]
+fn a_size_that_a_range_of_radii_replaces_makes_sense_all_the_same() {
+    for (bad, field) in [("radius = 0, ", "radius"), ("diameter = -2, ", "diameter")] {
+        let text = refusal(&RANDOM.replacen("radius = 1, ", bad, 1));
+        let expected = format!("generators[0].random.sphere.{field}: must be");
+        assert!(text.contains(&expected), "{text}");
+    }
+}
+
+#[test]
+fn texts_for_people_do_not_steer_a_terminal() {
+    for field in ["name", "title", "description", "origin"] {
+        let text = format!("{field} = \"a\\u001b[2J\"\n[[spheres]]\nradius = 1\n");
+        let text = refusal(&text);
+        assert!(text.contains(&format!("{field}: must have no control characters")), "{text}");
+    }
+    read("name = \"a\"\r\ndescription = \"\"\"one\r\n\ttwo\"\"\"\r\n[[spheres]]\r\nradius = 1\r\n")
+        .unwrap();
+}
+
+/// Listed one by one, two hundred million overlaps would fill the memory.
+#[test]
+fn a_crowd_in_one_place_is_refused_by_one_overlap() {
+    let crowd = "[[generators]]\n[generators.row]\ncount = 20000\nstart = [0, 0, 0]\n\
+                 step = [1e-9, 0, 0]\nsphere = { radius = 0.5 }\n";
+    let text = refusal(crowd);
+    assert!(
+        text.contains("generators[0]: sphere number") && text.contains("m at the start"),
+        "{text}"
+    );
+}
+
+#[test]
+fn generators_make_no_more_together_than_one_may() {
+    let million = "[[generators]]\n[generators.lattice]\ncounts = [100, 100, 100]\n\
+                   start = [0, 0, 0]\nspacing = [1, 1, 1]\nsphere = { radius = 0.1 }\n";
+    let text = refusal(&million.repeat(1000));
+    let expected = "generators[10]: makes 11000000 spheres with those before it, and a scene has \
+                    10000000 at most";
+    assert!(text.contains(expected), "{text}");
+}
+
+#[test]
 fn a_scene_written_out_reads_back_as_the_same() {
     for entry in Library::new().entries().unwrap() {
         let scene = entry.scene.unwrap();

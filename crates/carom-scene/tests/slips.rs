@@ -1,6 +1,6 @@
 //! What newcomers write that is not quite a scene, and what they read then: one fault for one slip.
 
-use carom_scene::Scene;
+use carom_scene::{Scene, SceneText};
 
 fn told(text: &str) -> Vec<String> {
     let faults = Scene::faults(&format!("name = 'x'\n{text}"), "x.toml");
@@ -43,6 +43,8 @@ fn one_slip_is_one_fault_that_says_what_to_write() {
         ),
         ("rule = 'exact'", "2: rule: unknown field `rule`; \"rule\" stands in [simulation]"),
         ("[[spheres]]\nradius = 0,1", "3: decimals have a point, not a comma"),
+        ("[[emitters]]\nsphere = { radius = 0,1 }", "3: decimals have a point, not a comma"),
+        ("[[colliders]]\ntrigger = True", "3: `True` is written small: true"),
         (
             "[[spheres]]\nposition = [0, 5 cm, 0]",
             "3: `5 cm` is no number; one with a unit has quotes: \"5 cm\"",
@@ -89,4 +91,19 @@ fn what_others_call_otherwise_is_understood() {
         let [told] = &told(text)[..] else { panic!("{:?}", told(text)) };
         assert!(told.ends_with(&format!("did you mean \"{meant}\"?")), "{told}");
     }
+}
+
+#[test]
+fn a_field_of_a_part_that_is_set_by_its_name_alone_has_a_path() {
+    let text = "name = 'x'\n[[spheres]]\nradius = 1\nposition = [0, 2, 0]\n[[colliders]]\nshape = 'half-space'\n\
+                restitution = 0.5\n";
+    let text = SceneText::new(text, "x.toml").unwrap();
+    let set = |change: &str| text.scene(&[change.parse().unwrap()]).unwrap_err().to_string();
+    assert_eq!(
+        set("restitution=0.2"),
+        "restitution=0.2: x.toml: restitution: unknown field `restitution`; did you mean \
+         \"colliders.0.restitution\"?"
+    );
+    assert!(set("name=''").ends_with("name: must not be empty"), "{}", set("name=''"));
+    assert!(set("friction=0.2").contains("expected one of `name`"), "{}", set("friction=0.2"));
 }

@@ -370,7 +370,32 @@ fn overlaps_are_seen_across_the_faces_of_a_periodic_box() {
     // Images of colliders that are at rest, but not of half-spaces.
     let sphere = Shape::Sphere { radius: 0.4 };
     assert_depths(overlaps(&[vec(-2.8, 0.0, 0.0)], Some(sphere)), &[0.5]);
+    assert_depths(overlaps(&[vec(8.8, 0.0, 0.0)], Some(sphere)), &[0.9]);
+    let large = Shape::Sphere { radius: 2.0 };
+    assert_depths(overlaps(&[vec(-1.0, 0.0, 0.0)], Some(large)), &[0.3]);
     assert_depths(overlaps(&[vec(-2.8, 2.0, 0.0)], Some(Shape::HalfSpace)), &[]);
+}
+
+#[test]
+fn an_overlap_is_found_without_a_list_of_all() {
+    let mut world = exact();
+    let floor = Collider::new(Shape::HalfSpace, Pose::at(vec(0.0, -0.4, 0.0)));
+    world.add_collider(floor).unwrap();
+    for i in 0..40 {
+        world.add_sphere(Sphere::new(vec(1.1 * f64::from(i), 0.2, 0.0), 0.5)).unwrap();
+    }
+    assert_eq!(world.find_overlap(|_| true), None);
+    world.add_sphere(Sphere::new(vec(11.2, 0.2, 0.0), 0.5)).unwrap();
+    world.add_sphere(Sphere::new(vec(99.0, 0.0, 0.0), 0.5)).unwrap();
+    // Two pairs and the floor, each found if it is what is sought.
+    let all = world.overlaps(0.0);
+    assert_eq!(all.len(), 3);
+    for one in &all {
+        assert_eq!(world.find_overlap(|it| it.between == one.between), Some(*one));
+    }
+    let found = world.find_overlap(|_| true).expect("there are some");
+    assert!(all.contains(&found), "{found:?}");
+    assert_eq!(world.find_overlap(|it| it.depth > 10.0), None);
 }
 
 #[test]

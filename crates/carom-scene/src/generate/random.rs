@@ -73,6 +73,10 @@ fn radii(template: &Sphere, range: Option<[f64; 2]>, path: &str) -> Result<[f64;
         check_positive(radius, &format!("{sphere_path}.radius"))?;
         return Ok([radius, radius]);
     };
+    // What it says besides is not used, and has to make sense all the same.
+    for (field, size) in [("radius", template.radius), ("diameter", template.diameter)] {
+        size.map_or(Ok(()), |size| check_positive(size, &format!("{path}.sphere.{field}")))?;
+    }
     let are_in_order = smallest > 0.0 && largest >= smallest && largest.is_finite();
     check(are_in_order, &format!("{path}.radius_range"), || {
         format!("must be two positive radii in order, not [{smallest}, {largest}]")

@@ -22,7 +22,10 @@ impl Scene {
         let (_, errors) = DeTable::parse_recoverable(text);
         if !errors.is_empty() {
             let of_syntax = |error: &toml::de::Error| of_syntax(source_name, text, error);
-            return errors.iter().map(of_syntax).take(MOST).collect();
+            let mut faults: Vec<Fault> = errors.iter().map(of_syntax).take(MOST).collect();
+            // The reader goes on after a slip, and meets it again.
+            faults.dedup();
+            return faults;
         }
         match SceneText::new(text, source_name) {
             Ok(text) => text.faults(),

@@ -16,7 +16,7 @@ use crate::overrides::Override;
 use crate::parameters::{self, Parameter};
 use crate::scene::Scene;
 use crate::table::read;
-use crate::wording::with_names;
+use crate::wording::{with_names, without_list};
 
 /// The text of a scene file, with those of the files that it includes.
 ///
@@ -96,7 +96,13 @@ impl SceneText {
             // What goes by its name alone may be meant for a parameter.
             let Problem { field, problem } = problem;
             let problem = with_names(problem, &field, self.parameter_names());
-            let fault = Box::new(fault(self.name(), None, &field, &problem));
+            let mut fault = Box::new(fault(self.name(), None, &field, &problem));
+            if problem.starts_with("unknown field")
+                && let Some(meant) = self.path_to(&field)
+            {
+                fault.problem = without_list(&problem, true).to_owned();
+                fault.nearest = Some(meant);
+            }
             SceneError::Overridden { overrides: cause.join(", "), fault }
         })
     }
@@ -127,6 +133,15 @@ impl SceneText {
         let mut table = self.table.clone();
         overrides.iter().try_for_each(|changed| changed.apply(&mut table))?;
         Ok(table)
+    }
+
+    /// The first path that leads to a field of this name in a list of the scene.
+    fn path_to(&self, name: &str) -> Option<String> {
+        let lists = self.table.iter().filter(|(list, _)| include::is_list(list));
+        lists.filter_map(|(list, value)| Some((list, value.as_array()?))).find_map(|(list, all)| {
+            let has = |value: &Value| value.as_table().is_some_and(|it| it.contains_key(name));
+            Some(format!("{list}.{}.{name}", all.iter().position(has)?))
+        })
     }
 
     fn parameter_names(&self) -> impl Iterator<Item = &str> {

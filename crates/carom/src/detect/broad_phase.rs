@@ -9,6 +9,8 @@
 //! Cells are hashed into a table, so the world has no bounds and empty space costs nothing.
 //! Blocks of 4 x 4 x 4 cells stay together in the table, so neighbours share cache lines.
 
+use std::ops::ControlFlow;
+
 use glam::DVec3;
 
 /// Cells are wider than the spheres in them by this factor, far above the rounding of a cell
@@ -92,15 +94,28 @@ impl BroadPhase {
 
     /// Calls `visit` once for each pair of spheres within reach of each other, in no useful order.
     pub fn for_each_pair(&self, mut visit: impl FnMut(u32, u32)) {
+        let every: ControlFlow<()> = self.try_for_each_pair(|i, j| {
+            visit(i, j);
+            ControlFlow::Continue(())
+        });
+        debug_assert!(every.is_continue());
+    }
+
+    /// As [`Self::for_each_pair`], until a visit breaks off.
+    pub fn try_for_each_pair<B>(
+        &self,
+        mut visit: impl FnMut(u32, u32) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
         // Levels run from the largest spheres to the smallest.
         for (number, level) in self.levels.iter().enumerate() {
-            level.for_each_pair(&mut visit);
+            level.try_for_each_pair(&mut visit)?;
             for entry in &level.entries {
                 for larger in &self.levels[..number] {
-                    larger.near(entry.center, entry.reach, |index| visit(entry.index, index));
+                    larger.near(entry.center, entry.reach, |index| visit(entry.index, index))?;
                 }
             }
         }
+        ControlFlow::Continue(())
     }
 
     /// Calls `visit` once for each pair of one sphere here and one in `others` within reach of each
@@ -110,11 +125,11 @@ impl BroadPhase {
             for other in &others.levels {
                 if own.is_cheaper_to_look_into(other) {
                     for entry in &other.entries {
-                        own.near(entry.center, entry.reach, |index| visit(index, entry.index));
+                        own.for_each_near(entry, |index| visit(index, entry.index));
                     }
                 } else {
                     for entry in &own.entries {
-                        other.near(entry.center, entry.reach, |index| visit(entry.index, index));
+                        other.for_each_near(entry, |index| visit(entry.index, index));
                     }
                 }
             }
@@ -161,23 +176,27 @@ impl Level {
         &self.entries[self.starts[bucket] as usize..self.starts[bucket + 1] as usize]
     }
 
-    fn for_each_pair(&self, visit: &mut impl FnMut(u32, u32)) {
+    fn try_for_each_pair<B>(
+        &self,
+        visit: &mut impl FnMut(u32, u32) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
         for entry in &self.entries {
             for other in self.bucket(entry.cell) {
                 let once = other.index > entry.index && other.cell == entry.cell;
                 if once && other.meets(entry.center, entry.reach) {
-                    visit(entry.index, other.index);
+                    visit(entry.index, other.index)?;
                 }
             }
             for offset in HALF_OF_NEIGHBOURS {
                 let Some(cell) = shifted(entry.cell, offset) else { continue };
                 for other in self.bucket(cell) {
                     if other.cell == cell && other.meets(entry.center, entry.reach) {
-                        visit(entry.index, other.index);
+                        visit(entry.index, other.index)?;
                     }
                 }
             }
         }
+        ControlFlow::Continue(())
     }
 
     /// Whether all spheres of `other` find their partners here with less work than the other way
@@ -192,30 +211,43 @@ impl Level {
         cost(other, self) <= cost(self, other)
     }
 
-    /// Visits the spheres of this level within `reach` \[m\] of `center`.
-    fn near(&self, center: DVec3, reach: f64, mut visit: impl FnMut(u32)) {
+    /// Visits the spheres of this level within reach of one of another level.
+    fn for_each_near(&self, entry: &Entry, mut visit: impl FnMut(u32)) {
+        let every: ControlFlow<()> = self.near(entry.center, entry.reach, |index| {
+            visit(index);
+            ControlFlow::Continue(())
+        });
+        debug_assert!(every.is_continue());
+    }
+
+    /// Visits the spheres of this level within `reach` \[m\] of `center`, until a visit breaks off.
+    fn near<B>(
+        &self,
+        center: DVec3,
+        reach: f64,
+        mut visit: impl FnMut(u32) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
         let span = DVec3::splat((reach + self.largest_reach) * CELL_SLACK);
         let low = cell_of(center - span, self.cells_per_metre);
         let high = cell_of(center + span, self.cells_per_metre);
         let cells = (0..3).map(|axis| f64::from(high[axis]) - f64::from(low[axis]) + 1.0);
         // A sphere far larger than the cells: fewer spheres to look at than cells.
         if cells.product::<f64>() > self.entries.len() as f64 {
-            for entry in self.entries.iter().filter(|entry| entry.meets(center, reach)) {
-                visit(entry.index);
-            }
-            return;
+            let mut near = self.entries.iter().filter(|entry| entry.meets(center, reach));
+            return near.try_for_each(|entry| visit(entry.index));
         }
         for x in low[0]..=high[0] {
             for y in low[1]..=high[1] {
                 for z in low[2]..=high[2] {
                     for entry in self.bucket([x, y, z]) {
                         if entry.cell == [x, y, z] && entry.meets(center, reach) {
-                            visit(entry.index);
+                            visit(entry.index)?;
                         }
                     }
                 }
             }
         }
+        ControlFlow::Continue(())
     }
 }
 

@@ -1,5 +1,7 @@
 //! Finding contacts among many spheres, at one instant.
 
+use std::ops::ControlFlow;
+
 use glam::DVec3;
 
 use super::broad_phase::BroadPhase;
@@ -87,6 +89,35 @@ pub(crate) fn of_overlaps(
     let mut pairs = Vec::new();
     of_overlapping_pairs(instant, tolerance, search, &mut pairs);
     pairs.iter().for_each(&mut visit);
+    of_overlapping_surfaces(instant, tolerance, search, visit);
+}
+
+/// Finds two spheres that overlap, however they move, and for which `is_sought` holds, without a list of all.
+pub(crate) fn find_overlapping_pair(
+    instant: &Instant,
+    search: &mut Search,
+    mut is_sought: impl FnMut(&Contact) -> bool,
+) -> Option<Contact> {
+    if !instant.system.settings.spheres_collide {
+        return None;
+    }
+    let everyone = 0..instant.system.spheres.id.len() as u32;
+    search.some.rebuild(everyone.map(|i| at(instant, i)), 0.0);
+    let found = search.some.try_for_each_pair(|i, j| {
+        let contact = instant.pair(i, j, 0.0);
+        let is_found = contact.separation.distance < 0.0 && is_sought(&contact);
+        if is_found { ControlFlow::Break(contact) } else { ControlFlow::Continue(()) }
+    });
+    found.break_value()
+}
+
+/// Visits spheres and solid surfaces that overlap by more than `tolerance`, however they move.
+pub(crate) fn of_overlapping_surfaces(
+    instant: &Instant,
+    tolerance: f64,
+    search: &mut Search,
+    mut visit: impl FnMut(&Contact),
+) {
     for sphere in 0..instant.system.spheres.id.len() as u32 {
         instant.for_each_surface(
             sphere,

@@ -7,7 +7,7 @@ use super::contact::Bodies;
 use super::instant::Instant;
 use super::sphere_surface;
 use super::surface_tree::Bounds;
-use crate::surface::{Form, Role};
+use crate::surface::{Form, Role, Surface};
 
 /// A sphere, or an image of one.
 #[derive(Clone, Copy)]
@@ -47,19 +47,37 @@ pub(crate) fn visit(
             }
         });
     }
-    let mut near = Vec::new();
-    for image in images.iter().filter(|image| !image.is_own) {
-        let radius = radii[image.sphere as usize];
-        near.clear();
-        instant.system.tree.near(&Bounds::around(image.center, DVec3::splat(radius)), &mut near);
-        for &index in &near {
-            let surface = &instant.system.surfaces[index as usize];
-            let has_images =
-                !matches!(surface.form, Form::HalfSpace { .. }) && surface.motion.is_at_rest();
-            let separation = sphere_surface(&surface.form, image.center, radius);
-            let depth = separation.map_or(0.0, |separation| -separation.distance);
-            if has_images && surface.role != Role::Reports && depth > tolerance {
-                visit(Bodies::Surface { sphere: image.sphere, surface: index }, depth);
+    of_surfaces(instant, period, tolerance, visit);
+}
+
+/// Visits surfaces at rest that images of spheres overlap.
+fn of_surfaces(
+    instant: &Instant,
+    period: DVec3,
+    tolerance: f64,
+    mut visit: impl FnMut(Bodies, f64),
+) {
+    let has_images =
+        |it: &Surface| !matches!(it.form, Form::HalfSpace { .. }) && it.motion.is_at_rest();
+    if !instant.system.surfaces.iter().any(has_images) {
+        return;
+    }
+    let (mut images, mut near) = (Vec::new(), Vec::new());
+    for (sphere, &radius) in (0..).zip(&instant.system.spheres.radius) {
+        images.clear();
+        // A surface may be of any size.
+        let center = instant.motion.position[sphere as usize];
+        add_images(sphere, center, f64::INFINITY, period, &mut images);
+        for Image { center, .. } in &images {
+            near.clear();
+            instant.system.tree.near(&Bounds::around(*center, DVec3::splat(radius)), &mut near);
+            for &index in &near {
+                let surface = &instant.system.surfaces[index as usize];
+                let separation = sphere_surface(&surface.form, *center, radius);
+                let depth = separation.map_or(0.0, |separation| -separation.distance);
+                if has_images(surface) && surface.role != Role::Reports && depth > tolerance {
+                    visit(Bodies::Surface { sphere, surface: index }, depth);
+                }
             }
         }
     }

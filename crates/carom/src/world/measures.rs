@@ -3,8 +3,10 @@
 use glam::DVec3;
 
 use super::World;
+use crate::detect::contact::Contact;
 use crate::detect::contacts::{self, Search};
 use crate::detect::image_overlaps;
+use crate::detect::instant::Instant;
 use crate::invariants;
 use crate::report::{BodyPair, Overlap};
 
@@ -66,22 +68,51 @@ impl World {
         contacts::of_overlaps(&now, tolerance, &mut Search::default(), |contact| {
             overlaps.push(Overlap::of(contact, &now.system));
         });
+        self.add_overlaps_of_images(&now, tolerance, &mut overlaps);
+        in_order(&mut overlaps);
+        overlaps
+    }
+
+    /// Two bodies as [`Self::overlaps`] lists them for which `is_sought` holds, or none. It stops at the first
+    /// pair of spheres, and keeps no list of them: many spheres in one place have more pairs than there is
+    /// memory. Of several, which one is found is the same each time.
+    pub fn find_overlap(&self, mut is_sought: impl FnMut(&Overlap) -> bool) -> Option<Overlap> {
+        let now = self.state.now();
+        let mut search = Search::default();
+        let of = |contact: &Contact| Overlap::of(contact, &now.system);
+        let pair = contacts::find_overlapping_pair(&now, &mut search, |it| is_sought(&of(it)));
+        if let Some(contact) = pair {
+            return Some(of(&contact));
+        }
+        let mut overlaps = Vec::new();
+        contacts::of_overlapping_surfaces(&now, 0.0, &mut search, |contact| {
+            overlaps.push(of(contact));
+        });
+        self.add_overlaps_of_images(&now, 0.0, &mut overlaps);
+        in_order(&mut overlaps);
+        overlaps.into_iter().find(is_sought)
+    }
+
+    /// Adds what overlaps across the faces of a periodic box.
+    fn add_overlaps_of_images(&self, now: &Instant, tolerance: f64, overlaps: &mut Vec<Overlap>) {
         let period = now.system.settings.boundary.period();
         if period.is_finite_mask().any() {
-            image_overlaps::visit(&now, period, tolerance, |bodies, depth| {
+            image_overlaps::visit(now, period, tolerance, |bodies, depth| {
                 overlaps.push(Overlap { between: BodyPair::of(bodies, &now.system), depth });
             });
         }
-        // A box has several surfaces: the deepest overlap counts.
-        let order =
-            |a: &Overlap, b: &Overlap| a.between.cmp(&b.between).then(b.depth.total_cmp(&a.depth));
-        overlaps.sort_by(order);
-        overlaps.dedup_by_key(|overlap| overlap.between);
-        overlaps
     }
 
     /// Whether a sphere at `center` with `radius` \[m\] would touch or overlap a solid collider.
     pub fn meets_collider(&self, center: DVec3, radius: f64) -> bool {
         contacts::meets_surface(&self.state.now().system, center, radius)
     }
+}
+
+/// Sorts overlaps by their bodies. A box has several surfaces: the deepest overlap counts.
+fn in_order(overlaps: &mut Vec<Overlap>) {
+    let order =
+        |a: &Overlap, b: &Overlap| a.between.cmp(&b.between).then(b.depth.total_cmp(&a.depth));
+    overlaps.sort_by(order);
+    overlaps.dedup_by_key(|overlap| overlap.between);
 }
