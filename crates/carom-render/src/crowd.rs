@@ -22,8 +22,8 @@ impl Framing {
         Some(Self { whole: whole.unwrap_or(balls), balls })
     }
 
-    /// What the first seconds of a scene sweep, with what is drawn of it now; that alone, once it has left
-    /// the former.
+    /// What the first seconds of a scene sweep and what is drawn of it now. Once the balls have left the
+    /// former, it no longer counts.
     pub fn of_run(first: Option<Self>, drawing: &Drawing) -> Self {
         let now = Self::of_drawing(drawing);
         let (Some(first), Some(now)) = (first, now) else {

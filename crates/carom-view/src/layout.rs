@@ -17,8 +17,8 @@ pub fn is_narrow(ui: &Ui) -> bool {
 /// Windows less high than this are those of telephones on their side, in points.
 const LOW: f32 = 480.0;
 
-/// Whether there is room for one line of a bar only.
-pub fn has_room_for_one_line(ui: &Ui) -> bool {
+/// Whether the bar above everything is to have one line only.
+pub fn bar_has_one_line(ui: &Ui) -> bool {
     is_narrow(ui) || ui.ctx().content_rect().height() < LOW
 }
 

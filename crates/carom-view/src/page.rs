@@ -4,7 +4,7 @@ use carom_render::{COLOR_FORMAT, Readback};
 use egui::{Context, Rect, Theme, Ui, Vec2};
 use egui_wgpu::{RenderState, Renderer, RendererOptions, ScreenDescriptor, wgpu};
 
-/// Fine enough for slides and print.
+/// Fine enough for slides and print, where the device has textures so large.
 const PIXELS_PER_POINT: f32 = 2.0;
 
 /// Passes until everything knows its size.
@@ -22,7 +22,9 @@ pub fn draw(
         context.set_style_of(theme, like.style_of(theme));
     }
     context.set_theme(like.theme());
-    context.set_pixels_per_point(PIXELS_PER_POINT);
+    let largest = device.limits().max_texture_dimension_2d as f32;
+    let pixels_per_point = PIXELS_PER_POINT.min(largest / size.max_elem());
+    context.set_pixels_per_point(pixels_per_point);
     let mut renderer = Renderer::new(device, COLOR_FORMAT, RendererOptions::default());
     let mut shapes = Vec::new();
     for _ in 0..PASSES {
@@ -38,7 +40,7 @@ pub fn draw(
         output.textures_delta.clear();
         shapes = output.shapes;
     }
-    let [width, height] = [size.x, size.y].map(|edge| (edge * PIXELS_PER_POINT) as u32);
+    let [width, height] = [size.x, size.y].map(|edge| (edge * pixels_per_point) as u32);
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("page"),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
@@ -49,9 +51,8 @@ pub fn draw(
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
         view_formats: &[],
     });
-    let screen =
-        ScreenDescriptor { size_in_pixels: [width, height], pixels_per_point: PIXELS_PER_POINT };
-    let primitives = context.tessellate(shapes, PIXELS_PER_POINT);
+    let screen = ScreenDescriptor { size_in_pixels: [width, height], pixels_per_point };
+    let primitives = context.tessellate(shapes, pixels_per_point);
     let mut encoder = device.create_command_encoder(&Default::default());
     renderer.update_buffers(device, queue, &mut encoder, &primitives, &screen);
     let view = texture.create_view(&Default::default());

@@ -9,6 +9,9 @@ use crate::layout::is_narrow;
 /// Speeds that the keys go through.
 const SPEEDS: [f64; 9] = [SLOWEST, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, FASTEST];
 
+/// Windows at least so wide have the state hash in the bar, in points.
+const ROOM_FOR_HASH: f32 = 960.0;
+
 /// The bar below the picture. Returns the action of the button pressed.
 pub fn show(
     ui: &mut Ui,
@@ -66,7 +69,8 @@ fn clock(ui: &mut Ui, view: &View, is_recording: bool) {
     }
     pace(ui, view);
     // Where there is no room for it, the inspector has it.
-    if let Some(hash) = view.playback.state_hash.filter(|_| !is_narrow(ui)) {
+    let has_room = ui.ctx().content_rect().width() >= ROOM_FOR_HASH;
+    if let Some(hash) = view.playback.state_hash.filter(|_| has_room) {
         ui.monospace(hash.to_string()).on_hover_text("the state as a number: see Link");
     }
 }
@@ -131,7 +135,8 @@ fn pace(ui: &mut Ui, view: &View) {
     let playback = &view.playback;
     if playback.playing && !playback.keeps_up {
         let reached = playback.realtime_factor.unwrap_or_default();
-        let text = format!("slower than chosen: {reached:.2}x");
+        let word = if is_narrow(ui) { "only" } else { "slower than chosen:" };
+        let text = format!("{word} {reached:.2}x");
         ui.colored_label(ui.visuals().warn_fg_color, text)
             .on_hover_text("This machine cannot keep up. Nothing is left out: time goes slower.");
     }

@@ -162,10 +162,12 @@ impl EmitterState {
         let was_done = self.is_done();
         if emitter.period != self.emitter.period {
             (self.start, self.emitted) = (time, 0);
-        } else if was_done {
-            self.start = time - self.emitted as f64 * self.emitter.period;
         }
         self.emitter = emitter;
+        if was_done && !self.is_done() {
+            // Not sooner than a period after the last one.
+            self.start = self.start.max(time - self.emitted as f64 * self.emitter.period);
+        }
     }
 
     fn needs(&self, room: Room) -> bool {

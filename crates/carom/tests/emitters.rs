@@ -169,6 +169,14 @@ fn one_with_a_count_ends_and_goes_on_with_a_larger_one() {
         world.set_emitter(id, three.with_count(5)).unwrap();
         assert_eq!(frames_of_emission(&mut world, 40, 0.125), [0, 2], "{rule:?}");
         assert_eq!(world.spheres().len(), 5);
+        // What changes nothing changes no state, and one more within a period comes at its end.
+        let hash = world.state_hash();
+        world.set_emitter(id, three.with_count(5)).unwrap();
+        assert_eq!(world.state_hash(), hash);
+        let again = world.add_emitter(three.with_count(1)).unwrap();
+        assert_eq!(frames_of_emission(&mut world, 1, 0.125), [0]);
+        world.set_emitter(again, three.with_count(2)).unwrap();
+        assert_eq!(frames_of_emission(&mut world, 8, 0.125), [1], "{rule:?}");
     }
 }
 

@@ -611,7 +611,7 @@ export class World {
   setSphere(id: number, changes: SphereDescription): void;
   /** Changes what is given of a collider. In a new place it is at once: what is there it does not push, and
    *  a ball whose centre is in a box then falls through. What moves gets a `velocity` [m/s] and an
-   *  `angular_velocity` [rad/s], which take it along in the next steps. @throws {CaromError} */
+   *  `angularVelocity` [rad/s], which take it along in the next steps. @throws {CaromError} */
   setCollider(id: number, changes: Partial<ColliderDescription>): void;
   /** Puts a force in the place of another. @throws {CaromError} */
   setForce(id: number, force: Force): void;

@@ -5,7 +5,7 @@ use egui::{ScrollArea, Ui};
 
 use super::{App, Screen};
 use crate::action::Action;
-use crate::layout::{has_room_for_one_line, is_for_fingers};
+use crate::layout::{bar_has_one_line, is_for_fingers};
 
 /// Between the buttons of the bar, in points: so all fit in 1280.
 const CLOSE: f32 = 4.0;
@@ -91,7 +91,7 @@ impl App {
                 ui.strong(name);
                 ui.separator();
             }
-            if has_room_for_one_line(ui) {
+            if bar_has_one_line(ui) {
                 let height = ui.ctx().content_rect().height() - 2.0 * ui.spacing().interact_size.y;
                 let menu = ui.menu_button("Menu", |ui| {
                     let area =

@@ -230,6 +230,7 @@ impl SurfaceContact {
         let Some(Separation { distance, normal, point }) = separation else { return };
         let surface_velocity = motion.velocity_at(point);
         let leaving = (velocity - surface_velocity).dot(normal);
+        // A plane across its way, or round the edge that it has passed, would keep it from coming back.
         let was_behind = (flight.position - point).dot(normal) < LEAST_IN_FRONT * radius;
         if was_behind || (leaving > 0.0 && !is_flat(form, normal)) {
             return;
