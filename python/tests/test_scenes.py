@@ -42,7 +42,7 @@ def test_every_kind_of_part_survives_text() -> None:
     peg = carom.Collider(carom.Ball(0.5), name="peg", color=(0, 0, 1))
     scene = carom.Scene(
         name="all",
-        title='Quotes " and \\ and \x7f and ü',
+        title='Quotes " and \\ and ü',
         description="Two\nlines.",
         origin="here",
         simulation=carom.Simulation(
@@ -78,7 +78,7 @@ def test_every_kind_of_part_survives_text() -> None:
             carom.Collider(carom.Container((1, 1, 1), ["back"]), (50, 0, 0)),
             carom.Collider(carom.Container((1, 1, 1), ["top", "front"]), (60, 0, 0)),
         ],
-        emitters=[carom.Emitter(ball, 1.0, (-20, 0, 0), max_spheres=5, name="tap")],
+        emitters=[carom.Emitter(ball, 1.0, (-20, 0, 0), max_spheres=5, name="tap \x7f")],
         camera=carom.Camera((0, 0, 9)),
         sun=carom.Sun((0, 0, 0, 1), (1, 1, 1), 0.5),
         colors=carom.Colors((0, 0, 0), densities=[carom.DensityColor(3.0, (1, 1, 0))]),
