@@ -7,9 +7,19 @@ import { test } from "node:test";
 
 const readme = readFileSync(new URL("../node_modules/carom/README.md", import.meta.url), "utf8");
 
+/** What a program prints that stands in the README. */
+function printed(program) {
+  const [options, cwd] = [["--input-type=module", "--eval", program], import.meta.dirname];
+  return execFileSync(process.execPath, options, { cwd, encoding: "utf8" });
+}
+
 test("the example prints what stands below it", () => {
   const section = readme.split("## In Node.js")[1];
-  const [, program, printed] = section.match(/```js\n(.*?)```\s+```text\n(.*?)```/s);
-  const [options, cwd] = [["--input-type=module", "--eval", program], import.meta.dirname];
-  assert.equal(execFileSync(process.execPath, options, { cwd, encoding: "utf8" }), printed);
+  const [, program, expected] = section.match(/```js\n(.*?)```\s+```text\n(.*?)```/s);
+  assert.equal(printed(program), expected);
+});
+
+test("the steps of a game have a place for every ball between two of them", () => {
+  const [, program] = readme.split("## In a game")[1].match(/```js\n(.*?)```/s);
+  assert.equal(printed(program), "true\n");
 });
