@@ -276,7 +276,7 @@ impl Game {
             let (time, collected) = (self.elapsed(), self.collected);
             let has_all = self.remaining().next().is_none();
             let is_best = has_all && self.best.is_none_or(|best| time < best);
-            self.best = if is_best { Some(time) } else { self.best };
+            self.best = is_best.then_some(time).or(self.best);
             self.state = GameState::Won { time };
             self.events.push(GameEvent::Won { time, collected, is_best });
         }

@@ -31,10 +31,10 @@ const NEAR_PLANE: [f64; 2] = [100.0, 4.0];
 /// of the box around it and in radii of the balls.
 const STAYING: [f64; 2] = [1.0, 40.0];
 
-/// The same of balls that fly farther than that.
+/// How far outside the scene at its start balls that fly farther stay in the picture, in such radii.
 const LEAVING: [f64; 2] = [0.25, 12.0];
 
-/// The same where all balls fly farther: none becomes a dot beside others.
+/// How far they do where all balls fly farther, in such radii: none becomes a dot beside others.
 const ALL_LEAVING: [f64; 2] = [2.0, 250.0];
 
 impl Framing {

@@ -34,7 +34,7 @@ impl From<Coat> for Paint {
 }
 
 impl Sphere {
-    /// The same sphere with this look.
+    /// This sphere, with another colour and finish.
     pub fn painted(self, Paint { color, finish }: Paint) -> Self {
         Self { color, finish, ..self }
     }

@@ -142,8 +142,8 @@ fn number_in(text: &str, place: Place, known: &NamedValues) -> Option<Result<f64
     }
 }
 
-/// Puts numbers in the place of the formulas, the numbers with units and the colours in a value. The field of a problem
-/// is what lies below the value.
+/// Puts numbers in the place of the formulas, the numbers with units and the colours in a value. The field
+/// of a problem is what lies below the value.
 fn replace(value: &mut Value, place: Place, known: &NamedValues) -> Result<(), Problem> {
     match value {
         Value::String(text) => {

@@ -44,7 +44,7 @@ fn of_simulation(problem: &str, path: &str) -> Option<String> {
     }
     let schema = schemars::schema_for!(Simulation);
     let fields = schema.get("properties")?.as_object()?.keys();
-    // Names of the scene itself are more like it, if only a little.
+    // Less like it, a name of the scene itself may be meant.
     let meant = nearest(name, fields.map(String::as_str)).filter(|it| is_much_like(name, it))?;
     Some(format!("unknown field `{name}`; \"{meant}\" stands in [simulation]"))
 }

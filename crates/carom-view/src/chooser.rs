@@ -7,11 +7,11 @@ use carom_scene::scene::Scene;
 use carom_scene::{Entry, Library, Source};
 use carom_session::{Session, View};
 use egui::{
-    Align, Align2, Context, Id, Image, Key, Label, Layout, Modal, Modifiers, RichText, ScrollArea,
-    Sense, TextEdit, Ui, Vec2,
+    Align, Align2, Context, Id, Image, Key, Label, Layout, Modal, Modifiers, RichText, Sense,
+    TextEdit, Ui, Vec2,
 };
 
-use crate::layout::{is_for_fingers, is_touched};
+use crate::layout::{is_for_fingers, is_touched, scrolled_within};
 use crate::look::{self, Look, Marks};
 use crate::orbit::{Orbit, Preset};
 use crate::studio::{Canvas, Studio};
@@ -130,8 +130,7 @@ impl Chooser {
             ui.separator();
             let height = (size.y - 160.0).clamp(120.0, 620.0);
             // As high at once as it may be, whatever the filter leaves: nothing moves under a pointer.
-            let list = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
-            list.auto_shrink(false).show(ui, |ui| {
+            scrolled_within(height).auto_shrink(false).show(ui, |ui| {
                 let typed = Path::new(self.filter.trim());
                 if found.is_empty() && typed.is_file() {
                     let button = ui.button(format!("Open {}", typed.display()));

@@ -1,9 +1,9 @@
 //! The list of shortcuts.
 
-use egui::{Align2, Context, Grid, RichText, ScrollArea, Ui, Window};
+use egui::{Align2, Context, Grid, RichText, Ui, Window};
 
 use crate::action::{MAZE, MOUSE, SHORTCUTS};
-use crate::layout::show_closable;
+use crate::layout::{scrolled_within, show_closable};
 
 /// Shows every shortcut, and what the mouse does; first what steers a maze, where one is played.
 pub fn show(context: &Context, open: &mut bool, is_maze: bool) {
@@ -12,8 +12,7 @@ pub fn show(context: &Context, open: &mut bool, is_maze: bool) {
     show_closable(TITLE, window, context, open, |ui| {
         // A small window shows a part of it.
         let room = (ui.ctx().content_rect().height() - 90.0).max(120.0);
-        let scroll = ScrollArea::vertical().max_height(room).min_scrolled_height(room);
-        scroll.show(ui, |ui| list(ui, is_maze));
+        scrolled_within(room).show(ui, |ui| list(ui, is_maze));
     });
 }
 

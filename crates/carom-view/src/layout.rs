@@ -1,6 +1,6 @@
 //! How much room there is, and what goes where.
 
-use egui::{Align, Button, Context, Layout, Panel, Rect, Ui, Vec2, Window};
+use egui::{Align, Button, Context, Layout, Panel, Rect, ScrollArea, Ui, Vec2, Window};
 
 /// Windows less wide than this are those of telephones, in points.
 const NARROW: f32 = 640.0;
@@ -20,6 +20,12 @@ const LOW: f32 = 480.0;
 /// Whether the bar above everything is to have one line only.
 pub fn bar_has_one_line(ui: &Ui) -> bool {
     is_narrow(ui) || ui.ctx().content_rect().height() < LOW
+}
+
+/// A list that scrolls, so high in points at once as its contents fill: in a window of its own it would grow
+/// from picture to picture.
+pub fn scrolled_within(height: f32) -> ScrollArea {
+    ScrollArea::vertical().max_height(height).min_scrolled_height(height)
 }
 
 /// Least edge of what fingers press, in points (Web Content Accessibility Guidelines 2.2, 2.5.5).

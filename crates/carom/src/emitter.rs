@@ -8,6 +8,7 @@ use crate::bodies::{Sphere, Spheres};
 use crate::error::InvalidValue;
 use crate::id::SphereId;
 use crate::numbered::Numbered;
+use crate::settings::nearest_image;
 use crate::validate;
 
 /// A sphere is due when its time is at most this much after the start of a frame \[s\], so that
@@ -84,7 +85,7 @@ impl Emitter {
         Self { max_spheres: max_spheres.into(), ..self }
     }
 
-    /// The same emitter of this many spheres in all; `None`: no end.
+    /// This emitter with another [`Self::count`].
     pub fn with_count(self, count: impl Into<Option<u32>>) -> Self {
         Self { count: count.into(), ..self }
     }
@@ -217,12 +218,9 @@ impl Room {
         let places = spheres.positions().iter().zip(spheres.radii()).enumerate();
         places.filter(|(index, _)| Some(*index) != apart).all(|(_, (&position, &radius))| {
             let offset = position - sphere.position;
-            // To the nearest image; 0 along open axes.
-            let images = (offset / self.period).round();
-            let nearest =
-                DVec3::select(self.period.is_finite_mask(), images * self.period, DVec3::ZERO);
+            let offset = nearest_image(offset, self.period);
             let reach = (1.0 - OVERLAP) * (radius + sphere.radius);
-            (offset - nearest).length_squared() >= reach * reach
+            offset.length_squared() >= reach * reach
         })
     }
 }

@@ -1,11 +1,11 @@
 //! The bar above everything.
 
 use carom_maze::{BUILT_IN_DRAWINGS, Maze, MazeError};
-use egui::{ScrollArea, Ui};
+use egui::Ui;
 
 use super::{App, Screen};
 use crate::action::Action;
-use crate::layout::{bar_has_one_line, is_for_fingers};
+use crate::layout::{bar_has_one_line, is_for_fingers, scrolled_within};
 
 /// Between the buttons of the bar, in points: so all fit in 1280.
 const CLOSE: f32 = 4.0;
@@ -94,9 +94,7 @@ impl App {
             if bar_has_one_line(ui) {
                 let height = ui.ctx().content_rect().height() - 2.0 * ui.spacing().interact_size.y;
                 let menu = ui.menu_button("Menu", |ui| {
-                    let area =
-                        ScrollArea::vertical().max_height(height).min_scrolled_height(height);
-                    area.show(ui, |ui| self.switches(ui)).inner
+                    scrolled_within(height).show(ui, |ui| self.switches(ui)).inner
                 });
                 actions.extend(menu.inner.unwrap_or_default());
             } else {

@@ -7,6 +7,7 @@ use super::contact::Bodies;
 use super::instant::Instant;
 use super::sphere_surface;
 use super::surface_tree::Bounds;
+use crate::settings::nearest_image;
 use crate::surface::{Form, Role, Surface};
 
 /// A sphere, or an image of one.
@@ -87,8 +88,7 @@ fn of_surfaces(
 /// that box.
 fn add_images(sphere: u32, center: DVec3, reach: f64, period: DVec3, images: &mut Vec<Image>) {
     let is_periodic = period.is_finite_mask();
-    let boxes = (center / period).round();
-    let center = center - DVec3::select(is_periodic, boxes * period, DVec3::ZERO);
+    let center = nearest_image(center, period);
     let offsets = |axis: usize| if is_periodic.test(axis) { -1..=1 } else { 0..=0 };
     for x in offsets(0) {
         for y in offsets(1) {

@@ -31,6 +31,13 @@ pub enum Boundary {
     },
 }
 
+/// The image of a place that is nearest to the origin \[m\], in a box with these edges \[m\], infinite along
+/// open axes.
+pub(crate) fn nearest_image(place: DVec3, period: DVec3) -> DVec3 {
+    let boxes = (place / period).round();
+    place - DVec3::select(period.is_finite_mask(), boxes * period, DVec3::ZERO)
+}
+
 impl Boundary {
     /// Edges of the periodic box \[m\], infinite along open axes.
     pub(crate) fn period(self) -> DVec3 {

@@ -14,6 +14,7 @@ mod zones;
 
 pub use bisect::{Bisect, WindBack};
 pub use boundary::Boundary;
+pub(crate) use boundary::nearest_image;
 pub use combine_rule::CombineRule;
 pub use contact::Contact;
 pub use discrete::Discrete;
