@@ -70,6 +70,7 @@ fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) {
         let slot = bounce.slot as usize - start;
         let position = &mut run.position[slot];
         *position = position.with_vector(position.vector() + bounce.shift);
+        run.velocity[slot] = run.velocity[slot].with_vector(bounce.velocity);
         run.bears[slot] = false;
     }
 }

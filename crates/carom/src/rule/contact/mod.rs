@@ -17,6 +17,7 @@ mod advance;
 mod aim;
 mod apart;
 mod batch;
+mod bounces;
 mod conjugate;
 mod descent;
 mod dormant;
@@ -113,7 +114,7 @@ fn sub_step(
     solve::sweep(solver, &sub_step, parameters, report);
     energy::keep(solver, &sub_step, report);
     impacts::report(system, solver, &sub_step, report);
-    impacts::note_bounces(solver, &sub_step);
+    bounces::note(solver, &sub_step);
     advance::advance(system, solver, &sub_step);
     solve::correct(solver, report);
 }

@@ -60,6 +60,8 @@ pub(super) struct Bounce {
     pub slot: u32,
     /// How far the sphere is from where its last velocity takes it in the whole sub-step \[m\].
     pub shift: DVec3,
+    /// There \[m/s\].
+    pub velocity: DVec3,
 }
 
 /// Working memory of the rule, kept from step to step only to spare its allocation.

@@ -84,10 +84,15 @@ impl SurfaceContact {
         Impulses { normal, ..self.impulses }
     }
 
+    /// Whether the sphere comes to an impact and bounces.
+    fn is_bounce(&self) -> bool {
+        self.bias < 0.0 && self.approach > 0.0
+    }
+
     /// The impulse of a bounce \[N s\] on a sphere of this mass \[kg\], without what others press it to
     /// the surface with; `None` without a bounce.
     pub fn bounce(&self, mass: f64) -> Option<DVec3> {
-        let bounces = self.bias < 0.0 && self.impulses.normal > 0.0;
+        let bounces = self.is_bounce() && self.impulses.normal > 0.0;
         let own = mass * (1.0 + self.restitution) * self.approach;
         bounces.then(|| self.impulse() * (own / self.impulses.normal).min(1.0))
     }
@@ -112,25 +117,31 @@ pub(super) fn prepare(
     places: &[Place],
     sub_step: &SubStep,
 ) {
-    for contact in contacts {
-        contact.aim(run, &places[contact.surface as usize], sub_step);
-        let Impulses { normal, tangential, angular, .. } = &mut contact.impulses;
-        if *normal == 0.0 {
-            (*tangential, *angular) = ([0.0; 3], [0.0; 3]);
-            continue;
+    for of_sphere in contacts.chunk_by_mut(|first, second| first.slot == second.slot) {
+        for contact in &mut *of_sphere {
+            contact.aim(run, &places[contact.surface as usize], sub_step);
         }
-        let kept = DVec3::from_array(*tangential);
-        let across = kept - contact.normal * kept.dot(contact.normal);
-        *tangential = across.to_array();
-        let (along, angular) = (*normal * contact.normal, DVec3::from_array(*angular));
-        push(run, contact.slot, contact.normal, [along, across]);
-        turn(run, contact.slot, angular);
+        leave_first_bounce(of_sphere);
+        of_sphere.iter_mut().for_each(|contact| contact.warm_start(run, sub_step));
+    }
+}
+
+/// Frees a sphere that bounces and goes far from the surfaces that it would come to after its first bounce, or
+/// past, if it went straight on: it goes elsewhere.
+fn leave_first_bounce(of_sphere: &mut [SurfaceContact]) {
+    let bounces = of_sphere.iter().filter(|contact| contact.is_bounce());
+    let Some(first) = bounces.map(|contact| contact.time).min_by(f64::total_cmp) else { return };
+    for contact in of_sphere {
+        let is_first = contact.is_bounce() && contact.time == first;
+        let touches = contact.bias == 0.0;
+        if !is_first && !touches && !contact.is_slow {
+            (contact.bias, contact.approach) = (FREE, 0.0);
+        }
     }
 }
 
 impl SurfaceContact {
-    /// The normal and the gap of now; the velocity that the sphere is to have after the sub-step; the
-    /// impulse to start from.
+    /// The normal and the gap of now; the velocity that the sphere is to have after the sub-step.
     fn aim(&mut self, run: &Run, place: &Place, sub_step: &SubStep) {
         let slot = self.slot as usize;
         let (form, motion) = place;
@@ -159,7 +170,6 @@ impl SurfaceContact {
         if is_apart && is_curved && (!self.is_slow || self.approach > 0.0) {
             self.aim_at_impact(run, place, sub_step);
         }
-        self.start(1.0 / run.velocity[slot].number(), sub_step);
         self.slip = DVec3::ZERO;
         let part = self.friction.tangential_restitution;
         if self.approach > 0.0 && part > 0.0 && !run.spin.is_empty() {
@@ -248,6 +258,22 @@ impl SurfaceContact {
         if rebound > 0.0 && self.impulses.normal == 0.0 {
             (self.bias, self.time) = (-rebound, time);
         }
+    }
+
+    /// Gives the sphere the impulses to start from.
+    fn warm_start(&mut self, run: &mut Run, sub_step: &SubStep) {
+        self.start(1.0 / run.velocity[self.slot as usize].number(), sub_step);
+        let Impulses { normal, tangential, angular, .. } = &mut self.impulses;
+        if *normal == 0.0 {
+            (*tangential, *angular) = ([0.0; 3], [0.0; 3]);
+            return;
+        }
+        let kept = DVec3::from_array(*tangential);
+        let across = kept - self.normal * kept.dot(self.normal);
+        *tangential = across.to_array();
+        let (along, angular) = (*normal * self.normal, DVec3::from_array(*angular));
+        push(run, self.slot, self.normal, [along, across]);
+        turn(run, self.slot, angular);
     }
 
     /// The normal impulse to start from, for a sphere of this mass \[kg\].
