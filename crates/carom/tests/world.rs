@@ -367,3 +367,25 @@ fn several_colliders_change_at_once_or_not_at_all() {
     world.set_colliders(&[(first, soft), (second, soft)]).unwrap();
     assert!(world.colliders().all(|(_, collider)| *collider == soft));
 }
+
+#[test]
+fn many_spheres_are_taken_out_at_once_or_none() {
+    let mut world = busy_world(bisect());
+    let ids = world.spheres().ids().to_vec();
+    let unknown = world.add_sphere(Sphere::new(vec(0.0, 50.0, 0.0), 0.1)).unwrap();
+    world.remove_spheres(&[unknown]).unwrap();
+    assert_eq!(world.spheres().ids(), ids);
+    let refused = world.remove_spheres(&[ids[3], unknown]);
+    assert!(matches!(refused, Err(Error::Unknown(_))), "{refused:?}");
+    assert_eq!(world.spheres().len(), ids.len());
+    let mut one_by_one = world.clone();
+    for id in [ids[7], ids[3]] {
+        one_by_one.remove_sphere(id).unwrap();
+    }
+    // Twice named is once taken out.
+    world.remove_spheres(&[ids[3], ids[7], ids[3]]).unwrap();
+    assert_eq!(world.state_hash(), one_by_one.state_hash());
+    run(&mut world, 30);
+    run(&mut one_by_one, 30);
+    assert_eq!(world.state_hash(), one_by_one.state_hash());
+}

@@ -2,8 +2,10 @@
 //!
 //! Arrays: `t` and `ball` (rows), `position` and `velocity` (rows, 3), and `frame_start`
 //! (frames + 1): the rows of frame k are `frame_start[k] .. frame_start[k + 1]`. Where spheres turn,
-//! `orientation` (rows, 4; x, y, z, w) and `angular_velocity` (rows, 3), too.
+//! `orientation` (rows, 4; x, y, z, w) and `angular_velocity` (rows, 3), too. Then `time` (frames), and of each
+//! sphere of any frame `id`, `radius` and `mass`, as they were last.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -28,6 +30,10 @@ pub(super) struct Npz {
     /// For temporary files.
     folder: PathBuf,
     frame_start: Vec<u64>,
+    /// \[s\]
+    times: Vec<f64>,
+    /// Radius \[m\] and mass \[kg\] of spheres by their numbers.
+    known: BTreeMap<u64, [f64; 2]>,
 }
 
 struct Rotation {
@@ -69,6 +75,8 @@ impl Npz {
             rotation: None,
             folder: folder.to_owned(),
             frame_start: vec![0],
+            times: Vec::new(),
+            known: BTreeMap::new(),
         })
     }
 
@@ -85,7 +93,9 @@ impl Format for Npz {
             let angular_velocity = Column::create("angular_velocity", 3, &self.folder)?;
             self.rotation = Some(Rotation { orientation, angular_velocity });
         }
+        self.times.push(world.time());
         for (i, id) in spheres.ids().iter().enumerate() {
+            self.known.insert(id.number(), [spheres.radii()[i], spheres.masses()[i]]);
             self.time.push(world.time().to_bits())?;
             self.ball.push(id.number())?;
             self.position.push_all(&spheres.positions()[i].to_array())?;
@@ -101,7 +111,10 @@ impl Format for Npz {
 
     fn finish(self: Box<Self>) -> io::Result<()> {
         let rows = self.rows();
-        let Self { file, time, ball, position, velocity, rotation, frame_start, .. } = *self;
+        let Self {
+            file, time, ball, position, velocity, rotation, frame_start, times, known, ..
+        } = *self;
+
         let mut zip = zip::ZipWriter::new(BufWriter::new(file));
         for column in [time, position, velocity] {
             append(&mut zip, column, rows, f64::from_le_bytes)?;
@@ -111,14 +124,11 @@ impl Format for Npz {
             append(&mut zip, angular_velocity, rows, f64::from_le_bytes)?;
         }
         append(&mut zip, ball, rows, |bytes| u64::from_le_bytes(bytes) as i64)?;
-        start(&mut zip, "frame_start")?;
-        let mut array = npyz::WriteOptions::new()
-            .default_dtype()
-            .shape(&[frame_start.len() as u64])
-            .writer(&mut zip)
-            .begin_nd()?;
-        array.extend(frame_start.into_iter().map(|row| row as i64))?;
-        array.finish()?;
+        append_all(&mut zip, "frame_start", frame_start.into_iter().map(|row| row as i64))?;
+        append_all(&mut zip, "time", times.into_iter())?;
+        append_all(&mut zip, "id", known.keys().map(|&id| id as i64))?;
+        append_all(&mut zip, "radius", known.values().map(|[radius, _]| *radius))?;
+        append_all(&mut zip, "mass", known.values().map(|[_, mass]| *mass))?;
         zip.finish()?.flush()
     }
 }
@@ -126,6 +136,20 @@ impl Format for Npz {
 fn start<W: Write + Seek>(zip: &mut zip::ZipWriter<W>, name: &str) -> io::Result<()> {
     let options = SimpleFileOptions::default().large_file(true);
     Ok(zip.start_file(npyz::npz::file_name_from_array_name(name), options)?)
+}
+
+/// Appends these values to the archive.
+fn append_all<T: npyz::AutoSerialize, W: Write + Seek>(
+    zip: &mut zip::ZipWriter<W>,
+    name: &str,
+    values: impl ExactSizeIterator<Item = T>,
+) -> io::Result<()> {
+    start(zip, name)?;
+    let shape = [values.len() as u64];
+    let mut array =
+        npyz::WriteOptions::new().default_dtype().shape(&shape).writer(zip).begin_nd()?;
+    array.extend(values)?;
+    array.finish()
 }
 
 /// Appends a column to the archive, its words read as `T`.

@@ -283,6 +283,18 @@ impl World {
         Ok(sphere)
     }
 
+    /// Takes spheres out of the world. Those after them move up in the arrays.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if one of them is not in it; then none is taken out.
+    pub fn remove_spheres(&mut self, ids: &[SphereId]) -> Result<(), Error> {
+        ids.iter().try_for_each(|&id| self.index_of(id).map(|_| ()))?;
+        if !ids.is_empty() {
+            self.state.changed().spheres.remove_all(ids);
+        }
+        Ok(())
+    }
+
     fn index_of(&self, id: SphereId) -> Result<usize, Error> {
         self.state.spheres.index_of(id).ok_or(Error::Unknown(Subject::Sphere(id)))
     }
