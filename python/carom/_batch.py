@@ -27,7 +27,7 @@ class Batch(Strict, BatchEngine):
     ``restitutions``, ``inertia_factors``, ``frictions``, ``rolling_frictions``,
     ``spinning_frictions`` and ``tangential_restitutions`` (n, spheres). They are kept as those of a
     `World` are: made at the first read, written anew by every step, read without copying. To set
-    one, assign to it: ``batch.velocities = 0``.
+    one, assign to it or write into it: ``batch.velocities = 0``, ``batch.velocities[3] = 0``.
 
     Args:
         scene: The scene of all worlds, or its name; or a sequence of scenes, one for each world.
@@ -70,10 +70,12 @@ class Batch(Strict, BatchEngine):
     def __repr__(self) -> str:
         return f"<carom.Batch of {len(self)} worlds, {self.radii.shape[1]} spheres each>"
 
-    def step(self, dt: float | None = None, *, frames: int = 1) -> None:
+    def step(self, *, dt: float | None = None, frames: int = 1) -> None:
         """Advances every world by ``frames`` frames of ``dt`` [s], or of its scene's own length.
 
-        Other threads run meanwhile.
+        Other threads run meanwhile. Ctrl-C stops within a tenth of a second, but for a single frame
+        that takes longer; each world is then at the end of one of its frames, some further on than
+        others.
 
         Raises:
             CaromError: If ``dt`` is not positive and finite. No world was moved.
@@ -115,8 +117,10 @@ class Batch(Strict, BatchEngine):
         `world`, change it, and put it back.
 
         Raises:
-            CaromError: If it has another number of spheres than the others, or emitters.
+            CaromError: If it has another number of spheres than the others, emitters, or functions
+                among its forces.
         """
+        world._refuse_functions("a batch")
         self._restore(self._number(index), world.snapshot())
 
     @property

@@ -13,13 +13,14 @@ from types import MappingProxyType
 from typing import Any, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from carom import _parts as parts
 from carom import _pictures as pictures
 from carom._carom import canonical_toml, read_scene, read_scene_file
+from carom._points import Points
 from carom._text import fields_of, toml_of, toml_value
-from carom._trajectory import Trajectory
+from carom._trajectory import Recorded, Trajectory
 from carom._world import World
 from carom.errors import CaromError
 
@@ -29,7 +30,7 @@ _SEEDS = 2**32
 """Seeds of random fillings are less."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Scene(parts.Part):
     """Spheres, what acts on them, what they bounce off, and how to look at it.
 
@@ -43,7 +44,7 @@ class Scene(parts.Part):
         origin: Where the scene comes from.
         simulation: How it is stepped.
         forces: Forces on every sphere; they add up.
-        spheres: Single spheres.
+        spheres: Single spheres; many of them as `Points`.
         generators: Places for many spheres or colliders, which come after the single ones.
         colliders: Shapes that spheres bounce off.
         emitters: Sources of spheres.
@@ -76,6 +77,26 @@ class Scene(parts.Part):
     camera: parts.Camera | None = None
     sun: parts.Sun | None = None
     colors: parts.Colors | None = None
+
+    def __post_init__(self) -> None:
+        many = self.spheres if isinstance(self.spheres, Points) else None
+        if many is not None:
+            # They have been checked, and are not to become a sphere each.
+            object.__setattr__(self, "spheres", ())
+        super().__post_init__()
+        if many is not None:
+            object.__setattr__(self, "spheres", many)
+
+    def __repr__(self) -> str:
+        parts = {
+            "spheres": self.spheres,
+            "generators": self.generators,
+            "colliders": self.colliders,
+            "forces": self.forces,
+            "emitters": self.emitters,
+        }
+        counts = [f"{len(part)} {name}" for name, part in parts.items() if part]
+        return f"<carom.Scene {self.name!r}: {', '.join(counts) or 'empty'}>"
 
     @classmethod
     def from_toml(
@@ -157,9 +178,13 @@ class Scene(parts.Part):
         frames: int | None = None,
         dt: float | None = None,
         every: int = 1,
+        quantities: Sequence[Recorded] | None = None,
+        dtype: DTypeLike = np.float64,
     ) -> Trajectory:
         """Runs the scene from its start, and records what happens: see `World.run`."""
-        return self.world().run(seconds, frames=frames, dt=dt, every=every)
+        return self.world().run(
+            seconds, frames=frames, dt=dt, every=every, quantities=quantities, dtype=dtype
+        )
 
     # Pictures
 

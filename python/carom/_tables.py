@@ -98,6 +98,18 @@ CONTACT = np.dtype(
 """
 
 
+OVERLAP = np.dtype([("collider", "i8"), ("sphere_1", "i8"), ("sphere_2", "i8"), ("depth", "f8")])
+"""Two bodies that overlap.
+
+============================ ===============================================================
+``collider``                 id of body 1 if it is a collider, else -1
+``sphere_1``                 id of body 1 if it is a sphere, else -1
+``sphere_2``                 id of body 2
+``depth``                    how far their surfaces overlap [m], > 0
+============================ ===============================================================
+"""
+
+
 def records(words: NDArray[np.uint64], kind: np.dtype[np.void]) -> NDArray[np.void]:
     """The words that the engine wrote as records; nothing is copied."""
     return words.view(kind)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+import os
+import zipfile
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom._tables import flat_columns
+from carom._tables import IMPACT, flat_columns
+from carom.errors import CaromError
 
 if TYPE_CHECKING:
     import pandas
@@ -19,9 +22,29 @@ _PARTS = ("x", "y", "z", "w")
 _AXES = _PARTS[:3]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+Recorded: TypeAlias = Literal["positions", "velocities", "orientations", "angular_velocities"]
+"""What a run can record of each state."""
+
+_COLUMNS: dict[Recorded, str] = {
+    "positions": "position",
+    "velocities": "velocity",
+    "orientations": "orientation",
+    "angular_velocities": "angular_velocity",
+}
+"""What they are called in files."""
+
+
+def _not_recorded() -> Any:
+    """Stands for what was not recorded, until it is taken out."""
+    return None
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Trajectory:
     """States of all spheres over time, and every impact between them. Arrays are C-ordered.
+
+    What a run was told not to record is not there: to read it raises an `AttributeError` that says
+    so.
 
     Attributes:
         time: When the states were recorded, on the world's clock [s], shape (t,). The first is the
@@ -40,14 +63,24 @@ class Trajectory:
     """
 
     time: NDArray[np.float64]
-    positions: NDArray[np.float64]
-    velocities: NDArray[np.float64]
     ids: NDArray[np.uint64]
     radii: NDArray[np.float64]
     masses: NDArray[np.float64]
     impacts: NDArray[np.void]
+    positions: NDArray[np.float64] = field(default_factory=_not_recorded)
+    velocities: NDArray[np.float64] = field(default_factory=_not_recorded)
     orientations: NDArray[np.float64] | None = None
     angular_velocities: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("positions", "velocities"):
+            if getattr(self, name) is None:
+                object.__delattr__(self, name)
+
+    def __getattr__(self, name: str) -> Any:
+        if name in ("positions", "velocities"):
+            raise AttributeError(f"{name} were not recorded: see `quantities` of `World.run`")
+        raise AttributeError(f"a carom.Trajectory has no attribute {name!r}")
 
     def __len__(self) -> int:
         """The number of recorded states."""
@@ -58,6 +91,101 @@ class Trajectory:
         return (
             f"<carom.Trajectory of {len(self.ids)} spheres from {begin} to {end} s, "
             f"{len(self)} states, {len(self.impacts)} impacts>"
+        )
+
+    def _recorded(self, name: Recorded) -> NDArray[np.float64] | None:
+        """What was recorded under this name, if anything was."""
+        values: NDArray[np.float64] | None = self.__dict__.get(name)
+        return values
+
+    def _is_there(self) -> NDArray[np.bool_]:
+        """Which sphere is there at which time, shape (t, n)."""
+        recorded = [values for name in _COLUMNS if (values := self._recorded(name)) is not None]
+        if not recorded:
+            return np.ones((len(self.time), len(self.ids)), dtype=bool)
+        there: NDArray[np.bool_] = ~np.isnan(recorded[0][:, :, 0])
+        return there
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes an .npz file, which `load` reads: to the bit what this is.
+
+        It has the arrays that ``carom run --out`` writes, one row for each sphere that is there at
+        each time, and the impacts besides, as records of `carom.IMPACT`.
+
+        Args:
+            path: Of the file, with its ending; one that is there is replaced.
+
+        Raises:
+            OSError: If it cannot be written.
+
+        >>> import carom, tempfile, pathlib
+        >>> run = carom.load("tutorial1").run(seconds=1)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder) / "run.npz"
+        ...     run.save(path)
+        ...     again = carom.Trajectory.load(path)
+        >>> bool((again.positions == run.positions).all())
+        True
+        """
+        is_there = self._is_there()
+        row, column = np.nonzero(is_there)
+        arrays: dict[str, NDArray[Any]] = {
+            "t": self.time[row],
+            "ball": self.ids[column].astype(np.int64),
+            "frame_start": np.concatenate(([0], np.cumsum(is_there.sum(axis=1)))),
+            "time": self.time,
+            "id": self.ids.astype(np.int64),
+            "radius": self.radii,
+            "mass": self.masses,
+            "impacts": self.impacts,
+        }
+        for name, column_name in _COLUMNS.items():
+            values = self._recorded(name)
+            if values is not None:
+                arrays[column_name] = values[is_there]
+        with open(path, "wb") as file:
+            np.savez(file, **arrays)  # type: ignore[arg-type]  # Names are no options of it.
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Trajectory:
+        """Reads an .npz file of `save`, or of ``carom run --out``, which has no impacts.
+
+        Raises:
+            CaromError: If it is no such file.
+            OSError: If it cannot be read.
+        """
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                arrays = {name: file[name] for name in file.files}
+            return cls._of_arrays(arrays)
+        except (KeyError, ValueError, IndexError, EOFError, zipfile.BadZipFile) as error:
+            problem = f"no trajectory of carom: {error}"
+            raise CaromError(f"{os.fspath(path)}: {problem}", "path") from error
+
+    @classmethod
+    def _of_arrays(cls, arrays: dict[str, NDArray[Any]]) -> Trajectory:
+        """The trajectory of the arrays of a file."""
+        time, ids = arrays["time"], arrays["id"].astype(np.uint64)
+        counts = np.diff(arrays["frame_start"])
+        row = np.repeat(np.arange(len(time)), counts)
+        column = np.searchsorted(ids, arrays["ball"].astype(np.uint64))
+        motion: dict[str, NDArray[Any]] = {}
+        for name, column_name in _COLUMNS.items():
+            if column_name in arrays:
+                values = arrays[column_name]
+                spread = np.full((len(time), len(ids), values.shape[1]), np.nan, values.dtype)
+                spread[row, column] = values
+                motion[name] = spread
+        impacts = arrays.get("impacts", np.empty(0, IMPACT))
+        if impacts.dtype != IMPACT:
+            raise ValueError("its impacts are of another version")
+        return cls(
+            time=time,
+            ids=ids,
+            radii=arrays["radius"],
+            masses=arrays["mass"],
+            impacts=impacts,
+            **motion,
         )
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -71,19 +199,20 @@ class Trajectory:
         """
         import pandas
 
-        is_there = ~np.isnan(self.positions[:, :, 0])
+        is_there = self._is_there()
         row, column = np.nonzero(is_there)
         columns: dict[str, NDArray[np.float64] | NDArray[np.uint64]] = {
             "t": self.time[row],
             "ball": self.ids[column],
         }
-        recorded = {
-            "": self.positions,
-            "v": self.velocities,
-            "q": self.orientations,
-            "w": self.angular_velocities,
+        prefixes: dict[Recorded, str] = {
+            "positions": "",
+            "velocities": "v",
+            "orientations": "q",
+            "angular_velocities": "w",
         }
-        for prefix, values in recorded.items():
+        for name, prefix in prefixes.items():
+            values = self._recorded(name)
             if values is not None:
                 names = [f"{prefix}{part}" for part in _PARTS[: values.shape[2]]]
                 columns.update(zip(names, values[is_there].T, strict=True))
@@ -112,8 +241,6 @@ class Trajectory:
 
         vectors = ("time", "sphere", "axis")
         variables: dict[str, tuple[Any, ...]] = {
-            "position": (vectors, self.positions, {"units": "m"}),
-            "velocity": (vectors, self.velocities, {"units": "m/s"}),
             "radius": ("sphere", self.radii, {"units": "m"}),
             "mass": ("sphere", self.masses, {"units": "kg"}),
         }
@@ -122,6 +249,14 @@ class Trajectory:
             "sphere": self.ids,
             "axis": list(_AXES),
         }
+        motion: dict[Recorded, tuple[str, str]] = {
+            "positions": ("position", "m"),
+            "velocities": ("velocity", "m/s"),
+        }
+        for name, (singular, unit) in motion.items():
+            values = self._recorded(name)
+            if values is not None:
+                variables[singular] = (vectors, values, {"units": unit})
         if self.angular_velocities is not None:
             variables["angular_velocity"] = (vectors, self.angular_velocities, {"units": "rad/s"})
         if self.orientations is not None:

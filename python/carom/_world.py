@@ -4,24 +4,49 @@ from __future__ import annotations
 
 import copy
 import os
-from typing import TYPE_CHECKING, Any, NoReturn, overload
+from collections.abc import Sequence
+from dataclasses import replace
+from operator import index as as_index
+from typing import TYPE_CHECKING, Any, Literal, NoReturn, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from carom import _parts as parts
 from carom import _pictures as pictures
 from carom import _tables as tables
 from carom._carom import Engine
 from carom._contact_account import ContactAccount
+from carom._functions import ForceFunction, Functions
+from carom._points import Points, count_of, masses_of, spread
 from carom._stage_counts import StageCounts
 from carom._strict import Strict
 from carom._text import read_part, read_parts, toml_of, toml_value
-from carom._trajectory import Trajectory
+from carom._trajectory import Recorded, Trajectory
 from carom._zone_account import ZoneAccount
+from carom.errors import CaromError, UnknownError
 
 if TYPE_CHECKING:
+    from typing_extensions import TypeIs
+
     from carom._scene import Scene
+
+
+_OF_FUNCTIONS = ("_functions", "step")
+"""What a world with functions among its forces has besides."""
+_ROUNDING = 1e-9
+"""Overlaps of so much [m] are rounding."""
+
+
+def _are_spheres(
+    given: ArrayLike | Sequence[parts.Sphere],
+) -> TypeIs[Sequence[parts.Sphere]]:
+    """Whether these are spheres, and not their centres."""
+    if isinstance(given, Points):
+        return True
+    if not isinstance(given, Sequence) or isinstance(given, (str, bytes)):
+        return False
+    return len(given) > 0 and all(isinstance(it, parts.Sphere) for it in given)
 
 
 class World(Strict, Engine):
@@ -35,9 +60,12 @@ class World(Strict, Engine):
     - To read one copies nothing: it is the same object for as long as no sphere comes or goes, and
       every frame writes the new state into it. Take ``world.positions.copy()`` to keep a state.
     - When spheres come or go, the attribute is a new array; the old one stays valid, with the last
-      values of its spheres.
-    - It cannot be written to. To set a quantity, assign to the attribute: ``world.velocities = 0``.
-      What is assigned is copied, spread by NumPy's rules of broadcasting, and checked first.
+      values of its spheres, and cannot be written to any more.
+    - What is written into it, the next call checks and takes over: ``world.velocities[3] = 0``,
+      ``world.positions += (0, 1, 0)``. If a value is refused, the exception names the array and the
+      row, and the array is as the world again.
+    - What is assigned to the attribute is copied, spread by NumPy's rules of broadcasting, and
+      checked first: ``world.velocities = 0``. ``ids`` cannot be changed.
 
     Calls that take long let other threads run; threads that use one world wait for each other. What
     is refused raises a `carom.CaromError` that names the argument, and leaves the world unchanged.
@@ -68,6 +96,8 @@ class World(Strict, Engine):
             scene = Scene(name="world")
         if not isinstance(scene, Scene):
             raise TypeError(f"scene: must be a carom.Scene, not {type(scene).__name__}")
+        if isinstance(scene.spheres, Points):
+            return super().__new__(cls, toml_of(replace(scene, spheres=())), scene.spheres._given())
         return super().__new__(cls, toml_of(scene))
 
     def __init__(self, scene: Scene | None = None) -> None:
@@ -83,7 +113,10 @@ class World(Strict, Engine):
     def __deepcopy__(self, memo: dict[int, Any]) -> World:
         twin = type(self).__new__(type(self))
         twin.restore(self.snapshot())
-        twin.__dict__.update(copy.deepcopy(self.__dict__, memo))
+        own = {name: it for name, it in self.__dict__.items() if name not in _OF_FUNCTIONS}
+        twin.__dict__.update(copy.deepcopy(own, memo))
+        if self._functions is not None:
+            twin._take_functions(copy.deepcopy(self._functions, memo))
         return twin
 
     def __reduce__(self) -> NoReturn:
@@ -104,20 +137,27 @@ class World(Strict, Engine):
         frames: int | None = None,
         dt: float | None = None,
         every: int = 1,
+        quantities: Sequence[Recorded] | None = None,
+        dtype: DTypeLike = np.float64,
     ) -> Trajectory:
         """Runs on, and records what happens.
 
-        Other threads run meanwhile; Ctrl-C stops after the frame at work, and leaves the world
-        there. If a frame is refused, the world is as it was before the call.
+        Other threads run meanwhile. Ctrl-C stops within a tenth of a second, and leaves the world
+        at the last whole frame; what was recorded until then is the attribute ``trajectory`` of the
+        `KeyboardInterrupt`. If a frame is refused, the world is as it was before the call.
 
         Args:
             seconds: How long [s], up to whole frames; the scene's own duration unless given.
             frames: How many frames instead.
             dt: Length of a frame [s]; the scene's own unless given.
             every: States are recorded after every so many frames, and at the beginning.
+            quantities: What is recorded of each state; unless given, positions, velocities and,
+                where spheres may turn, orientations and angular velocities.
+            dtype: Of what is recorded; ``"float32"`` takes half the memory.
 
         Raises:
             CaromError: For a number that makes no sense.
+            MemoryError: If there is not enough for the states, before the first frame.
             StepError: If a number would overflow, or there are too many impacts.
 
         >>> import carom
@@ -129,11 +169,24 @@ class World(Strict, Engine):
             frames = self._count_frames(seconds, dt)
         elif seconds is not None:
             raise TypeError("seconds and frames: give one of them")
-        time, ids, radii, masses, words, motion = self._record(frames, dt, every)
+        kind = np.dtype(dtype)
+        if kind not in (np.float64, np.float32):
+            raise CaromError(f"dtype: must be float64 or float32, not {kind}", "dtype")
+        names = None if quantities is None else list(quantities)
+        if self._functions is not None:
+            is_single = kind == np.float32
+            return self._functions.record(self, frames, dt, every, names, is_single)
+        time, ids, radii, masses, words, motion, stopped = self._record(
+            frames, dt, every, names, kind == np.float32
+        )
         impacts = tables.records(words, tables.IMPACT)
-        return Trajectory(
+        trajectory = Trajectory(
             time=time, ids=ids, radii=radii, masses=masses, impacts=impacts, **dict(motion)
         )
+        if stopped is not None:
+            stopped.trajectory = trajectory  # type: ignore[attr-defined]
+            raise stopped
+        return trajectory
 
     # What happened in the last frame
 
@@ -200,11 +253,12 @@ class World(Strict, Engine):
 
     def add_spheres(
         self,
-        positions: ArrayLike,
-        radii: ArrayLike,
+        positions: ArrayLike | Sequence[parts.Sphere],
+        radii: ArrayLike | None = None,
         *,
         velocities: ArrayLike = 0.0,
-        masses: ArrayLike = 1.0,
+        masses: ArrayLike | None = None,
+        densities: ArrayLike | None = None,
         restitutions: ArrayLike = 1.0,
         orientations: ArrayLike | None = None,
         angular_velocities: ArrayLike | None = None,
@@ -213,14 +267,17 @@ class World(Strict, Engine):
         rolling_frictions: ArrayLike | None = None,
         spinning_frictions: ArrayLike | None = None,
         tangential_restitutions: ArrayLike | None = None,
+        overlap: Literal["allow", "raise"] = "allow",
     ) -> NDArray[np.uint64]:
-        """Adds n spheres, which may overlap, and returns their ids, shape (n,).
+        """Adds n spheres, and returns their ids, shape (n,).
 
         Args:
-            positions: Centres [m], shape (n, 3).
+            positions: Centres [m], shape (n, 3); or the spheres themselves, without anything else.
             radii: Radii [m], > 0, spread to shape (n,).
             velocities: Velocities [m/s], spread to shape (n, 3).
-            masses: Masses [kg], > 0, spread to shape (n,).
+            masses: Masses [kg], > 0, spread to shape (n,); 1 unless these or ``densities`` are
+                given.
+            densities: Densities [kg/m³], > 0, spread to shape (n,), instead of masses.
             restitutions: Coefficients of restitution in [0, 1], spread to shape (n,).
             orientations: How they are turned, quaternions x, y, z, w of any length but zero, spread
                 to shape (n, 4); not turned unless given.
@@ -234,10 +291,11 @@ class World(Strict, Engine):
             spinning_frictions: Coefficients of spinning friction, as ``frictions``.
             tangential_restitutions: Coefficients of tangential restitution in [0, 1], as
                 ``frictions``.
+            overlap: ``"raise"`` refuses spheres that overlap each other, or what is there.
 
         Raises:
-            CaromError: For shapes that do not fit, and numbers that make no sense; then no sphere
-                is added.
+            CaromError: For shapes that do not fit, and numbers that make no sense, by the number of
+                the sphere; then no sphere is added.
             TypeError: For arrays that are not of numbers.
 
         >>> import carom
@@ -245,17 +303,86 @@ class World(Strict, Engine):
         >>> world.add_spheres([(0, 0, 0), (3, 0, 0)], radii=[1.0, 0.5])
         array([0, 1], dtype=uint64)
         """
-        try:
-            shape = np.shape(positions)
-        except ValueError:
-            # Rows of different lengths: refused below, by name.
-            shape = ()
-        count = shape[0] if len(shape) == 2 else 1
+        if overlap not in ("allow", "raise"):
+            raise CaromError(f"overlap: must be 'allow' or 'raise', not {overlap!r}", "overlap")
+        may_overlap = overlap == "allow"
+        if _are_spheres(positions):
+            if radii is not None:
+                raise TypeError("radii: spheres have their own")
+            return self._add_described(positions, may_overlap)
+        if radii is None:
+            raise TypeError("radii: must be given")
+        count = count_of(positions)
+        if densities is not None:
+            if masses is not None:
+                raise CaromError("densities: give masses or densities", "densities")
+            own = spread("densities", densities, count, 1)
+            masses = masses_of(own, spread("radii", radii, count, 1))
         motion = (positions, velocities)
-        properties = (radii, masses, restitutions)
+        properties = (radii, 1.0 if masses is None else masses, restitutions)
         rotation = (orientations, angular_velocities, inertia_factors)
         friction = (frictions, rolling_frictions, spinning_frictions, tangential_restitutions)
-        return self._add_spheres(count, (*motion, *properties, *rotation, *friction))
+        quantities = (*motion, *properties, *rotation, *friction)
+        return self._add_spheres(count, quantities, may_overlap)
+
+    def _add_described(
+        self, spheres: Sequence[parts.Sphere], may_overlap: bool
+    ) -> NDArray[np.uint64]:
+        """Adds spheres with their colours."""
+        before = None if may_overlap else self.snapshot()
+        texts = ", ".join(
+            toml_value(sphere, f"spheres[{number}]") for number, sphere in enumerate(spheres)
+        )
+        ids = np.array(self._add_described_spheres(f"spheres = [{texts}]"), dtype=np.uint64)
+        if before is not None:
+            touching = self.overlaps(_ROUNDING)
+            new = touching[(touching["sphere_1"] >= ids[0]) | (touching["sphere_2"] >= ids[0])]
+            if len(new):
+                self.restore(before)
+                depth = new["depth"].max()
+                raise CaromError(f"spheres: overlap by up to {depth:.3e} m", "spheres")
+        return ids
+
+    def remove_spheres(self, ids: ArrayLike) -> None:
+        """Takes spheres out of the world. Those after them move up in the arrays.
+
+        Args:
+            ids: Their ids; or n truth values that mark them.
+
+        Raises:
+            UnknownError: If one of them is not in the world (any more); then none is taken out.
+            TypeError: For what are neither ids nor truth values.
+
+        >>> import carom
+        >>> world = carom.load("tutorial4").world()
+        >>> world.remove_spheres(world.positions[:, 1] > 6)
+        >>> bool((world.positions[:, 1] <= 6).all())
+        True
+        """
+        given = np.asarray(ids)
+        if given.dtype == bool:
+            if given.shape != (len(self),):
+                problem = f"must be {len(self)} truth values, not of shape {given.shape}"
+                raise CaromError(f"ids: {problem}", "ids")
+            given = self.ids[given]
+        if given.size and given.dtype.kind not in "iu":
+            raise TypeError(f"ids: must be whole numbers or truth values, not {given.dtype}")
+        numbers = given.reshape(-1).tolist()
+        if any(number < 0 for number in numbers):
+            raise UnknownError(f"there is no sphere {min(numbers)} in this world")
+        self._remove_spheres(numbers)
+
+    def overlaps(self, tolerance: float = 0.0) -> NDArray[np.void]:
+        """The bodies that overlap by more than ``tolerance`` [m]: records of `carom.OVERLAP`.
+
+        In a periodic box across its faces, too. A copy, in order of the bodies.
+        """
+        return tables.records(self._overlap_words(float(tolerance)), tables.OVERLAP)
+
+    @property
+    def largest_overlap(self) -> float:
+        """How deep two bodies overlap at most [m]; 0 where none do."""
+        return float(self.overlaps()["depth"].max(initial=0.0))
 
     def sphere(self, id: int) -> parts.Sphere:
         """The sphere with this id, as it is now.
@@ -278,17 +405,108 @@ class World(Strict, Engine):
     # Forces, colliders, emitters
 
     @property
-    def forces(self) -> dict[int, parts.Force]:
+    def forces(self) -> dict[int, parts.Force | ForceFunction]:
         """The forces by their ids, in the order in which they are added up. A copy."""
-        return read_parts("forces", self._forces_json())
+        described: dict[int, parts.Force | ForceFunction] = read_parts(
+            "forces", self._forces_json()
+        )
+        return described | ({} if self._functions is None else self._functions.by_id)
 
-    def add_force(self, force: parts.Force) -> int:
-        """Adds a force on every sphere, and returns its id."""
-        return self._add_force(f"forces = [{toml_value(force, 'force')}]")
+    def add_force(self, force: parts.Force | ForceFunction) -> int:
+        """Adds a force on every sphere, and returns its id.
 
-    def set_force(self, id: int, force: parts.Force) -> None:
-        """Puts a force in the place of another."""
+        A force may be a function: it takes the world, and returns the force on each sphere [N],
+        spread to shape (n, 3). It is called once in each frame, and once more at the start of each
+        call of `step` and `run`; its id is negative. Velocities follow by Verlet's scheme, whose
+        error is of the second order in the length of a frame: in a trap of frequency ω energy
+        swings by (ω dt / 2)² of itself at most, and does not drift. Copies of the world have the
+        function, snapshots and scenes do not.
+
+        >>> import carom
+        >>> world = carom.World()
+        >>> ball = world.add_sphere(carom.Sphere(position=(1, 0, 0), radius=0.1))
+        >>> spring = world.add_force(lambda world: -4 * world.positions)
+        >>> world.step(dt=0.01, frames=157)  # Half a swing.
+        >>> world.positions.round(3).tolist()
+        [[-1.0, 0.0, 0.0]]
+        """
+        if isinstance(force, parts.Part) or not callable(force):
+            return self._add_force(f"forces = [{toml_value(force, 'force')}]")
+        if self._functions is None:
+            self._take_functions(Functions())
+        assert self._functions is not None
+        return self._functions.add(force)
+
+    def set_force(self, id: int, force: parts.Force | ForceFunction) -> None:
+        """Puts a force in the place of another; a function in that of a function."""
+        if self._functions is not None and id in self._functions.by_id and callable(force):
+            self._functions.by_id[id] = force
+            return
         self._set_force(id, f"forces = [{toml_value(force, 'force')}]")
+
+    def remove_force(self, id: int) -> None:
+        """Takes a force away.
+
+        Raises:
+            UnknownError: If there is none with this id (any more).
+        """
+        if self._functions is None or id not in self._functions.by_id:
+            super().remove_force(id)
+            return
+        del self._functions.by_id[id]
+        if not self._functions.by_id:
+            for name in _OF_FUNCTIONS:
+                del self.__dict__[name]
+
+    @property
+    def _functions(self) -> Functions | None:
+        """The functions among the forces, if there are any."""
+        functions: Functions | None = self.__dict__.get("_functions")
+        return functions
+
+    def _take_functions(self, functions: Functions) -> None:
+        """Has functions act from now on; a world without them steps without this detour."""
+
+        def step(*unnamed: object, dt: float | None = None, frames: int = 1) -> None:
+            if unnamed:
+                Engine.step(self, *unnamed)  # Refused there.
+            functions.step(self, dt, as_index(frames))
+
+        self.__dict__.update(_functions=functions, step=step)
+
+    def _refuse_functions(self, what: str) -> None:
+        if self._functions is not None:
+            raise CaromError(f"{what} knows no functions among the forces: remove them", "forces")
+
+    def next_event_time(self, within: float) -> float | None:
+        """The time of the next impact on the world's clock [s], if one comes so soon.
+
+        Only under the rule ``exact``, and without functions among the forces. It costs as much as a
+        copy of the world and the step to that impact. Other threads run meanwhile.
+
+        Args:
+            within: How soon [s]; None is the answer if none comes within it.
+
+        Raises:
+            CaromError: Under another rule, or if ``within`` is not positive and finite.
+            StepError: If a number would overflow, or there are too many impacts.
+        """
+        self._refuse_functions("next_event_time")
+        return super().next_event_time(within)
+
+    def step_to_next_event(self, within: float) -> None:
+        """Advances the world to its next impact, and answers it with all others at that instant.
+
+        By ``within`` [s] if none comes before; `impacts` tells which it was. Only under the rule
+        ``exact``, and without functions among the forces. Other threads run meanwhile. If the step
+        is refused, the world is as it was before the call.
+
+        Raises:
+            CaromError: Under another rule, or if ``within`` is not positive and finite.
+            StepError: If a number would overflow, or there are too many impacts.
+        """
+        self._refuse_functions("step_to_next_event")
+        super().step_to_next_event(within)
 
     @property
     def colliders(self) -> dict[int, parts.Collider]:
@@ -329,10 +547,15 @@ class World(Strict, Engine):
         self._set_simulation(f"simulation = {toml_value(simulation, 'simulation')}")
 
     def to_scene(self) -> Scene:
-        """A scene that begins as the world is now: time begins at 0 there, emitters begin anew."""
+        """A scene that begins as the world is now: time begins at 0 there, emitters begin anew.
+
+        Its spheres are `Points`, which read like a list of `Sphere`.
+        """
         from carom._scene import Scene
 
-        return Scene.from_toml(self._scene_toml())
+        self._refuse_functions("to_scene")
+        text, points = self._scene()
+        return replace(Scene.from_toml(text), spheres=Points._told(*points))
 
     # Pictures
 

@@ -50,10 +50,10 @@ def compressibility(
     # One collision of each sphere, so that the list of impacts of a frame is short.
     frame = 1 / collision_rate(packing_fraction)
     for _ in range(EQUILIBRATION):
-        world.step(frame)
+        world.step(dt=frame)
     begin, virial = world.time, 0.0
     for _ in range(collisions):
-        world.step(frame)
+        world.step(dt=frame)
         virial += DIAMETER * world.impacts["impulse"].sum()
     return float(1 + virial / (2 * world.kinetic_energy * (world.time - begin)))
 

@@ -1,5 +1,5 @@
 """What an array of a world is: the same memory while its spheres stay, never freed under its
-holder, never written to from outside."""
+holder; what is written into it, the next call takes over."""
 
 import gc
 
@@ -35,7 +35,7 @@ def test_a_step_writes_into_the_array_that_is_held() -> None:
     positions, velocities = world.positions, world.velocities
     places = address(positions), address(velocities)
     before = positions.copy()
-    world.step(0.1)
+    world.step(dt=0.1)
     assert (address(world.positions), address(world.velocities)) == places
     assert np.all(positions[:, 1] < before[:, 1])
     assert np.all(velocities[:, 1] < 0)
@@ -49,13 +49,111 @@ def test_arrays_are_float64_in_c_order() -> None:
         assert array.flags.c_contiguous and array.flags.aligned
 
 
-@pytest.mark.parametrize("quantity", QUANTITIES)
-def test_an_array_refuses_to_be_written_to(quantity: str) -> None:
+def test_ids_refuse_to_be_written_to() -> None:
     world = two_balls()
     with pytest.raises(ValueError, match="read-only"):
-        getattr(world, quantity)[0] = 1
+        world.ids[0] = 1
+
+
+def test_what_is_written_into_an_array_is_what_the_world_goes_on_with() -> None:
+    written, assigned = two_balls(), two_balls()
+    written.velocities[1] = (0, 0, 2)
+    written.positions += (0, 1, 0)
+    written.masses[0] = 3
+    written.restitutions[...] = 0.5
+    written.orientations[1] = (0, 2, 0, 0)
+    written.angular_velocities[0, 1] = 7
+    written.frictions[1] = 0.25
+    assigned.velocities = [(0, 0, 0), (0, 0, 2)]
+    assigned.positions = [(0, 6, 0), (3, 6, 0)]
+    assigned.masses = [3, 1]
+    assigned.restitutions = 0.5
+    assigned.orientations = [(0, 0, 0, 1), (0, 2, 0, 0)]
+    assigned.angular_velocities = [(0, 7, 0), (0, 0, 0)]
+    assigned.frictions = [np.nan, 0.25]
+    assert written.kinetic_energy == assigned.kinetic_energy == 2 + 0.5 * 0.4 * 3 * 0.25 * 49
+    assert written.state_hash == assigned.state_hash
+    assert written.orientations[1].tolist() == [0, 1, 0, 0]
+    assert written.sphere(1).friction == 0.25
+    for world in (written, assigned):
+        world.step(dt=0.1, frames=3)
+    assert written.state_hash == assigned.state_hash
+
+
+def test_a_force_written_into_its_array_acts() -> None:
+    world = two_balls()
+    world.applied_forces[1, 0] = 2
+    world.step(dt=0.5)
+    assert world.velocities[:, 0].tolist() == [0, 1]
+
+
+def test_a_sphere_that_nobody_wrote_to_keeps_its_flight_to_the_bit() -> None:
+    touched, alone = carom.load("gas").world(), carom.load("gas").world()
+    for world in (touched, alone):
+        world.step(dt=1e-4)
+    touched.velocities[0] = touched.velocities[0].copy()
+    for world in (touched, alone):
+        world.step(dt=1e-4)
+    assert touched.state_hash == alone.state_hash
+
+
+@pytest.mark.parametrize(
+    ("quantity", "row", "value", "problem"),
+    [
+        ("positions", 1, np.nan, r"positions\[1\]: must be finite"),
+        ("velocities", 0, np.inf, r"velocities\[0\]: must be finite"),
+        ("applied_forces", 1, -np.inf, r"applied_forces\[1\]: must be finite"),
+        ("masses", 1, -1.0, r"masses\[1\].*must be positive"),
+        ("radii", 0, 0.0, r"radii\[0\].*must be positive"),
+        ("restitutions", 1, 1.5, r"restitutions\[1\].*must be in"),
+        ("frictions", 0, -0.5, r"frictions\[0\].*must be"),
+        ("orientations", 1, 0.0, r"orientations\[1\]"),
+    ],
+)
+def test_a_bad_value_names_array_and_row_and_leaves_the_world(
+    quantity: str, row: int, value: float, problem: str
+) -> None:
+    world = two_balls()
+    before, array = world.state_hash, getattr(world, quantity)
+    held = array.copy()
+    # A good value beside the bad one is not taken over either.
+    world.velocities[:] = 5
+    array[row] = value
+    with pytest.raises(carom.CaromError, match=problem):
+        world.step()
+    assert world.time == 0
+    assert world.state_hash == before
+    np.testing.assert_array_equal(getattr(world, quantity), held)
+    assert not world.velocities.any()
+    world.step()
+
+
+def test_an_array_of_spheres_that_are_no_longer_all_is_not_to_be_written_to() -> None:
+    world = two_balls()
+    old = world.positions
+    world.remove_sphere(0)
     with pytest.raises(ValueError, match="read-only"):
-        getattr(world, quantity)[...] *= 2
+        old[0] = 1
+
+
+def test_every_call_notices_what_was_written() -> None:
+    def touched() -> carom.World:
+        world = two_balls()
+        world.positions[0] = (0, 9, 0)
+        return world
+
+    assert touched().sphere(0).position == (0, 9, 0)
+    assert touched().to_scene().spheres[0].position == (0, 9, 0)
+    assert touched().run(frames=1).positions[0, 0].tolist() == [0, 9, 0]
+    copied = carom.World()
+    copied.restore(touched().snapshot())
+    assert copied.positions[0].tolist() == [0, 9, 0]
+    added = touched()
+    added.add_sphere(carom.Sphere(position=(6, 5, 0), radius=0.5))
+    assert added.positions[0].tolist() == [0, 9, 0]
+    removed = touched()
+    removed.remove_sphere(1)
+    assert removed.positions.tolist() == [[0, 9, 0]]
 
 
 def test_an_array_outlives_its_world() -> None:
@@ -74,7 +172,7 @@ def test_an_array_keeps_its_last_values_when_a_sphere_comes() -> None:
     old = world.positions
     held = old.copy()
     world.add_sphere(carom.Sphere(position=(6, 5, 0), radius=0.5))
-    world.step(0.1)
+    world.step(dt=0.1)
     assert np.array_equal(old, held)
     assert world.positions.shape == (3, 3)
     assert not np.shares_memory(old, world.positions)
@@ -106,7 +204,7 @@ def test_restoring_writes_into_the_array_that_is_held() -> None:
     positions = world.positions
     before = positions.copy()
     snapshot = world.snapshot()
-    world.step(0.1)
+    world.step(dt=0.1)
     world.restore(snapshot)
     assert world.positions is positions
     assert np.array_equal(positions, before)

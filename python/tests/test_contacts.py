@@ -36,7 +36,7 @@ def ball_above_floor(rule: str = "exact") -> carom.World:
 def test_each_contact_of_a_column_carries_the_weight_above_it() -> None:
     world = column([1, 2, 4])
     assert len(world.contacts) == 0, "no step yet"
-    world.step(0.5)
+    world.step(dt=0.5)
     contacts = world.contacts
     assert contacts.dtype == carom.CONTACT
     # Pairs of spheres first, then the floor.
@@ -101,9 +101,9 @@ def test_a_time_that_makes_no_sense_is_refused(within: float) -> None:
 def test_the_work_of_a_frame_follows_from_the_world_alone() -> None:
     world = column([1, 2, 4])
     assert not any(world.work)
-    world.step(0.5)
+    world.step(dt=0.5)
     again = column([1, 2, 4])
-    again.step(0.5)
+    again.step(dt=0.5)
     assert world.work == again.work
     assert world.work.predictions > 0
     assert world.work.solver_iterations > 0

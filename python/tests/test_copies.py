@@ -19,7 +19,7 @@ def test_a_copy_goes_on_bit_for_bit_by_itself(
 ) -> None:
     # In the middle of flights, and with emitters at work.
     world = carom.load("simtest1", {"simulation.rule": rule}).world()
-    world.step(0.0137, frames=150)
+    world.step(dt=0.0137, frames=150)
     before = world.state_hash
     twin = make(world)
     assert (twin.state_hash, twin.time, len(twin)) == (before, world.time, len(world))
@@ -71,7 +71,7 @@ def test_spheres_keep_their_colours() -> None:
         colors=carom.Colors(spheres=BLUE),
     )
     world = scene.world()
-    world.step(0.5)
+    world.step(dt=0.5)
     assert colors(world) == [RED, GREEN, GREEN, BLUE, None]
     assert world.to_scene().colors == scene.colors
     added = world.add_sphere(carom.Sphere(position=(0, -5, 0), radius=0.1, color=GREEN))
@@ -80,7 +80,7 @@ def test_spheres_keep_their_colours() -> None:
     world.remove_sphere(1)
     snapshot = world.snapshot()
     # The second emitter at 0.75 s, the first at 1 s.
-    world.step(0.6)
+    world.step(dt=0.6)
     now = [RED, GREEN, BLUE, None, GREEN, None, None, BLUE]
     assert colors(world) == now
     assert colors(copy.copy(world)) == now
@@ -94,15 +94,15 @@ def test_spheres_keep_their_colours() -> None:
 def test_spheres_of_emitters_of_code_have_the_colour_of_theirs() -> None:
     world = carom.World()
     # Not at the end of a frame of its own.
-    world.step(0.123)
+    world.step(dt=0.123)
     red = carom.Emitter(carom.Sphere(radius=0.1, color=RED), 1.0)
     green = carom.Emitter(carom.Sphere(radius=0.1, color=GREEN), 0.75, position=(0, 5, 0))
     first = world.add_emitter(red)
     second = world.add_emitter(green)
     # At 0 both, at 0.75 green, at 1 red.
-    world.step(1.2)
+    world.step(dt=1.2)
     assert colors(world) == [RED, GREEN, GREEN, RED]
     world.remove_emitter(second)
     world.set_emitter(first, replace(red, sphere=carom.Sphere(radius=0.1, color=BLUE)))
-    world.step(1.0)
+    world.step(dt=1.0)
     assert colors(world) == [RED, GREEN, GREEN, RED, BLUE]

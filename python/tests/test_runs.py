@@ -1,5 +1,6 @@
 """Runs record what the command line records."""
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -81,3 +82,72 @@ def test_a_dataset_of_xarray() -> None:
     assert data.velocity.attrs["units"] == "m/s"
     height = data.position.sel(axis="y", sphere=0).isel(time=-1)
     assert float(height) == run.positions[-1, 0, 1]
+
+
+def test_a_run_records_what_is_asked_for() -> None:
+    scene = carom.load("tutorial4")
+    whole = scene.run(frames=5)
+    run = scene.run(frames=5, quantities=["positions"], dtype="float32")
+    assert run.positions.dtype == np.float32
+    np.testing.assert_array_equal(run.positions, whole.positions.astype(np.float32))
+    with pytest.raises(AttributeError, match="velocities were not recorded"):
+        _ = run.velocities
+    turned = scene.run(frames=1, quantities=["orientations"])
+    assert turned.orientations is not None and turned.orientations.shape == (2, 147, 4)
+    with pytest.raises(carom.CaromError, match=r"quantities: must be of .* not \"speeds\""):
+        scene.run(frames=1, quantities=["speeds"])  # type: ignore[list-item]
+    with pytest.raises(carom.CaromError, match="dtype: must be float64 or float32, not int64"):
+        scene.run(frames=1, dtype=int)
+
+
+@pytest.mark.parametrize("name", ["simtest4", "billiards"])
+def test_a_trajectory_is_saved_and_loaded_to_the_bit(name: str, tmp_path: Path) -> None:
+    run = carom.load(name).run(seconds=3)
+    run.save(tmp_path / "run.npz")
+    again = carom.Trajectory.load(tmp_path / "run.npz")
+    for field in dataclasses.fields(carom.Trajectory):
+        one, other = getattr(run, field.name), getattr(again, field.name)
+        assert (one is None) == (other is None)
+        if one is not None:
+            assert one.dtype == other.dtype
+            assert one.tobytes() == other.tobytes()
+
+
+def test_a_trajectory_of_the_command_line_is_loaded(tmp_path: Path) -> None:
+    path = tmp_path / "states.npz"
+    carom_command("run", "simtest4", "--seconds", "3", "--out", str(path))
+    again, run = carom.Trajectory.load(path), carom.load("simtest4").run(seconds=3)
+    # The command writes the state after each frame, and not the start.
+    np.testing.assert_array_equal(again.time, run.time[1:])
+    np.testing.assert_array_equal(again.positions, run.positions[1:])
+    np.testing.assert_array_equal(again.velocities, run.velocities[1:])
+    np.testing.assert_array_equal(again.ids, run.ids)
+    np.testing.assert_array_equal(again.radii, run.radii)
+    np.testing.assert_array_equal(again.masses, run.masses)
+    assert len(again.impacts) == 0
+
+
+def test_the_arrays_of_a_saved_trajectory_are_those_of_the_command_line(tmp_path: Path) -> None:
+    theirs, ours = tmp_path / "theirs.npz", tmp_path / "ours.npz"
+    carom_command("run", "billiards", "--frames", "9", "--out", str(theirs))
+    carom.load("billiards").run(frames=9).save(ours)
+    with np.load(theirs) as one, np.load(ours) as other:
+        assert set(one.files) | {"impacts"} == set(other.files)
+        for name in one.files:
+            assert one[name].dtype == other[name].dtype
+            # The start is in one of them.
+            start = {"frame_start": 1, "time": 1, "id": 0, "radius": 0, "mass": 0}.get(name, 16)
+            if name != "frame_start":
+                np.testing.assert_array_equal(one[name], other[name][start:])
+
+
+def test_a_file_of_something_else_is_no_trajectory(tmp_path: Path) -> None:
+    path = tmp_path / "other.npz"
+    np.savez(path, a=np.zeros(3))
+    with pytest.raises(carom.CaromError, match=r"other\.npz: no trajectory of carom"):
+        carom.Trajectory.load(path)
+    path.write_bytes(b"PK but no archive")
+    with pytest.raises(carom.CaromError, match="no trajectory of carom"):
+        carom.Trajectory.load(path)
+    with pytest.raises(FileNotFoundError):
+        carom.Trajectory.load(tmp_path / "none.npz")

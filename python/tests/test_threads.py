@@ -1,9 +1,13 @@
 """Long calls let other threads of Python run, and can be stopped."""
 
+import multiprocessing
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
+from collections.abc import Callable
 
 import pytest
 from interrupts import ctrl_c
@@ -13,11 +17,16 @@ import carom
 
 def gas() -> carom.World:
     """A world that takes a while to step."""
-    lattice = carom.Lattice((10, 10, 10), (-9, -9, -9), (2, 2, 2), carom.Sphere(radius=0.6))
-    box = carom.Simulation(boundary=carom.Periodic((20, 20, 20)))
-    world = carom.Scene(name="gas", simulation=box, generators=[lattice]).world()
+    world = gas_scene().world()
     world.velocities = [(i % 7 - 3, i % 5 - 2, i % 3 - 1) for i in range(1000)]
     return world
+
+
+def gas_scene() -> carom.Scene:
+    """The scene of it, where all is at rest."""
+    lattice = carom.Lattice((10, 10, 10), (-9, -9, -9), (2, 2, 2), carom.Sphere(radius=0.6))
+    box = carom.Simulation(boundary=carom.Periodic((20, 20, 20)))
+    return carom.Scene(name="gas", simulation=box, generators=[lattice])
 
 
 @pytest.mark.parametrize("call", ["step", "run"])
@@ -84,10 +93,14 @@ def test_a_heap_is_stepped_in_a_forked_process_as_in_its_parent() -> None:
 
 def test_a_run_is_stopped_by_ctrl_c() -> None:
     world = gas()
-    with pytest.raises(KeyboardInterrupt), ctrl_c(after=0.5):
+    with pytest.raises(KeyboardInterrupt) as stop, ctrl_c(after=0.5):
         world.run(seconds=1e6)
     stopped = world.time
     assert 0 < stopped < 1e6
+    # What was recorded until then is there.
+    trajectory = stop.value.trajectory  # type: ignore[attr-defined]
+    assert trajectory.time[-1] == stopped
+    assert trajectory.positions[-1].tolist() == world.positions.tolist()
     world.step()
     assert world.time > stopped
 
@@ -96,7 +109,7 @@ def test_a_frame_of_minutes_is_stopped_by_ctrl_c() -> None:
     world = gas()
     before = world.state_hash
     with pytest.raises(KeyboardInterrupt), ctrl_c(after=0.5):
-        world.step(1e6)
+        world.step(dt=1e6)
     assert world.time == 0
     assert world.state_hash == before
     world.step()
@@ -118,7 +131,7 @@ def test_a_signal_handler_in_the_middle_of_a_step_is_not_kept_waiting() -> None:
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.3)
         with pytest.raises(InterruptedError):
-            world.step(1e6)
+            world.step(dt=1e6)
     finally:
         signal.signal(signal.SIGALRM, before)
     assert seen == ["0.0", "this world is in the middle of a step"]
@@ -140,3 +153,111 @@ def test_a_signal_handler_may_ask_the_world_how_far_it_is() -> None:
     finally:
         signal.signal(signal.SIGALRM, before)
     assert seen == [world.time]
+
+
+def few(n: int, threads: int = 2) -> carom.Batch:
+    """Worlds of a few balls that collide often."""
+    return carom.Batch("gas", n, threads=threads)
+
+
+def many_frames() -> None:
+    gas().step(dt=1e-3, frames=10**9)
+
+
+def many_worlds() -> None:
+    few(4).step(dt=1e-3, frames=10**9)
+
+
+def many_worlds_in_one_thread() -> None:
+    few(4, threads=1).step(dt=1e-3, frames=10**9)
+
+
+def a_long_run() -> None:
+    gas().run(frames=10**6, dt=1e-3, quantities=[])
+
+
+@pytest.mark.parametrize("call", [many_frames, many_worlds, many_worlds_in_one_thread, a_long_run])
+def test_ctrl_c_ends_every_long_call(call: Callable[[], None]) -> None:
+    with pytest.raises(KeyboardInterrupt), ctrl_c(after=0.3):
+        call()
+
+
+def test_worlds_of_a_batch_that_was_stopped_are_at_the_end_of_a_frame() -> None:
+    batch = few(4)
+    with pytest.raises(KeyboardInterrupt), ctrl_c(after=0.3):
+        batch.step(dt=1e-3, frames=10**9)
+    world = few(1).world(0)
+    world.step(dt=1e-3, frames=round(batch.times[0] / 1e-3))
+    assert int(world.state_hash, 16) == batch.state_hashes[0]
+
+
+def stepped_by(process: multiprocessing.Process) -> int:
+    process.start()
+    process.join(30)
+    if process.is_alive():
+        process.kill()
+        pytest.fail("a child waits for threads of its parent")
+    assert process.exitcode is not None
+    return process.exitcode
+
+
+@pytest.mark.filterwarnings("ignore:.*use of fork:DeprecationWarning")
+@pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
+def test_batches_and_environments_step_in_children_of_every_kind(method: str) -> None:
+    # Threads are at work in the parent before.
+    batch_in_a_child()
+    context = multiprocessing.get_context(method)
+    for _ in range(5):
+        assert stepped_by(context.Process(target=batch_in_a_child)) == 0  # type: ignore[attr-defined]
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no forked processes")
+@pytest.mark.filterwarnings("ignore:.*use of fork:DeprecationWarning")
+def test_a_batch_made_before_a_fork_is_stepped_after_it() -> None:
+    batch = few(8)
+    batch.step(frames=2)
+    for _ in range(50):
+        child = os.fork()
+        if child == 0:
+            signal.alarm(20)
+            batch.step()
+            os._exit(int(batch.state_hashes[0] % 251))
+        batch.step()
+        _, status = os.waitpid(child, 0)
+        assert os.waitstatus_to_exitcode(status) == batch.state_hashes[0] % 251
+
+
+def batch_in_a_child() -> None:
+    batch = few(8)
+    batch.step(frames=2)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of memory are those of Linux")
+@pytest.mark.parametrize(
+    "call",
+    [
+        "world.run(frames=20_000)",
+        "world.run(frames=20_000, dtype='float32')",
+        "world.run(frames=2**63)",
+        "carom.Batch('tutorial4', 10**9)",
+    ],
+)
+def test_what_does_not_fit_into_memory_is_refused_before_the_work(call: str) -> None:
+    program = f"""
+import resource
+import carom
+
+scene = carom.load("gas")
+ball = carom.Sphere(radius=0.01)
+balls = carom.Lattice((40, 25, 10), (0, 0, 0), (0.1, 0.1, 0.1), ball)
+world = carom.Scene(name="many", generators=[balls]).world()
+resource.setrlimit(resource.RLIMIT_AS, (3 * 2**30, 3 * 2**30))
+try:
+    {call}
+except MemoryError as error:
+    assert world.time == 0
+    print("refused:", error)
+"""
+    answer = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert answer.returncode == 0, answer.stderr
+    assert answer.stdout.startswith("refused:")

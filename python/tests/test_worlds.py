@@ -87,7 +87,7 @@ def test_parts_are_added_changed_and_removed() -> None:
 
     floor = world.add_collider(carom.Collider(carom.HalfSpace(), restitution=0.5, name="floor"))
     lift = world.add_collider(carom.Collider(carom.Box((1, 1, 1)), (0, 5, 0), velocity=(0, 1, 0)))
-    world.step(1.0)
+    world.step(dt=1.0)
     assert world.colliders[lift].position == (0, 6, 0)
     assert world.colliders[floor].name == "floor"
     world.set_collider(floor, carom.Collider(carom.Rectangle(2, 3)))
@@ -97,12 +97,12 @@ def test_parts_are_added_changed_and_removed() -> None:
 
     source = carom.Emitter(carom.Sphere(radius=0.1), period=0.5, position=(0, 9, 0), max_spheres=2)
     emitter = world.add_emitter(source)
-    world.step(1.2)
+    world.step(dt=1.2)
     assert world.emitted.tolist() == [0, 1, 2]
     assert world.retired.tolist() == [0]
     assert world.emitters[emitter].max_spheres == 2
     world.remove_emitter(emitter)
-    world.step(5.0)
+    world.step(dt=5.0)
     assert (world.ids.tolist(), world.emitters) == ([1, 2], {})
 
     ball = carom.Sphere(position=(7, 7, 7), radius=0.25, mass=2.0, restitution=0.5)
@@ -113,22 +113,22 @@ def test_parts_are_added_changed_and_removed() -> None:
 def test_an_emitter_that_needs_room_leaves_spheres_out() -> None:
     still = carom.Emitter(carom.Sphere(radius=0.1), period=0.5, needs_room=True)
     world = carom.Scene(name="full", emitters=[still]).world()
-    world.step(1.2)
+    world.step(dt=1.2)
     assert (world.emitted.tolist(), world.left_out.tolist()) == ([0], [1, 2])
     assert world.emitters[0].needs_room
     world.set_emitter(0, dataclasses.replace(still, needs_room=None))
-    world.step(0.5)
+    world.step(dt=0.5)
     assert (world.emitted.tolist(), world.left_out.tolist()) == ([3], [])
 
 
 def test_an_emitter_ends_with_its_count_and_goes_on_with_a_larger_one() -> None:
     source = carom.Emitter(carom.Sphere(radius=0.1, velocity=(9, 0, 0)), period=0.5, count=2)
     world = carom.Scene(name="two", emitters=[source]).world()
-    world.step(5.0)
+    world.step(dt=5.0)
     assert world.emitted.tolist() == [0, 1]
     assert world.emitters[0].count == 2
     world.set_emitter(0, dataclasses.replace(source, count=3))
-    world.step(5.0)
+    world.step(dt=5.0)
     assert world.emitted.tolist() == [2]
     with pytest.raises(ValueError, match="count: must be at least 1"):
         world.set_emitter(0, dataclasses.replace(source, count=0))
@@ -141,7 +141,7 @@ def test_how_a_world_is_stepped_can_be_changed() -> None:
     assert world.simulation.boundary == carom.Periodic((4, 5, float("inf")))
     assert world.frame_time == 0.25
     world.add_sphere(carom.Sphere(position=(1.5, 0, 0), velocity=(1, 0, 0), radius=0.5))
-    world.step(1.0)
+    world.step(dt=1.0)
     # What leaves through a face comes in through the opposite one.
     assert world.positions.tolist() == [[-1.5, 0, 0]]
 
@@ -150,7 +150,7 @@ def test_triggers_report_who_is_inside() -> None:
     world = carom.World()
     gate = world.add_collider(carom.Collider(carom.Box((2, 2, 2)), trigger=True))
     ball = world.add_sphere(carom.Sphere(position=(1, 0, 0), radius=0.5))
-    world.step(0.1)
+    world.step(dt=0.1)
     assert world.triggers[["collider", "sphere"]].tolist() == [(gate, ball)]
 
 

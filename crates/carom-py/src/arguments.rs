@@ -3,6 +3,7 @@
 use numpy::{PyArrayDyn, PyArrayMethods};
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyTuple};
 
 use crate::failure::Failure;
 
@@ -43,6 +44,9 @@ pub fn array(name: &str, values: &Bound<'_, PyAny>, shape: &[usize]) -> PyResult
 /// # Errors
 /// `TypeError` for what is none.
 pub fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    if value.is_instance_of::<PyBool>() {
+        return Err(wrong_kind(name, "a number", value));
+    }
     value.extract().map_err(|_| wrong_kind(name, "a number", value))
 }
 
@@ -60,6 +64,9 @@ pub fn optional_number(name: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult
 /// `TypeError` for what is no whole number, [`Failure`] for one that is negative or too large.
 pub fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
     let py = value.py();
+    if value.is_instance_of::<PyBool>() {
+        return Err(wrong_kind(name, "a whole number", value));
+    }
     value.extract().map_err(|error: PyErr| match error.is_instance_of::<PyOverflowError>(py) {
         true => Failure::value(name, format_args!("must be in [0, 2^64), not {value}")).into(),
         false => wrong_kind(name, "a whole number", value),
@@ -76,6 +83,19 @@ pub fn id(kind: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
         true => Failure::unknown(kind, value).into(),
         false => wrong_kind("id", "a whole number", value),
     })
+}
+
+/// Refuses arguments without a name in a call of `method`: `example` has the names that there are.
+///
+/// # Errors
+/// `TypeError` if there are any.
+pub fn none_unnamed(method: &str, unnamed: &Bound<'_, PyTuple>, example: &str) -> PyResult<()> {
+    if unnamed.is_empty() {
+        return Ok(());
+    }
+    let given = unnamed.get_item(0)?.repr()?;
+    let message = format!("{method}({given}): say what {given} is by its name, like {example}");
+    Err(PyTypeError::new_err(message))
 }
 
 fn wrong_kind(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyErr {

@@ -2,14 +2,17 @@
 //!
 //! The memory belongs to Python: a script can read an array for as long as it holds it, whatever
 //! becomes of the world. To read costs nothing; for that, the world writes an array anew after
-//! every frame once a script has read it, as long as the same spheres are there. When spheres come
+//! every frame once a script has read it, as long as the same spheres are there. What a script writes into
+//! an array, the world takes over at its next call. When spheres come
 //! or go, the world lets go of its arrays and makes others at the next read; the old ones keep the
-//! last values of their spheres.
+//! last values of their spheres, and cannot be written to.
 
 use carom::{DQuat, Friction, SOLID_BALL, SphereId, Spheres};
-use numpy::{PyArray, PyArray1, PyArrayDyn, PyArrayMethods};
+use numpy::{Element, PyArray, PyArray1, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
+
+use crate::written::Written;
 
 /// A quantity that all spheres have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,6 +122,11 @@ impl Quantity {
             Self::TangentialRestitutions => Some(&mut friction.tangential_restitution),
             _ => None,
         }
+    }
+
+    /// What it is of the sphere in this row.
+    pub fn row(self, values: &[f64], row: usize) -> &[f64] {
+        &values[row * self.width()..(row + 1) * self.width()]
     }
 
     /// The shape of its array for `count` spheres.
@@ -238,11 +246,40 @@ impl Quantities {
     }
 }
 
+impl Quantities {
+    /// What a script has written: where arrays no longer have the values that `fill` writes.
+    pub fn written(&self, py: Python<'_>, fill: impl Fn(Quantity, &mut [f64])) -> Vec<Written> {
+        let mut all = Vec::new();
+        for (quantity, shown) in Quantity::ALL.into_iter().zip(&self.0) {
+            let Some(shown) = shown else { continue };
+            let Ok(array) = shown.own.bind(py).try_readonly() else { continue };
+            let Ok(values) = array.as_slice() else { continue };
+            let mut own = vec![0.0; values.len()];
+            fill(quantity, &mut own);
+            let differs = |(one, other): (&f64, &f64)| one.to_bits() != other.to_bits();
+            if !values.iter().zip(&own).any(differs) {
+                continue;
+            }
+            let width = quantity.width();
+            let both = values.chunks_exact(width).zip(own.chunks_exact(width)).enumerate();
+            let rows = both.filter(|(_, (values, own))| values.iter().zip(*own).any(differs));
+            let rows = rows.map(|(row, _)| row).collect();
+            all.push(Written { quantity, values: values.to_vec(), rows });
+        }
+        all
+    }
+
+    /// Has NumPy refuse to write to the arrays from now on.
+    fn freeze(&self, py: Python<'_>) -> PyResult<()> {
+        self.0.iter().flatten().try_for_each(|shown| freeze(shown.view.bind(py)))
+    }
+}
+
 /// An array, and what Python gets to see of it.
 #[derive(Debug)]
 struct Shown {
     own: Py<PyArrayDyn<f64>>,
-    /// The same memory, not to be written to.
+    /// The same memory. It is another array for the world to write into, whatever a script makes of this one.
     view: Py<PyAny>,
 }
 
@@ -250,7 +287,7 @@ impl Shown {
     /// An array of these values.
     fn new(py: Python<'_>, values: Vec<f64>, shape: Vec<usize>) -> PyResult<Self> {
         let own = PyArray1::from_vec(py, values).reshape(shape)?;
-        let view = read_only(&own)?;
+        let view = own.call_method0("view")?.unbind();
         Ok(Self { own: own.unbind(), view })
     }
 
@@ -282,14 +319,14 @@ impl Arrays {
         quantity: Quantity,
         spheres: &Spheres,
     ) -> PyResult<Py<PyAny>> {
-        self.follow(spheres);
+        self.follow(py, spheres)?;
         let shape = quantity.shape(spheres.len());
         self.quantities.get(py, quantity, shape, |values| quantity.write(spheres, values))
     }
 
     /// Ids, ascending.
     pub fn ids(&mut self, py: Python<'_>, spheres: &Spheres) -> PyResult<Py<PyArray1<u64>>> {
-        self.follow(spheres);
+        self.follow(py, spheres)?;
         if let Some(ids) = &self.ids {
             return Ok(ids.clone_ref(py));
         }
@@ -310,29 +347,34 @@ impl Arrays {
         self.write(py, spheres, &Quantity::ALL);
     }
 
+    /// What a script has written into them.
+    pub fn written(&self, py: Python<'_>, spheres: &Spheres) -> Vec<Written> {
+        if self.members != spheres.ids() {
+            return Vec::new();
+        }
+        self.quantities.written(py, |quantity, values| quantity.write(spheres, values))
+    }
+
     fn write(&mut self, py: Python<'_>, spheres: &Spheres, quantities: &[Quantity]) {
-        self.follow(spheres);
+        // An array that could not be frozen is let go of all the same.
+        let _ = self.follow(py, spheres);
         self.quantities.write(py, quantities, |quantity, values| quantity.write(spheres, values));
     }
 
     /// Lets go of the arrays if their spheres are others.
-    fn follow(&mut self, spheres: &Spheres) {
-        if self.members != spheres.ids() {
-            *self = Self { members: spheres.ids().to_vec(), ..Self::default() };
+    fn follow(&mut self, py: Python<'_>, spheres: &Spheres) -> PyResult<()> {
+        if self.members == spheres.ids() {
+            return Ok(());
         }
+        let members = spheres.ids().to_vec();
+        let old = std::mem::replace(self, Self { members, ..Self::default() });
+        old.quantities.freeze(py)
     }
 }
 
 /// Ids as an array of their own.
 pub fn numbers<'py>(py: Python<'py>, ids: &[SphereId]) -> Bound<'py, PyArray1<u64>> {
     PyArray1::from_vec(py, ids.iter().map(|id| id.number()).collect())
-}
-
-/// Another array of the same memory, not to be written to.
-fn read_only(array: &Bound<'_, PyArrayDyn<f64>>) -> PyResult<Py<PyAny>> {
-    let view = array.call_method0("view")?;
-    freeze(&view)?;
-    Ok(view.unbind())
 }
 
 /// Has NumPy refuse to write to an array.
@@ -342,10 +384,10 @@ fn freeze(array: &Bound<'_, PyAny>) -> PyResult<()> {
 }
 
 /// A list of numbers as an array of this shape; the memory goes to Python uncopied.
-pub fn shaped<'py>(
+pub fn shaped<'py, T: Element>(
     py: Python<'py>,
-    values: Vec<f64>,
+    values: Vec<T>,
     shape: Vec<usize>,
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
     PyArray::from_vec(py, values).reshape(shape)
 }

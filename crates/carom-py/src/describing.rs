@@ -1,13 +1,14 @@
 //! Telling what is in a world, as JSON. Infinite numbers are `null`.
 
 use carom::SphereId;
-use carom_scene::Paint;
 use carom_scene::scene::{Collider, Sphere};
+use carom_scene::{Paint, Scene};
 use pyo3::prelude::*;
 
 use crate::arguments;
 use crate::engine::{Engine, Inner};
 use crate::failure::Failure;
+use crate::points;
 
 #[pymethods]
 impl Engine {
@@ -51,20 +52,20 @@ impl Engine {
         json(&described(&sphere, inner.palette.own(id)))
     }
 
-    /// The text of a scene that begins as the world is now: time begins at 0 there, and emitters
-    /// begin anew.
-    #[pyo3(name = "_scene_toml")]
-    fn scene_toml(&self, py: Python<'_>) -> PyResult<String> {
+    /// The text of a scene that begins as the world is now, but for its spheres, and these: time begins at 0
+    /// there, and emitters begin anew.
+    #[pyo3(name = "_scene")]
+    fn scene<'py>(&self, py: Python<'py>) -> PyResult<(String, points::Told<'py>)> {
         let inner = &mut *self.lock(py)?;
         inner.follow_colors();
         let mut scene = (*inner.described).clone();
         scene.colliders = colliders_now(inner);
-        scene.spheres = spheres_now(inner);
         // Rules that find contacts late let spheres overlap; a scene has to admit it.
-        if !scene.simulation.allow_overlap && scene.world().is_err() {
-            scene.simulation.allow_overlap = true;
+        if !scene.simulation.allow_overlap {
+            let whole = Scene { spheres: spheres_now(inner), ..scene.clone() };
+            scene.simulation.allow_overlap = whole.world().is_err();
         }
-        Ok(scene.to_toml())
+        Ok((scene.to_toml(), points::told(py, &inner.world, &inner.palette)?))
     }
 }
 

@@ -5,7 +5,10 @@
 
 use std::sync::Arc;
 
-use carom::{Collider, ColliderId, DVec3, Emitter, EmitterId, ForceId, Sphere, SphereId, World};
+use carom::{
+    BodyPair, Collider, ColliderId, DVec3, Emitter, EmitterId, ForceId, Overlap, Sphere, SphereId,
+    World,
+};
 use carom_scene::{Paint, Scene};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -16,6 +19,7 @@ use crate::arrays::{self, Column, Quantity};
 use crate::engine::{Engine, Inner, changed};
 use crate::failure::Failure;
 use crate::part::{self, only};
+use crate::points;
 
 /// Adding. What is refused leaves the world as it was.
 #[pymethods]
@@ -43,16 +47,19 @@ impl Engine {
         py: Python<'py>,
         count: usize,
         quantities: [Option<Bound<'py, PyAny>>; Quantity::OF_A_SPHERE.len()],
+        may_overlap: bool,
     ) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        let read = |(quantity, values): (Quantity, Option<_>)| {
-            let array = |values| arguments::array(quantity.name(), &values, &quantity.shape(count));
-            Some(array(values?).map(|values| (quantity, values)))
-        };
-        let given = Quantity::OF_A_SPHERE.into_iter().zip(quantities);
-        let columns: Vec<Column> = given.filter_map(read).collect::<PyResult<_>>()?;
+        let columns = points::columns(count, quantities)?;
         let spheres: Vec<Sphere> = (0..count).map(|index| sphere_at(&columns, index)).collect();
         let ids = self.change(py, |inner| {
+            let before = (!may_overlap).then(|| inner.world.snapshot());
             let ids = add_all(&mut inner.world, &spheres)?;
+            if let Some(before) = before
+                && let Some(failure) = overlap_of(&inner.world, &ids)
+            {
+                inner.world.restore(&before);
+                return Err(failure);
+            }
             ids.iter().for_each(|id| inner.palette_mut().add_sphere(id.number(), Paint::default()));
             Ok(ids)
         })?;
@@ -126,6 +133,17 @@ impl Engine {
             inner.world.remove_sphere(SphereId::from_number(id))?;
             Ok(())
         })
+    }
+
+    /// Takes spheres out of the world, those of these ids, or those that n truth values mark. Those after
+    /// them move up in the arrays.
+    ///
+    /// Raises:
+    ///     UnknownError: If one of them is not in the world (any more); then none is taken out.
+    #[pyo3(name = "_remove_spheres")]
+    fn remove_spheres(&self, py: Python<'_>, ids: Vec<u64>) -> PyResult<()> {
+        let ids: Vec<SphereId> = ids.into_iter().map(SphereId::from_number).collect();
+        self.change(py, |inner| Ok(inner.world.remove_spheres(&ids)?))
     }
 
     /// Puts the force that `text` describes in the place of another.
@@ -237,19 +255,50 @@ impl Inner {
     }
 }
 
-/// Adds spheres; if one is refused, none is added.
+/// Adds spheres; if one is refused, none is added, and the error tells its number among them.
 fn add_all(world: &mut World, spheres: &[Sphere]) -> Result<Vec<SphereId>, Failure> {
     let before = world.snapshot();
-    let added: Result<Vec<SphereId>, carom::Error> =
-        spheres.iter().map(|sphere| world.add_sphere(*sphere)).collect();
+    let add = |(number, sphere): (usize, &Sphere)| {
+        let added = world.add_sphere(*sphere);
+        added.map_err(|error| match spheres.len() {
+            1 => Failure::from(error),
+            _ => Failure::from(error).about(&format!("spheres[{number}]")),
+        })
+    };
+    let added: Result<Vec<SphereId>, Failure> = spheres.iter().enumerate().map(add).collect();
     if added.is_err() {
         world.restore(&before);
     }
-    Ok(added?)
+    added
 }
 
+/// What is wrong if one of these spheres, the last of a world, overlaps something.
+fn overlap_of(world: &World, added: &[SphereId]) -> Option<Failure> {
+    let first = added.first()?;
+    let is_of_them = |overlap: &Overlap| match overlap.between {
+        BodyPair::Spheres(one, other) => one >= *first || other >= *first,
+        BodyPair::Collider { sphere, .. } => sphere >= *first,
+    };
+    let overlap = world.find_overlap(|overlap| overlap.depth > ROUNDING && is_of_them(overlap))?;
+    let place = |id: SphereId| match id.number().checked_sub(first.number()) {
+        Some(number) => format!("sphere {number} of these"),
+        None => format!("the sphere with the id {}", id.number()),
+    };
+    let (sphere, other) = match overlap.between {
+        BodyPair::Spheres(one, other) => (place(other), place(one)),
+        BodyPair::Collider { collider, sphere } => {
+            (place(sphere), format!("the collider with the id {}", collider.number()))
+        }
+    };
+    let problem = format_args!("{sphere} overlaps {other} by {:.3e} m", overlap.depth);
+    Some(Failure::value("positions", problem))
+}
+
+/// Overlaps of so much \[m\] are rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// The sphere at an index of columns.
-fn sphere_at(columns: &[Column], index: usize) -> Sphere {
+pub fn sphere_at(columns: &[Column], index: usize) -> Sphere {
     columns.iter().fold(Sphere::new(DVec3::ZERO, 1.0), |sphere, (quantity, values)| {
         let width = quantity.width();
         changed(sphere, *quantity, &values[width * index..width * (index + 1)])

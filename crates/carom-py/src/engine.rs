@@ -11,16 +11,18 @@ use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
+use pyo3::types::PyTuple;
 
 use crate::arguments;
 use crate::arrays::{self, Arrays, Quantity};
-
 use crate::failure::Failure;
+use crate::points;
 use crate::properties::sphere_properties;
 use crate::snapshot::Snapshot;
 use crate::stop;
 use crate::tables::Table;
 use crate::threads;
+use crate::written;
 
 /// What `carom.World` stands on: a world, and the arrays that Python sees of it.
 ///
@@ -74,14 +76,29 @@ impl Inner {
         self.frame_start = snapshot.time;
     }
 
+    /// Has Python's signals stop the frames that follow.
+    pub fn heed_signals(&mut self) {
+        self.world.set_stop_request(Some(stop::on_signal()));
+    }
+
     /// Takes one frame.
     pub fn take_frame(&mut self, dt: f64) -> Result<(), carom::Error> {
         let start = self.world.time();
-        self.world.set_stop_request(Some(stop::on_signal()));
         let world = &mut self.world;
         threads::among_all(world.spheres().len(), || world.step(dt).map(|_| ()))?;
         self.frame_start = start;
         Ok(())
+    }
+
+    /// Takes over what a script has written into arrays; if the world refuses it, they are as the world again.
+    fn take_written(&mut self, py: Python<'_>) -> Result<(), Failure> {
+        let written = self.arrays.written(py, self.world.spheres());
+        if written.is_empty() {
+            return Ok(());
+        }
+        let taken = written::take_over(&mut self.world, &written, |row| row.to_string());
+        self.arrays.write_all(py, self.world.spheres());
+        taken
     }
 
     /// The length of a frame \[s\]: `dt`, or the scene's own.
@@ -91,9 +108,19 @@ impl Inner {
 }
 
 impl Engine {
+    /// Waits until no other thread is at work on this world, and takes over what was written into its arrays.
+    ///
+    /// # Errors
+    /// [`Failure`] if the world refuses what was written.
+    pub fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
+        let mut inner = self.lock_as_it_is(py)?;
+        inner.take_written(py)?;
+        Ok(inner)
+    }
+
     /// Waits until no other thread is at work on this world. The handler of a signal that comes in the
     /// middle of a step of this world would wait for itself.
-    pub fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
+    fn lock_as_it_is(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
         if stop::is_in_handler() {
             let at_work = |_| PyRuntimeError::new_err("this world is in the middle of a step");
             return self.0.try_lock().map_err(at_work);
@@ -119,11 +146,17 @@ impl Engine {
 /// Making a world, and moving it.
 #[pymethods]
 impl Engine {
-    /// The world at the start of the scene that `text` describes in TOML.
+    /// The world at the start of the scene that `text` describes in TOML; its spheres are those of `points`, if
+    /// there are any.
     #[new]
-    fn new(text: &str) -> Result<Self, Failure> {
+    #[pyo3(signature = (text, points = None))]
+    fn new(text: &str, points: Option<points::Given<'_>>) -> PyResult<Self> {
         let mut scene = Scene::from_toml(text, "scene").map_err(Failure::of_part)?;
-        let (world, palette) = (scene.world()?, Arc::new(Palette::new(&scene)?));
+        if let Some(points) = points {
+            scene.spheres = points::read(points)?;
+        }
+        let world = scene.world().map_err(Failure::of_part)?;
+        let palette = Arc::new(Palette::new(&scene).map_err(Failure::from)?);
         scene.spheres.clear();
         scene.colliders = scene.all_colliders().into_owned();
         scene.generators.clear();
@@ -133,20 +166,27 @@ impl Engine {
 
     /// Advances the world by `frames` frames of `dt` [s], or of the scene's own frame time.
     ///
-    /// Other threads run meanwhile. If a frame is refused, the world is as it was before the call.
+    /// Both go by their names. Other threads run meanwhile. If a frame is refused, the world is as it was
+    /// before the call.
     ///
     /// Raises:
     ///     CaromError: If `dt` is not positive and finite, an emitter runs away, or a periodic box
     ///         is too small for the spheres.
     ///     StepError: If a number would overflow, or there are too many impacts.
-    ///     KeyboardInterrupt: On Ctrl-C, within half a second, however long the frame.
-    #[pyo3(signature = (dt = None, *, frames = None), text_signature = "($self, dt=None, *, frames=1)")]
+    ///     KeyboardInterrupt: On Ctrl-C, within a tenth of a second; the world is then as it was before the
+    ///         call.
+    #[pyo3(
+        signature = (*unnamed, dt = None, frames = None),
+        text_signature = "($self, *, dt=None, frames=1)"
+    )]
     fn step(
         &self,
         py: Python<'_>,
+        unnamed: &Bound<'_, PyTuple>,
         dt: Option<&Bound<'_, PyAny>>,
         frames: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
+        arguments::none_unnamed("step", unnamed, "frames=10 or dt=0.01 [s]")?;
         let dt = arguments::optional_number("dt", dt)?;
         let frames = frames.map_or(Ok(1), |frames| arguments::count("frames", frames))?;
         let mut guard = self.lock(py)?;
@@ -160,18 +200,18 @@ impl Engine {
     /// Time since the beginning [s].
     #[getter]
     fn time(&self, py: Python<'_>) -> PyResult<f64> {
-        Ok(self.lock(py)?.world.time())
+        Ok(self.lock_as_it_is(py)?.world.time())
     }
 
     /// Length of a frame of the scene [s].
     #[getter]
     fn frame_time(&self, py: Python<'_>) -> PyResult<f64> {
-        Ok(self.lock(py)?.frame_time(None))
+        Ok(self.lock_as_it_is(py)?.frame_time(None))
     }
 
     /// The number of spheres.
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
-        Ok(self.lock(py)?.world.spheres().len())
+        Ok(self.lock_as_it_is(py)?.world.spheres().len())
     }
 
     /// The state as 16 hexadecimal digits, equal for equal states on every platform.
@@ -198,6 +238,7 @@ impl Engine {
 
 /// Takes frames of `dt` \[s\]; if one of them is refused, none was taken.
 fn step(inner: &mut Inner, dt: f64, frames: u64) -> Result<(), Failure> {
+    inner.heed_signals();
     // A single frame that is refused leaves the world as it was by itself.
     let before = (frames > 1).then(|| inner.snapshot());
     for _ in 0..frames {
@@ -216,21 +257,21 @@ impl Engine {
     /// Ids, ascending, shape (n,), uint64. An id is never given twice in one world.
     #[getter]
     fn ids(&self, py: Python<'_>) -> PyResult<Py<PyArray1<u64>>> {
-        let inner = &mut *self.lock(py)?;
+        let inner = &mut *self.lock_as_it_is(py)?;
         inner.arrays.ids(py, inner.world.spheres())
     }
 }
 
 impl Engine {
     fn quantity(&self, py: Python<'_>, quantity: Quantity) -> PyResult<Py<PyAny>> {
-        let inner = &mut *self.lock(py)?;
+        let inner = &mut *self.lock_as_it_is(py)?;
         inner.arrays.get(py, quantity, inner.world.spheres())
     }
 
     fn set_quantity(&self, quantity: Quantity, values: &Bound<'_, PyAny>) -> PyResult<()> {
         let py = values.py();
         // To read what Python gives can run any code of Python: not under the lock.
-        let count = self.lock(py)?.world.spheres().len();
+        let count = self.lock_as_it_is(py)?.world.spheres().len();
         let values = arguments::array(quantity.name(), values, &quantity.shape(count))?;
         self.change(py, |inner| {
             if inner.world.spheres().len() != count {
@@ -377,6 +418,19 @@ impl Engine {
         let inner = &*self.lock(py)?;
         let mut table = Table::default();
         table.push_triggers(&inner.world.report().triggers);
+        Ok(PyArray1::from_vec(py, table.into_words()))
+    }
+
+    /// The spheres that overlap something by more than `tolerance` [m], as words.
+    #[pyo3(name = "_overlap_words")]
+    fn overlap_words<'py>(
+        &self,
+        py: Python<'py>,
+        tolerance: f64,
+    ) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        let inner = &*self.lock(py)?;
+        let mut table = Table::default();
+        table.push_overlaps(&py.detach(|| inner.world.overlaps(tolerance)));
         Ok(PyArray1::from_vec(py, table.into_words()))
     }
 

@@ -3,6 +3,7 @@
 use carom_maze::{EpisodeError, MazeError};
 use carom_scene::SceneError;
 use carom_scene::part::PartError;
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
@@ -32,6 +33,8 @@ enum Kind {
     Step,
     /// A step that a handler of a signal ended.
     Stopped,
+    /// More memory is needed than there is.
+    Memory,
     /// Nothing can be drawn here.
     #[cfg(feature = "pictures")]
     Graphics,
@@ -43,7 +46,7 @@ impl Kind {
             Self::Value => "CaromError",
             Self::Scene => "SceneError",
             Self::Unknown => "UnknownError",
-            Self::Step | Self::Stopped => "StepError",
+            Self::Step | Self::Stopped | Self::Memory => "StepError",
             #[cfg(feature = "pictures")]
             Self::Graphics => "GraphicsError",
         }
@@ -74,6 +77,16 @@ impl Failure {
     pub fn unknown(kind: &str, number: impl std::fmt::Display) -> Self {
         // In the words of `carom::Error::Unknown`.
         Self::new(Kind::Unknown, format!("there is no {kind} {number} in this world"))
+    }
+
+    /// More memory is needed than there is.
+    pub fn memory(problem: impl ToString) -> Self {
+        Self::new(Kind::Memory, problem)
+    }
+
+    /// Whether a handler of a signal has raised an exception.
+    pub fn is_stop(&self) -> bool {
+        self.kind == Kind::Stopped
     }
 
     /// Nothing can be drawn here, for this reason.
@@ -152,6 +165,9 @@ impl From<serde_json::Error> for Failure {
 
 impl From<Failure> for PyErr {
     fn from(failure: Failure) -> Self {
+        if failure.kind == Kind::Memory {
+            return PyMemoryError::new_err(failure.message);
+        }
         let raised = if failure.kind == Kind::Stopped { stop::raised() } else { None };
         raised.unwrap_or_else(|| {
             Python::attach(|py| exception(py, &failure).unwrap_or_else(|error| error))

@@ -6,7 +6,9 @@
 //! - what users describe comes as TOML, in the words of scene files, and is read and checked by
 //!   `carom-scene` (`part`); descriptions go back as JSON;
 //! - arrays belong to Python, and are written after every frame (`arrays`): one can be
-//!   read for as long as it is held, and no `unsafe` is needed for it;
+//!   read for as long as it is held, and no `unsafe` is needed for it; what a script writes into one, the next
+//!   call takes over (`written`);
+//! - many spheres of a scene go as arrays, too, both ways (`points`);
 //! - what happened goes as tables of words (`tables`).
 //!
 //! A refused call leaves the world as it was and raises an exception of `carom.errors`
@@ -33,6 +35,7 @@ mod next_event;
 #[cfg(feature = "pictures")]
 mod painter;
 mod part;
+mod points;
 mod properties;
 mod recording;
 mod running;
@@ -41,6 +44,7 @@ mod snapshot;
 mod stop;
 mod tables;
 mod threads;
+mod written;
 
 pub use batch::BatchEngine;
 pub use engine::Engine;

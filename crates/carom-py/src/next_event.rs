@@ -8,7 +8,6 @@ use pyo3::prelude::*;
 use crate::arguments;
 use crate::engine::{Engine, Inner};
 use crate::failure::Failure;
-use crate::stop;
 use crate::threads;
 
 #[pymethods]
@@ -26,7 +25,7 @@ impl Engine {
         let py = within.py();
         let within = arguments::number("within", within)?;
         let inner = &mut *self.lock(py)?;
-        inner.world.set_stop_request(Some(stop::on_signal()));
+        inner.heed_signals();
         Ok(py.detach(|| inner.world.next_event_time(within)).map_err(Failure::from)?)
     }
 
@@ -52,7 +51,7 @@ impl Engine {
 
 fn step_to_next_event(inner: &mut Inner, within: f64) -> Result<(), Failure> {
     let start = inner.world.time();
-    inner.world.set_stop_request(Some(stop::on_signal()));
+    inner.heed_signals();
     let world = &mut inner.world;
     threads::among_all(world.spheres().len(), || world.step_to_next_event(within).map(|_| ()))?;
     inner.frame_start = start;

@@ -1,21 +1,32 @@
 //! What a run leaves: the states of all spheres, frame by frame.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, TryReserveError};
 use std::sync::Arc;
 
-use carom::{SphereId, World};
+use carom::{Impact, SphereId, World};
 
-use crate::arrays::{Column, Quantity};
+use crate::arrays::Quantity;
+use crate::failure::Failure;
 use crate::tables::Table;
 
+/// What is recorded of each state.
+#[derive(Debug, Clone)]
+pub struct Selection {
+    /// `None`: centres and velocities, and how spheres are turned and turn where they may.
+    pub quantities: Option<Vec<Quantity>>,
+    /// Whether numbers are rounded to single precision.
+    pub is_single: bool,
+}
+
 /// Rows of states, one for each recorded frame.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Recording {
     /// \[s\]
     pub times: Vec<f64>,
-    /// What is recorded of each sphere of each row: centres and velocities, and how spheres are turned
-    /// and turn where the first frame has spin.
-    motion: Vec<Column>,
+    /// What is recorded of each sphere of each row.
+    motion: Vec<(Quantity, Numbers)>,
+    /// A row of numbers; working memory.
+    row: Vec<f64>,
     /// The spheres of each row, ascending.
     members: Vec<Arc<[SphereId]>>,
     /// Radius \[m\] and mass \[kg\] of every sphere of any row, as it was last.
@@ -34,23 +45,67 @@ pub struct States {
     /// \[kg\]
     pub masses: Vec<f64>,
     /// What changes from row to row; NaN where a sphere is not there.
-    pub motion: Vec<Column>,
+    pub motion: Vec<(Quantity, Numbers)>,
+}
+
+/// Numbers in double or in single precision.
+#[derive(Debug)]
+pub enum Numbers {
+    Double(Vec<f64>),
+    Single(Vec<f32>),
 }
 
 impl Recording {
+    /// A recording of so many states of a world, without any yet.
+    ///
+    /// # Errors
+    /// [`Failure`] if there is no memory for them.
+    pub fn new(world: &World, selection: &Selection, rows: u64) -> Result<Self, Failure> {
+        let all: &[Quantity] = match &selection.quantities {
+            Some(quantities) => quantities,
+            None if world.has_spin() => &Quantity::MOTION,
+            None => &WITHOUT_SPIN,
+        };
+        let spheres = world.spheres().len();
+        let mut motion: Vec<_> =
+            all.iter().map(|&it| (it, Numbers::new(selection.is_single))).collect();
+        for (quantity, numbers) in &mut motion {
+            let count = usize::try_from(rows).ok();
+            let count = count.and_then(|rows| rows.checked_mul(quantity.width() * spheres));
+            let is_room = count.is_some_and(|count| numbers.reserve(count).is_ok());
+            if !is_room {
+                let widths: usize = all.iter().map(|it| it.width()).sum();
+                let size = if selection.is_single { 4.0 } else { 8.0 };
+                let gigabytes = rows as f64 * (widths * spheres) as f64 * size / 1e9;
+                return Err(Failure::memory(format_args!(
+                    "{rows} states of {spheres} spheres take {gigabytes:.1} GB, more than there is: record \
+                     fewer (every=10), less of each (quantities=[\"positions\"]), or in single precision \
+                     (dtype=\"float32\")"
+                )));
+            }
+        }
+        Ok(Self {
+            times: Vec::new(),
+            motion,
+            row: Vec::new(),
+            members: Vec::new(),
+            known: BTreeMap::new(),
+            impacts: Table::default(),
+        })
+    }
+
     /// Appends the state of a world.
-    pub fn push(&mut self, world: &World) {
+    ///
+    /// # Errors
+    /// [`Failure`] if there is no memory for it.
+    pub fn push(&mut self, world: &World) -> Result<(), Failure> {
         let spheres = world.spheres();
-        if self.times.is_empty() {
-            let recorded = if world.has_spin() { &Quantity::MOTION[..] } else { &WITHOUT_SPIN };
-            self.motion = recorded.iter().map(|&quantity| (quantity, Vec::new())).collect();
+        for (quantity, numbers) in &mut self.motion {
+            self.row.resize(quantity.width() * spheres.len(), 0.0);
+            quantity.write(spheres, &mut self.row);
+            numbers.extend(&self.row).map_err(no_room)?;
         }
         self.times.push(world.time());
-        for (quantity, values) in &mut self.motion {
-            let row = values.len();
-            values.resize(row + quantity.width() * spheres.len(), 0.0);
-            quantity.write(spheres, &mut values[row..]);
-        }
         let last = self.members.last().filter(|last| ***last == *spheres.ids());
         let members = last.map_or_else(|| spheres.ids().into(), Arc::clone);
         if !self.members.last().is_some_and(|last| Arc::ptr_eq(last, &members)) {
@@ -59,32 +114,112 @@ impl Recording {
             self.known.extend(known.map(|(id, (radius, mass))| (*id, [*radius, *mass])));
         }
         self.members.push(members);
+        Ok(())
+    }
+
+    /// Appends the impacts of a frame that started at `start` \[s\].
+    ///
+    /// # Errors
+    /// [`Failure`] if there is no memory for them.
+    pub fn push_impacts(&mut self, start: f64, impacts: &[Impact]) -> Result<(), Failure> {
+        self.impacts.reserve_impacts(impacts.len()).map_err(no_room)?;
+        self.impacts.push_impacts(start, impacts);
+        Ok(())
     }
 
     /// The states, and the rest of the recording.
-    pub fn finish(self) -> (Vec<f64>, States, Table) {
+    ///
+    /// # Errors
+    /// [`Failure`] if there is no memory for them.
+    pub fn finish(self) -> Result<(Vec<f64>, States, Table), Failure> {
         let ids: Vec<SphereId> = self.known.keys().copied().collect();
         let is_whole = self.members.iter().all(|members| **members == *ids);
-        let spread = |(quantity, values): Column| match is_whole {
-            true => (quantity, values),
-            false => (quantity, spread(&values, quantity.width(), &self.members, &ids)),
-        };
+        let mut motion = self.motion;
+        motion.iter_mut().for_each(|(_, numbers)| numbers.shrink_to_fit());
+        if !is_whole {
+            for (quantity, numbers) in &mut motion {
+                numbers.spread(quantity.width(), &self.members, &ids).map_err(no_room)?;
+            }
+        }
         let states = States {
             radii: self.known.values().map(|[radius, _]| *radius).collect(),
             masses: self.known.values().map(|[_, mass]| *mass).collect(),
-            motion: self.motion.into_iter().map(spread).collect(),
+            motion,
             ids,
         };
-        (self.times, states, self.impacts)
+        Ok((self.times, states, self.impacts))
     }
 }
 
 /// What is recorded where nothing turns.
 const WITHOUT_SPIN: [Quantity; 2] = [Quantity::Positions, Quantity::Velocities];
 
-/// Rows of `width` numbers for each of their members, as rows of all `ids`.
-fn spread(values: &[f64], width: usize, members: &[Arc<[SphereId]>], ids: &[SphereId]) -> Vec<f64> {
-    let mut all = vec![f64::NAN; width * ids.len() * members.len()];
+fn no_room(_: TryReserveError) -> Failure {
+    Failure::memory("there is no memory for more of the recording")
+}
+
+impl Numbers {
+    fn new(is_single: bool) -> Self {
+        if is_single { Self::Single(Vec::new()) } else { Self::Double(Vec::new()) }
+    }
+
+    fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
+        match self {
+            Self::Double(numbers) => numbers.try_reserve_exact(count),
+            Self::Single(numbers) => numbers.try_reserve_exact(count),
+        }
+    }
+
+    /// Gives back the room of what was not recorded.
+    fn shrink_to_fit(&mut self) {
+        match self {
+            Self::Double(numbers) => numbers.shrink_to_fit(),
+            Self::Single(numbers) => numbers.shrink_to_fit(),
+        }
+    }
+
+    fn extend(&mut self, row: &[f64]) -> Result<(), TryReserveError> {
+        match self {
+            Self::Double(numbers) => {
+                numbers.try_reserve(row.len())?;
+                numbers.extend_from_slice(row);
+            }
+            Self::Single(numbers) => {
+                numbers.try_reserve(row.len())?;
+                numbers.extend(row.iter().map(|&number| number as f32));
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes rows of `width` numbers for each of their members rows of all `ids`.
+    fn spread(
+        &mut self,
+        width: usize,
+        members: &[Arc<[SphereId]>],
+        ids: &[SphereId],
+    ) -> Result<(), TryReserveError> {
+        match self {
+            Self::Double(numbers) => *numbers = spread(numbers, f64::NAN, width, members, ids)?,
+            Self::Single(numbers) => *numbers = spread(numbers, f32::NAN, width, members, ids)?,
+        }
+        Ok(())
+    }
+}
+
+/// Rows of `width` numbers for each of their members, as rows of all `ids`, with `nobody` where one is not a
+/// member.
+fn spread<T: Copy>(
+    values: &[T],
+    nobody: T,
+    width: usize,
+    members: &[Arc<[SphereId]>],
+    ids: &[SphereId],
+) -> Result<Vec<T>, TryReserveError> {
+    let count = width * ids.len() * members.len();
+    let mut all = Vec::new();
+    all.try_reserve_exact(count)?;
+    all.resize(count, nobody);
     let mut values = values.chunks_exact(width);
     for (row, members) in members.iter().enumerate() {
         for (id, value) in members.iter().zip(&mut values) {
@@ -94,5 +229,5 @@ fn spread(values: &[f64], width: usize, members: &[Arc<[SphereId]>], ids: &[Sphe
             all[place..place + width].copy_from_slice(value);
         }
     }
-    all
+    Ok(all)
 }

@@ -6,27 +6,29 @@
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-use numpy::{PyArray1, PyArrayDyn};
+use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::arguments;
-use crate::arrays::{self, Column, shaped};
+use crate::arrays::{self, Quantity, shaped};
 use crate::engine::{Engine, Inner};
 use crate::failure::Failure;
-use crate::recording::Recording;
+use crate::recording::{Numbers, Recording, Selection};
 use crate::snapshot::Snapshot;
 
 /// How long a run goes on between two looks at Python's signals.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Time, ids, radii, masses, the impacts as words, and by their names the quantities that change.
+/// Time, ids, radii, masses, the impacts as words, by their names the quantities that change, and the exception
+/// that ended the run before its time.
 type Arrays<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<u64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<u64>>,
-    Vec<(&'static str, Bound<'py, PyArrayDyn<f64>>)>,
+    Vec<(&'static str, Bound<'py, PyAny>)>,
+    Option<PyErr>,
 );
 
 /// How long frames are, and which of them are recorded.
@@ -56,14 +58,17 @@ impl Engine {
         Ok(whole_frames(seconds, inner.frame_time(dt))?)
     }
 
-    /// Takes `frames` frames of `dt` [s], and records the state now and after every `every` of them.
-    #[pyo3(name = "_record", signature = (frames, dt, every))]
+    /// Takes `frames` frames of `dt` [s], and records the state now and after every `every` of them: these
+    /// quantities, or those that change; in single precision if that is said.
+    #[pyo3(name = "_record", signature = (frames, dt, every, quantities, is_single))]
     fn record<'py>(
         &self,
         py: Python<'py>,
         frames: &Bound<'py, PyAny>,
         dt: Option<&Bound<'py, PyAny>>,
         every: &Bound<'py, PyAny>,
+        quantities: Option<Vec<String>>,
+        is_single: bool,
     ) -> PyResult<Arrays<'py>> {
         let frames = arguments::count("frames", frames)?;
         let dt = arguments::optional_number("dt", dt)?;
@@ -71,21 +76,44 @@ impl Engine {
         if every == 0 {
             return Err(Failure::value("every", "must be at least 1, not 0").into());
         }
+        let quantities = quantities.map(|names| names.iter().map(|name| recorded(name)).collect());
+        let selection = Selection { quantities: quantities.transpose()?, is_single };
         let rhythm = Rhythm { dt, every };
-        let mut recording = Recording::default();
-        let before = {
+        let (mut recording, before) = {
             let inner = &*self.lock(py)?;
-            recording.push(&inner.world);
-            inner.snapshot()
+            let mut recording =
+                Recording::new(&inner.world, &selection, (frames / every).saturating_add(1))?;
+            recording.push(&inner.world)?;
+            (recording, inner.snapshot())
         };
-        let mut frame = 0;
-        while frame < frames {
-            frame = self.take_frames(py, frame..frames, rhythm, &before, &mut recording)?;
+        let (mut frame, mut stopped) = (0, None);
+        while frame < frames && stopped.is_none() {
+            match self.take_frames(py, frame..frames, rhythm, &before, &mut recording) {
+                Ok(number) => frame = number,
+                Err(Refused::Stopped(error)) => stopped = Some(error),
+                Err(Refused::Failed(error)) => return Err(error),
+            }
             // A signal handler may read the time of the world: the lock is free by now.
-            py.check_signals()?;
+            stopped = stopped.or(py.check_signals().err());
         }
-        arrays_of(py, recording)
+        arrays_of(py, recording, stopped)
     }
+}
+
+/// Why frames ended.
+enum Refused {
+    /// By what a handler of a signal raised; the world is as it was before that frame.
+    Stopped(PyErr),
+    Failed(PyErr),
+}
+
+/// What can be recorded under this name.
+fn recorded(name: &str) -> Result<Quantity, Failure> {
+    let known = Quantity::MOTION.into_iter().find(|quantity| quantity.name() == name);
+    known.ok_or_else(|| {
+        let names = Quantity::MOTION.map(Quantity::name).join(", ");
+        Failure::value("quantities", format_args!("must be of {names}, not {name:?}"))
+    })
 }
 
 impl Engine {
@@ -98,14 +126,16 @@ impl Engine {
         rhythm: Rhythm,
         before: &Snapshot,
         recording: &mut Recording,
-    ) -> PyResult<u64> {
-        let inner = &mut *self.lock(py)?;
+    ) -> Result<u64, Refused> {
+        let inner = &mut *self.lock(py).map_err(Refused::Failed)?;
         let taken = py.detach(|| take_frames(inner, frames, rhythm, recording));
-        if taken.is_err() {
+        let is_stop = matches!(&taken, Err(failure) if failure.is_stop());
+        if taken.is_err() && !is_stop {
             inner.restore(before);
         }
         inner.arrays.write_motion(py, inner.world.spheres());
-        Ok(taken?)
+        let refused = if is_stop { Refused::Stopped } else { Refused::Failed };
+        taken.map_err(|failure| refused(failure.into()))
     }
 }
 
@@ -117,11 +147,12 @@ fn take_frames(
     recording: &mut Recording,
 ) -> Result<u64, Failure> {
     let (began, end) = (Instant::now(), frames.end);
+    inner.heed_signals();
     for frame in frames {
         inner.take_frame(inner.frame_time(rhythm.dt))?;
-        recording.impacts.push_impacts(inner.frame_start, &inner.world.report().impacts);
+        recording.push_impacts(inner.frame_start, &inner.world.report().impacts)?;
         if (frame + 1).is_multiple_of(rhythm.every) {
-            recording.push(&inner.world);
+            recording.push(&inner.world)?;
         }
         if began.elapsed() > PATIENCE {
             return Ok(frame + 1);
@@ -130,12 +161,16 @@ fn take_frames(
     Ok(end)
 }
 
-fn arrays_of(py: Python<'_>, recording: Recording) -> PyResult<Arrays<'_>> {
-    let (times, states, impacts) = py.detach(|| recording.finish());
+fn arrays_of(py: Python<'_>, recording: Recording, stopped: Option<PyErr>) -> PyResult<Arrays<'_>> {
+    let (times, states, impacts) = py.detach(|| recording.finish())?;
     let rows = [times.len(), states.ids.len()];
-    let named = |(quantity, values): Column| {
+    let named = |(quantity, numbers): (Quantity, Numbers)| {
         let shape = vec![rows[0], rows[1], quantity.width()];
-        Ok((quantity.name(), shaped(py, values, shape)?))
+        let array = match numbers {
+            Numbers::Double(numbers) => shaped(py, numbers, shape)?.into_any(),
+            Numbers::Single(numbers) => shaped(py, numbers, shape)?.into_any(),
+        };
+        Ok((quantity.name(), array))
     };
     let motion = states.motion.into_iter().map(named).collect::<PyResult<_>>()?;
     Ok((
@@ -145,6 +180,7 @@ fn arrays_of(py: Python<'_>, recording: Recording) -> PyResult<Arrays<'_>> {
         PyArray1::from_vec(py, states.masses),
         PyArray1::from_vec(py, impacts.into_words()),
         motion,
+        stopped,
     ))
 }
 

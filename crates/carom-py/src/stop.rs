@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 use carom::StopRequest;
 use pyo3::prelude::*;
 
-/// How long a step goes on before it looks at the signals, and between two looks: each waits for the
+/// How long frames go on before they look at the signals, and between two looks: each waits for the
 /// interpreter.
-const PATIENCE: Duration = Duration::from_millis(200);
+const PATIENCE: Duration = Duration::from_millis(50);
 
 /// What a handler of a signal raised while a step was at work.
 static RAISED: Mutex<Option<PyErr>> = Mutex::new(None);
@@ -19,7 +19,7 @@ thread_local! {
     static RUNS_HANDLERS: Cell<bool> = const { Cell::new(false) };
 }
 
-/// A request of the step that begins now: it stands once a handler of a signal has raised an
+/// A request of the frames that begin now: it stands once a handler of a signal has raised an
 /// exception. Python runs handlers in its main thread only.
 pub fn on_signal() -> StopRequest {
     let last_look = Mutex::new(Instant::now());
@@ -28,14 +28,23 @@ pub fn on_signal() -> StopRequest {
         if last_look.elapsed() < PATIENCE {
             return false;
         }
-        RUNS_HANDLERS.set(true);
-        let handled = Python::attach(|py| py.check_signals());
-        RUNS_HANDLERS.set(false);
+        let handled = Python::attach(check);
         *last_look = Instant::now();
         let Err(error) = handled else { return false };
         *RAISED.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
         true
     })
+}
+
+/// Runs the handlers of signals that have come.
+///
+/// # Errors
+/// What one of them raised.
+pub fn check(py: Python<'_>) -> PyResult<()> {
+    RUNS_HANDLERS.set(true);
+    let handled = py.check_signals();
+    RUNS_HANDLERS.set(false);
+    handled
 }
 
 /// Whether a handler of a signal is being run in the middle of a step of this thread.

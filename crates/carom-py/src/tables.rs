@@ -3,7 +3,11 @@
 //! NumPy sees the words as records; their fields stand in `python/carom/_tables.py`, in the order in
 //! which they are written here.
 
-use carom::{BodyPair, Impact, LedgerEntry, PersistentContact, StepReport, TriggerContact};
+use std::collections::TryReserveError;
+
+use carom::{
+    BodyPair, Impact, LedgerEntry, Overlap, PersistentContact, StepReport, TriggerContact,
+};
 
 /// Rows of words, numbers as their bits.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -18,6 +22,14 @@ impl Table {
     /// Appends the impacts of a frame that started at `start` \[s\].
     pub fn push_impacts(&mut self, start: f64, impacts: &[Impact]) {
         impacts.iter().for_each(|impact| self.push_impact(start, impact));
+    }
+
+    /// Makes room for so many impacts more.
+    ///
+    /// # Errors
+    /// If there is no memory for them.
+    pub fn reserve_impacts(&mut self, count: usize) -> Result<(), TryReserveError> {
+        self.0.try_reserve(count * IMPACT_WORDS)
     }
 
     /// Appends the ledger of a frame that started at `start` \[s\].
@@ -53,6 +65,14 @@ impl Table {
         }
     }
 
+    /// Appends bodies that overlap.
+    pub fn push_overlaps(&mut self, overlaps: &[Overlap]) {
+        for overlap in overlaps {
+            self.push_bodies(overlap.between);
+            self.numbers([overlap.depth]);
+        }
+    }
+
     fn push_impact(&mut self, start: f64, impact: &Impact) {
         self.numbers([start + impact.time]);
         self.push_bodies(impact.between);
@@ -80,5 +100,7 @@ impl Table {
     }
 }
 
+/// Words of an impact.
+const IMPACT_WORDS: usize = 16;
 /// In the place of an id: body 1 is of the other kind.
 const NOBODY: i64 = -1;

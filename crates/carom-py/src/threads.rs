@@ -2,10 +2,10 @@
 
 use std::num::NonZero;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::{process, thread};
+use std::{mem, process, thread};
 
 use pyo3::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::arguments;
 use crate::failure::Failure;
@@ -25,33 +25,65 @@ pub fn wanted(threads: Option<&Bound<'_, PyAny>>) -> PyResult<Option<usize>> {
 /// A world of fewer spheres than this is stepped where it is: that takes less time than to wake a thread.
 const FEW: usize = 1024;
 
-/// The threads that share the work of one world, of the process with this number.
-static SHARED: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+/// Threads that share work, started with the first of it.
+///
+/// A process that was forked has none of the threads of its parent, and would wait for them for ever: it
+/// starts its own.
+#[derive(Debug)]
+pub struct Pool {
+    /// How many; 0 for as many as there are processors.
+    threads: usize,
+    /// With the number of the process that they are of.
+    started: Mutex<Option<(u32, Arc<ThreadPool>)>>,
+}
+
+impl Pool {
+    const fn new(threads: usize) -> Self {
+        Self { threads, started: Mutex::new(None) }
+    }
+
+    /// Has the threads do work; where they cannot be started, the calling one does it.
+    pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        match self.started() {
+            Ok(threads) => threads.install(work),
+            Err(_) => work(),
+        }
+    }
+
+    /// The threads of this process.
+    fn started(&self) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
+        let mut started = self.started.lock().unwrap_or_else(PoisonError::into_inner);
+        let process = process::id();
+        if let Some((owner, threads)) = &*started
+            && *owner == process
+        {
+            return Ok(Arc::clone(threads));
+        }
+        let threads = Arc::new(ThreadPoolBuilder::new().num_threads(self.threads).build()?);
+        // Threads of a parent cannot be ended here.
+        mem::forget(started.replace((process, Arc::clone(&threads))));
+        Ok(threads)
+    }
+}
+
+impl Drop for Pool {
+    fn drop(&mut self) {
+        let started = self.started.get_mut().unwrap_or_else(PoisonError::into_inner);
+        if started.as_ref().is_some_and(|(owner, _)| *owner != process::id()) {
+            mem::forget(started.take());
+        }
+    }
+}
+
+/// The threads that share the work of one world.
+static SHARED: Pool = Pool::new(0);
 
 /// Does work on so many spheres of one world, which all processors share where there are many.
 pub fn among_all<T: Send>(spheres: usize, work: impl FnOnce() -> T + Send) -> T {
     if spheres < FEW || rayon::current_thread_index().is_some() {
         return work();
     }
-    match shared() {
-        Some(pool) => pool.install(work),
-        None => work(),
-    }
-}
-
-/// The threads of this process. One that was forked has none of those of its parent, and starts its own.
-fn shared() -> Option<Arc<ThreadPool>> {
-    let mut shared = SHARED.lock().unwrap_or_else(PoisonError::into_inner);
-    let process = process::id();
-    if let Some((owner, pool)) = &*shared
-        && *owner == process
-    {
-        return Some(Arc::clone(pool));
-    }
-    let pool = Arc::new(ThreadPoolBuilder::new().build().ok()?);
-    // Threads of a parent cannot be ended here.
-    std::mem::forget(shared.replace((process, Arc::clone(&pool))));
-    Some(pool)
+    SHARED.install(work)
 }
 
 /// So many threads, by default as many as there are processors, but no more than `most`; `None`
@@ -59,12 +91,13 @@ fn shared() -> Option<Arc<ThreadPool>> {
 ///
 /// # Errors
 /// [`Failure`] if they cannot be started.
-pub fn pool(threads: Option<usize>, most: usize) -> Result<Option<ThreadPool>, Failure> {
+pub fn pool(threads: Option<usize>, most: usize) -> Result<Option<Pool>, Failure> {
     let processors = || thread::available_parallelism().map_or(1, NonZero::get);
     let threads = threads.unwrap_or_else(processors).min(most);
     if threads <= 1 {
         return Ok(None);
     }
-    let built = ThreadPoolBuilder::new().num_threads(threads).build();
-    built.map(Some).map_err(|error| Failure::value("threads", error))
+    let pool = Pool::new(threads);
+    pool.started().map_err(|error| Failure::value("threads", error))?;
+    Ok(Some(pool))
 }

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 
 use super::members::Members;
 use crate::arrays::{Quantities, Quantity};
+use crate::written::Written;
 
 /// The arrays that a script has read. Worlds of a batch keep their spheres, so each stays the same.
 #[derive(Debug, Default)]
@@ -29,6 +30,11 @@ impl BatchArrays {
     /// Writes everything into the arrays that are there.
     pub fn write_all(&mut self, py: Python<'_>, members: &Members) {
         self.write(py, members, &Quantity::ALL);
+    }
+
+    /// What a script has written into them; rows are those of all worlds, one world after another.
+    pub fn written(&self, py: Python<'_>, members: &Members) -> Vec<Written> {
+        self.0.written(py, |quantity, values| write(quantity, members, values))
     }
 
     fn write(&mut self, py: Python<'_>, members: &Members, quantities: &[Quantity]) {

@@ -1,15 +1,18 @@
 //! The worlds of a batch.
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use carom::{StepReport, World};
-use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use crate::arrays::{Arrays, Quantity};
 use crate::engine::{self, Inner};
 use crate::failure::Failure;
 use crate::snapshot::Snapshot;
+use crate::stop;
+use crate::threads::Pool;
+use crate::written::{self, Written};
 
 /// Spheres that a thread steps before it takes more work: below it, to share costs more.
 const SPHERES_PER_TASK: usize = 64;
@@ -21,7 +24,26 @@ pub struct Members {
     /// Spheres in each.
     spheres: usize,
     /// None where one thread does everything.
-    pool: Option<ThreadPool>,
+    pool: Option<Pool>,
+}
+
+/// How long frames are taken between two looks at Python's signals.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// What is left to do in a world.
+#[derive(Debug, Clone)]
+pub struct Progress {
+    /// Frames.
+    pub left: u64,
+    /// Why the world refused one; then none is left.
+    pub refused: Option<Failure>,
+}
+
+impl Progress {
+    /// What a handler of a signal has ended frames with, if one has.
+    pub fn take_stop(&mut self) -> Option<Failure> {
+        self.refused.take_if(|failure| failure.is_stop())
+    }
 }
 
 #[derive(Debug)]
@@ -36,18 +58,18 @@ impl Members {
     /// # Errors
     /// [`Failure`] for no worlds, for worlds with emitters, and for other numbers of spheres than in
     /// the first one.
-    pub fn new(
-        starts: Vec<Snapshot>,
-        count: usize,
-        pool: Option<ThreadPool>,
-    ) -> Result<Self, Failure> {
+    pub fn new(starts: Vec<Snapshot>, count: usize, pool: Option<Pool>) -> Result<Self, Failure> {
         if count == 0 || ![1, count].contains(&starts.len()) {
             return Err(Failure::value("n", format_args!("must be at least 1, not {count}")));
         }
         let mut starts: Vec<Arc<Snapshot>> = starts.into_iter().map(Arc::new).collect();
         let last = Arc::clone(&starts[starts.len() - 1]);
+        let mut members: Vec<Member> = Vec::new();
+        let no_room = |_| Failure::memory(format_args!("there is no memory for {count} worlds"));
+        members.try_reserve_exact(count).map_err(no_room)?;
+        starts.try_reserve_exact(count).map_err(no_room)?;
         starts.resize(count, last);
-        let members: Vec<Member> = starts.into_iter().map(Member::new).collect();
+        members.extend(starts.into_iter().map(Member::new));
         let spheres = members[0].world().spheres().len();
         let members = Self { members, spheres, pool };
         for (number, member) in members.members.iter().enumerate() {
@@ -93,22 +115,34 @@ impl Members {
         [vec![self.len()], quantity.shape(self.spheres)].concat()
     }
 
-    /// Takes frames of `dt` \[s\], or of each world's own length, in every world. One that refuses a
-    /// frame stays as it was before that; returns the numbers of such worlds, with the reasons.
-    pub fn step(&mut self, dt: Option<f64>, frames: u64) -> Vec<(usize, Failure)> {
-        let step = |(number, member): (usize, &mut Member)| {
+    /// Takes frames of `dt` \[s\], or of each world's own length, in every world, for a while; tells whether
+    /// all were taken by then. A world that refuses a frame stays as it was before that.
+    pub fn step(&mut self, dt: Option<f64>, progress: &mut [Progress]) -> bool {
+        let end = Instant::now() + PATIENCE;
+        let step = |(member, progress): (&mut Member, &mut Progress)| {
             let length = member.now.frame_time(dt);
-            let mut frames = 0..frames;
-            let refused = frames.find_map(|_| member.now.take_frame(length).err());
-            refused.map(|error| (number, Failure::from(error)))
+            while progress.left > 0 {
+                progress.left -= 1;
+                if let Err(error) = member.now.take_frame(length) {
+                    *progress = Progress { left: 0, refused: Some(error.into()) };
+                } else if progress.left > 0 && Instant::now() > end {
+                    return false;
+                }
+            }
+            true
         };
         let share = (SPHERES_PER_TASK / self.spheres.max(1)).max(1);
+        // Handlers of signals run in the thread that has called, if it steps.
+        let request = self.pool.is_none().then(stop::on_signal);
+        for member in &mut self.members {
+            member.now.world.set_stop_request(request.clone());
+        }
         let members = &mut self.members;
         match &self.pool {
-            None => members.iter_mut().enumerate().filter_map(step).collect(),
+            None => members.iter_mut().zip(progress).map(step).fold(true, |all, one| all & one),
             Some(pool) => pool.install(|| {
-                let members = members.par_iter_mut().enumerate().with_min_len(share);
-                members.filter_map(step).collect()
+                let members = members.par_iter_mut().zip(progress).with_min_len(share);
+                members.map(step).reduce(|| true, |all, one| all & one)
             }),
         }
     }
@@ -167,6 +201,41 @@ impl Members {
                 let both = self.members.iter_mut().zip(&before);
                 both.for_each(|(member, before)| member.now.world.restore(before));
                 return Err(failure);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Members {
+    /// Has worlds take over what was written into arrays of all of them; if one refuses a value, all are as
+    /// they were.
+    ///
+    /// # Errors
+    /// [`Failure`] that names the array, the world and the row.
+    pub fn take_over(&mut self, written: &[Written]) -> Result<(), Failure> {
+        let spheres = self.spheres;
+        let of_all = |row: usize| format!("{}, {}", row / spheres, row % spheres);
+        written.iter().try_for_each(|written| written.check(of_all))?;
+        let is_safe = !written.iter().any(|written| written.quantity.is_bounded());
+        let mut before = Vec::new();
+        for number in 0..self.len() {
+            let of_world = |it: &Written| it.of_world(number * spheres, spheres);
+            let own: Vec<Written> = written.iter().filter_map(of_world).collect();
+            if own.is_empty() {
+                continue;
+            }
+            let world = &mut self.members[number].now.world;
+            if !is_safe {
+                before.push((number, world.snapshot()));
+            }
+            let taken = written::take_over(world, &own, |row| format!("{number}, {row}"));
+            if taken.is_err() {
+                let restore = |(number, before): &(usize, carom::Snapshot)| {
+                    self.members[*number].now.world.restore(before);
+                };
+                before.iter().for_each(restore);
+                return taken;
             }
         }
         Ok(())

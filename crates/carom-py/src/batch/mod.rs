@@ -19,10 +19,11 @@ use crate::arrays::Quantity;
 use crate::failure::Failure;
 use crate::properties::sphere_properties;
 use crate::snapshot::Snapshot;
+use crate::stop;
 use crate::tables::Table;
 use crate::threads;
 use arrays::BatchArrays;
-use members::Members;
+use members::{Members, Progress};
 
 /// What `carom.Batch` stands on: worlds, and the arrays that Python sees of all of them.
 ///
@@ -41,7 +42,26 @@ struct Inner {
 type Words<'py> = (Bound<'py, PyArray1<u64>>, Vec<usize>);
 
 impl BatchEngine {
+    /// Waits until no other thread is at work on these worlds, and takes over what was written into their arrays.
     fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
+        let mut guard = self.lock_as_it_is(py)?;
+        let Inner { members, arrays } = &mut *guard;
+        let written = arrays.written(py, members);
+        if !written.is_empty() {
+            let taken = members.take_over(&written);
+            arrays.write_all(py, members);
+            taken?;
+        }
+        Ok(guard)
+    }
+
+    /// Waits until no other thread is at work on these worlds. The handler of a signal that comes in the middle of
+    /// a step of them would wait for itself.
+    fn lock_as_it_is(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
+        if stop::is_in_handler() {
+            let at_work = |_| PyRuntimeError::new_err("this batch is in the middle of a step");
+            return self.0.try_lock().map_err(at_work);
+        }
         let broken = |_| PyRuntimeError::new_err("the engine of this batch has failed before");
         self.0.lock_py_attached(py).map_err(broken)
     }
@@ -60,14 +80,14 @@ impl BatchEngine {
     }
 
     fn quantity(&self, py: Python<'_>, quantity: Quantity) -> PyResult<Py<PyAny>> {
-        let Inner { members, arrays } = &mut *self.lock(py)?;
+        let Inner { members, arrays } = &mut *self.lock_as_it_is(py)?;
         arrays.get(py, quantity, members)
     }
 
     fn set_quantity(&self, quantity: Quantity, values: &Bound<'_, PyAny>) -> PyResult<()> {
         let py = values.py();
         // To read what Python gives can run any code of Python: not under the lock.
-        let shape = self.lock(py)?.members.shape_of(quantity);
+        let shape = self.lock_as_it_is(py)?.members.shape_of(quantity);
         let values = arguments::array(quantity.name(), values, &shape)?;
         self.change(py, |members| members.set(quantity, &values))
     }
@@ -105,7 +125,8 @@ impl BatchEngine {
         Ok(Self(Mutex::new(Inner { members, arrays: BatchArrays::default() })))
     }
 
-    /// Takes frames in every world; returns the worlds that refused one, and why.
+    /// Takes frames in every world; returns the worlds that refused one, and why. Ctrl-C leaves each world
+    /// after a whole frame, some after more of them than others.
     #[pyo3(name = "_step")]
     fn step(
         &self,
@@ -117,9 +138,16 @@ impl BatchEngine {
         let frames = arguments::count("frames", frames)?;
         let mut guard = self.lock(py)?;
         let Inner { members, arrays } = &mut *guard;
-        let refused = py.detach(|| members.step(dt, frames));
+        let mut progress = vec![Progress { left: frames, refused: None }; members.len()];
+        let mut handled = Ok(());
+        while handled.is_ok() && !py.detach(|| members.step(dt, &mut progress)) {
+            let stopped = progress.iter_mut().find_map(Progress::take_stop);
+            handled = stopped.map_or_else(|| stop::check(py), |failure| Err(failure.into()));
+        }
         arrays.write_motion(py, members);
-        Ok(refused.into_iter().map(|(world, failure)| (world, failure.into())).collect())
+        handled?;
+        let refused = progress.into_iter().map(|it| it.refused).enumerate();
+        Ok(refused.filter_map(|(world, failure)| Some((world, failure?.into()))).collect())
     }
 
     /// Has worlds return to where they started: those of these numbers, or all.
@@ -146,13 +174,13 @@ impl BatchEngine {
 
     /// The number of worlds.
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
-        Ok(self.lock(py)?.members.len())
+        Ok(self.lock_as_it_is(py)?.members.len())
     }
 
     /// Length of a frame of the first world's scene [s].
     #[getter]
     fn frame_time(&self, py: Python<'_>) -> PyResult<f64> {
-        Ok(self.lock(py)?.members.frame_time())
+        Ok(self.lock_as_it_is(py)?.members.frame_time())
     }
 
     /// Time of each world since its beginning [s], shape (n,). A copy.

@@ -5,12 +5,11 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use carom_maze::{Arena, EpisodeError, Episodes, Outcome, Start};
-use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::results::{Ended, Results, Rows};
 use crate::failure::Failure;
-use crate::threads;
+use crate::threads::{self, Pool};
 
 /// Balls that one thread takes at a time: few enough to stay in its cache, with what belongs to them.
 const BALLS_IN_A_BLOCK: usize = 512;
@@ -32,7 +31,7 @@ pub struct Team {
     arena: Arc<Arena>,
     blocks: Vec<Block>,
     /// None where one thread does everything.
-    pool: Option<ThreadPool>,
+    pool: Option<Pool>,
     autoreset: Autoreset,
     /// Where episodes start unless a reset says otherwise.
     start: Start,

@@ -1,0 +1,94 @@
+//! Many spheres of a scene as arrays, between Python and scenes: no text, and no object for each.
+
+use carom::World;
+use carom_scene::scene::{Finish, Sphere};
+use carom_scene::{Paint, Palette};
+use numpy::PyArrayDyn;
+use pyo3::prelude::*;
+
+use crate::arguments;
+use crate::arrays::{Column, Quantity, shaped};
+use crate::editing::sphere_at;
+use crate::failure::Failure;
+
+/// How many spheres; their quantities in the order of [`Quantity::OF_A_SPHERE`], missing ones as
+/// [`carom::Sphere::new`] has them; red, green and blue of each, nan for none of its own; their finishes.
+pub type Given<'py> = (
+    usize,
+    [Option<Bound<'py, PyAny>>; Quantity::OF_A_SPHERE.len()],
+    Option<Bound<'py, PyAny>>,
+    Option<Vec<String>>,
+);
+
+/// Quantities, colours and finishes as in [`Given`].
+pub type Told<'py> =
+    (Vec<Bound<'py, PyArrayDyn<f64>>>, Option<Bound<'py, PyArrayDyn<f64>>>, Option<Vec<String>>);
+
+/// The columns of what was given, each spread over all spheres.
+///
+/// # Errors
+/// As [`arguments::array`].
+pub fn columns<'py>(
+    count: usize,
+    quantities: [Option<Bound<'py, PyAny>>; Quantity::OF_A_SPHERE.len()],
+) -> PyResult<Vec<Column>> {
+    let read = |(quantity, values): (Quantity, Option<_>)| {
+        let array = |values| arguments::array(quantity.name(), &values, &quantity.shape(count));
+        Some(array(values?).map(|values| (quantity, values)))
+    };
+    Quantity::OF_A_SPHERE.into_iter().zip(quantities).filter_map(read).collect()
+}
+
+/// The spheres that were given.
+///
+/// # Errors
+/// As [`columns`], and [`Failure`] for other finishes than there are.
+pub fn read((count, quantities, colors, finishes): Given<'_>) -> PyResult<Vec<Sphere>> {
+    let columns = columns(count, quantities)?;
+    let colors =
+        colors.map(|colors| arguments::array("colors", &colors, &[count, 3])).transpose()?;
+    let finishes = finishes.unwrap_or_default();
+    let finishes = finishes.iter().map(|name| finish(name));
+    let finishes: Vec<Finish> = finishes.collect::<Result<_, Failure>>()?;
+    let sphere = |index: usize| {
+        let color = colors.as_ref().map(|all| [0, 1, 2].map(|part| all[3 * index + part]));
+        let color = color.filter(|color| !color[0].is_nan());
+        let finish = finishes.get(index).copied().unwrap_or_default();
+        Sphere::of(&sphere_at(&columns, index)).painted(Paint { color, finish })
+    };
+    Ok((0..count).map(sphere).collect())
+}
+
+/// Tells all spheres of a world.
+///
+/// # Errors
+/// Where NumPy has no memory for them.
+pub fn told<'py>(py: Python<'py>, world: &World, palette: &Palette) -> PyResult<Told<'py>> {
+    let spheres = world.spheres();
+    let array = |quantity: Quantity| {
+        let shape = quantity.shape(spheres.len());
+        let mut values = vec![0.0; shape.iter().product()];
+        quantity.write(spheres, &mut values);
+        shaped(py, values, shape)
+    };
+    let arrays = Quantity::OF_A_SPHERE.into_iter().map(array).collect::<PyResult<_>>()?;
+    let paints: Vec<Paint> = spheres.ids().iter().map(|id| palette.own(id.number())).collect();
+    let color = |paint: &Paint| paint.color.unwrap_or([f64::NAN; 3]);
+    let has_colors = paints.iter().any(|paint| paint.color.is_some());
+    let colors = has_colors.then(|| paints.iter().flat_map(color).collect());
+    let colors = colors.map(|all| shaped(py, all, vec![spheres.len(), 3])).transpose()?;
+    let has_finishes = paints.iter().any(|paint| paint.finish != Finish::default());
+    let finishes = has_finishes.then(|| paints.iter().map(|paint| name(paint.finish)).collect());
+    let finishes = finishes.transpose()?;
+    Ok((arrays, colors, finishes))
+}
+
+fn finish(name: &str) -> Result<Finish, Failure> {
+    let text = serde_json::Value::String(name.to_owned());
+    serde_json::from_value(text).map_err(|error| Failure::value("finishes", error))
+}
+
+fn name(finish: Finish) -> Result<String, Failure> {
+    let text = serde_json::to_value(finish)?;
+    Ok(text.as_str().unwrap_or_default().to_owned())
+}
