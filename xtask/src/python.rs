@@ -16,7 +16,7 @@ pub fn build() -> Outcome<PathBuf> {
 }
 
 /// Builds the wheel, installs it into a clean environment, and runs every check of it: format,
-/// lints, tests, examples in documentation, types, stubs.
+/// lints, tests, examples in documentation, types, stubs, the reference.
 pub fn test() -> Outcome {
     let environment = Environment::new("python/test")?;
     let wheel = wheel(&environment)?;
@@ -48,7 +48,20 @@ pub fn test() -> Outcome {
     let types = ["-m", "mypy", "--config-file", &configuration, &tests.to_string_lossy()];
     environment.python(&types)?;
     let stubs = ["-m", "mypy.stubtest", "--mypy-config-file", &configuration, "carom._carom"];
-    environment.python(&stubs)
+    environment.python(&stubs)?;
+    let reference = environment.folder.join("reference");
+    let pages = [
+        "-m",
+        "pdoc",
+        "carom",
+        "carom._carom",
+        "carom.gym",
+        "--docformat",
+        "google",
+        "--no-show-source",
+    ];
+    environment
+        .python(&[&pages[..], &["--output-directory", &reference.to_string_lossy()]].concat())
 }
 
 /// Versions of all that the package is built and tested with.

@@ -6,17 +6,18 @@
 use std::sync::Arc;
 
 use carom::{
-    BodyPair, Collider, ColliderId, DVec3, Emitter, EmitterId, ForceId, Overlap, Sphere, SphereId,
-    World,
+    BodyPair, Collider, ColliderId, Emitter, EmitterId, ForceId, Overlap, Sphere, SphereId, World,
 };
 use carom_scene::{Paint, Scene};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::arguments;
-use crate::arrays::{self, Column, Quantity};
+use crate::arrays;
+use crate::quantity::Quantity;
+use crate::setting::sphere_at;
 
-use crate::engine::{Engine, Inner, changed};
+use crate::engine::{Engine, Inner};
 use crate::failure::Failure;
 use crate::part::{self, only};
 use crate::points;
@@ -296,14 +297,6 @@ fn overlap_of(world: &World, added: &[SphereId]) -> Option<Failure> {
 
 /// Overlaps of so much \[m\] are rounding.
 const ROUNDING: f64 = 1e-9;
-
-/// The sphere at an index of columns.
-pub fn sphere_at(columns: &[Column], index: usize) -> Sphere {
-    columns.iter().fold(Sphere::new(DVec3::ZERO, 1.0), |sphere, (quantity, values)| {
-        let width = quantity.width();
-        changed(sphere, *quantity, &values[width * index..width * (index + 1)])
-    })
-}
 
 fn spheres_of(part: &Scene) -> Result<Vec<Sphere>, Failure> {
     let world = part.world()?;

@@ -5,7 +5,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use carom::{ContactAccount, DQuat, DVec3, Sphere, SphereId, World, ZoneAccount};
+use carom::{ContactAccount, World, ZoneAccount};
 use carom_scene::{Palette, Scene};
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
@@ -14,10 +14,12 @@ use pyo3::sync::MutexExt;
 use pyo3::types::PyTuple;
 
 use crate::arguments;
-use crate::arrays::{self, Arrays, Quantity};
+use crate::arrays::{self, Arrays};
 use crate::failure::Failure;
 use crate::points;
 use crate::properties::sphere_properties;
+use crate::quantity::Quantity;
+use crate::setting;
 use crate::snapshot::Snapshot;
 use crate::stop;
 use crate::tables::Table;
@@ -278,73 +280,8 @@ impl Engine {
                 let problem = "spheres came or went in another thread meanwhile";
                 return Err(Failure::value(quantity.name(), problem));
             }
-            set_all(&mut inner.world, quantity, &values)
+            setting::set_all(&mut inner.world, quantity, &values)
         })
-    }
-}
-
-/// Sets a quantity of all spheres; if a value is refused, none is set.
-pub fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<(), Failure> {
-    let about = |error: carom::Error| Failure::from(error).about(quantity.name());
-    let vectors = || values.chunks_exact(3).map(DVec3::from_slice);
-    let ids = world.spheres().ids().to_vec();
-    let old = world.spheres();
-    match quantity {
-        Quantity::Positions | Quantity::Velocities => {
-            let kept = match quantity {
-                Quantity::Positions => old.velocities(),
-                _ => old.positions(),
-            };
-            let motion = |((id, new), &kept): ((SphereId, DVec3), &DVec3)| match quantity {
-                Quantity::Positions => (id, new, kept),
-                _ => (id, kept, new),
-            };
-            let motions: Vec<_> = ids.into_iter().zip(vectors()).zip(kept).map(motion).collect();
-            world.set_motions(&motions).map_err(about)
-        }
-        Quantity::AppliedForces => {
-            let forces: Vec<DVec3> = vectors().collect();
-            world.set_applied_forces(&forces).map_err(about)
-        }
-        _ => {
-            let before = world.snapshot();
-            let values = values.chunks_exact(quantity.width());
-            for (index, (id, values)) in ids.into_iter().zip(values).enumerate() {
-                let sphere = changed(world.spheres().get(index), quantity, values);
-                if let Err(error) = world.set_sphere(id, sphere) {
-                    world.restore(&before);
-                    return Err(about(error));
-                }
-            }
-            Ok(())
-        }
-    }
-}
-
-/// A sphere with another value of a quantity, of as many numbers as it has. The force applied to a
-/// sphere is no part of it.
-pub fn changed(sphere: Sphere, quantity: Quantity, values: &[f64]) -> Sphere {
-    let value = values[0];
-    match quantity {
-        Quantity::Positions => sphere.with_position(DVec3::from_slice(values)),
-        Quantity::Velocities => sphere.with_velocity(DVec3::from_slice(values)),
-        Quantity::Radii => sphere.with_radius(value),
-        Quantity::Masses => sphere.with_mass(value),
-        Quantity::Restitutions => sphere.with_restitution(value),
-        Quantity::InertiaFactors => sphere.with_inertia_factor(value),
-        Quantity::Orientations => sphere.with_orientation(DQuat::from_slice(values)),
-        Quantity::AngularVelocities => sphere.with_angular_velocity(DVec3::from_slice(values)),
-        Quantity::AppliedForces => sphere,
-        Quantity::Frictions
-        | Quantity::RollingFrictions
-        | Quantity::SpinningFrictions
-        | Quantity::TangentialRestitutions => {
-            let mut friction = sphere.friction;
-            if let Some(coefficient) = quantity.coefficient(&mut friction) {
-                *coefficient = (!value.is_nan()).then_some(value);
-            }
-            sphere.with_friction(friction)
-        }
     }
 }
 

@@ -7,9 +7,10 @@ use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
 use crate::arguments;
-use crate::arrays::{Column, Quantity, shaped};
-use crate::editing::sphere_at;
+use crate::arrays::shaped;
 use crate::failure::Failure;
+use crate::quantity::{Column, Quantity};
+use crate::setting::sphere_at;
 
 /// How many spheres; their quantities in the order of [`Quantity::OF_A_SPHERE`], missing ones as
 /// [`carom::Sphere::new`] has them; red, green and blue of each, nan for none of its own; their finishes.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use carom::{Impact, SphereId, World};
 
-use crate::arrays::Quantity;
 use crate::failure::Failure;
+use crate::quantity::Quantity;
 use crate::tables::Table;
 
 /// What is recorded of each state.
@@ -207,11 +207,11 @@ impl Numbers {
     }
 }
 
-/// Rows of `width` numbers for each of their members, as rows of all `ids`, with `nobody` where one is not a
+/// Rows of `width` numbers for each of their members, as rows of all `ids`, with `missing` where one is not a
 /// member.
 fn spread<T: Copy>(
     values: &[T],
-    nobody: T,
+    missing: T,
     width: usize,
     members: &[Arc<[SphereId]>],
     ids: &[SphereId],
@@ -219,7 +219,7 @@ fn spread<T: Copy>(
     let count = width * ids.len() * members.len();
     let mut all = Vec::new();
     all.try_reserve_exact(count)?;
-    all.resize(count, nobody);
+    all.resize(count, missing);
     let mut values = values.chunks_exact(width);
     for (row, members) in members.iter().enumerate() {
         for (id, value) in members.iter().zip(&mut values) {

@@ -10,9 +10,10 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::arguments;
-use crate::arrays::{self, Quantity, shaped};
+use crate::arrays::{self, shaped};
 use crate::engine::{Engine, Inner};
 use crate::failure::Failure;
+use crate::quantity::Quantity;
 use crate::recording::{Numbers, Recording, Selection};
 use crate::snapshot::Snapshot;
 

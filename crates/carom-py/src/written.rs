@@ -2,9 +2,9 @@
 
 use carom::{Error, World};
 
-use crate::arrays::Quantity;
-use crate::engine::{changed, set_all};
 use crate::failure::Failure;
+use crate::quantity::Quantity;
+use crate::setting::{changed, set_all};
 
 /// What a script has written into an array.
 #[derive(Debug)]

@@ -3,7 +3,8 @@
 use pyo3::prelude::*;
 
 use super::members::Members;
-use crate::arrays::{Quantities, Quantity};
+use crate::arrays::Quantities;
+use crate::quantity::Quantity;
 use crate::written::Written;
 
 /// The arrays that a script has read. Worlds of a batch keep their spheres, so each stays the same.

@@ -6,9 +6,11 @@ use std::time::{Duration, Instant};
 use carom::{StepReport, World};
 use rayon::prelude::*;
 
-use crate::arrays::{Arrays, Quantity};
-use crate::engine::{self, Inner};
+use crate::arrays::Arrays;
+use crate::engine::Inner;
 use crate::failure::Failure;
+use crate::quantity::Quantity;
+use crate::setting;
 use crate::snapshot::Snapshot;
 use crate::stop;
 use crate::threads::Pool;
@@ -190,14 +192,14 @@ impl Members {
         if let Some(place) = values.iter().position(|&value| !quantity.may_be(value)) {
             let (number, own) = (place / row, place / row * row);
             let world = &mut self.members[number].now.world;
-            return engine::set_all(world, quantity, &values[own..own + row]);
+            return setting::set_all(world, quantity, &values[own..own + row]);
         }
         let mut before = Vec::new();
         for (member, own) in self.members.iter_mut().zip(values.chunks_exact(row)) {
             if quantity.is_bounded() {
                 before.push(member.world().snapshot());
             }
-            if let Err(failure) = engine::set_all(&mut member.now.world, quantity, own) {
+            if let Err(failure) = setting::set_all(&mut member.now.world, quantity, own) {
                 let both = self.members.iter_mut().zip(&before);
                 both.for_each(|(member, before)| member.now.world.restore(before));
                 return Err(failure);

@@ -15,9 +15,9 @@ use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
 
 use crate::arguments;
-use crate::arrays::Quantity;
 use crate::failure::Failure;
 use crate::properties::sphere_properties;
+use crate::quantity::Quantity;
 use crate::snapshot::Snapshot;
 use crate::stop;
 use crate::tables::Table;
