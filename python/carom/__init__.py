@@ -8,6 +8,9 @@
 Right-handed frame, y up, SI units, float64. The same input gives the same bits on every machine.
 """
 
+from typing import TYPE_CHECKING
+
+from carom import _gymnasium, analysis
 from carom._batch import Batch
 from carom._carom import Snapshot
 from carom._contact_account import ContactAccount
@@ -47,10 +50,11 @@ from carom._parts import (
     ViscousDrag,
 )
 from carom._pictures import Renderer, Viewpoint
+from carom._points import Points
 from carom._scene import Scene
 from carom._stage_counts import StageCounts
 from carom._sweep import Failure, Runs, sweep
-from carom._tables import CONTACT, IMPACT, LEDGER, TRIGGER
+from carom._tables import CONTACT, IMPACT, LEDGER, OVERLAP, TRIGGER
 from carom._trajectory import Trajectory
 from carom._world import World
 from carom._zone_account import ZoneAccount
@@ -67,6 +71,7 @@ __all__ = [
     "CONTACT",
     "IMPACT",
     "LEDGER",
+    "OVERLAP",
     "TRIGGER",
     "Ball",
     "Batch",
@@ -95,6 +100,7 @@ __all__ = [
     "Lattice",
     "Listed",
     "Periodic",
+    "Points",
     "RandomFill",
     "Rectangle",
     "Renderer",
@@ -119,8 +125,25 @@ __all__ = [
     "ViscousDrag",
     "World",
     "ZoneAccount",
+    "__version__",
+    "analysis",
     "load",
     "scene",
     "scenes",
     "sweep",
 ]
+
+_gymnasium.register_with_gymnasium()
+
+if TYPE_CHECKING:
+    __version__: str
+else:
+
+    def __getattr__(name):
+        """The version, when it is first read: to look for it takes a few milliseconds."""
+        if name != "__version__":
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from importlib.metadata import version
+
+        globals()[name] = version("carom")
+        return globals()[name]

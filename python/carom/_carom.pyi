@@ -28,6 +28,28 @@ __all__ = [
     "run_command",
 ]
 
+@final
+class Snapshot:
+    """The state of a world at one moment: what `World.snapshot` gives and `World.restore` takes."""
+
+    @property
+    def time(self) -> float: ...
+
+# Collectibles taken, and whether the end wall was touched.
+_MazeStates: TypeAlias = tuple[NDArray[np.int64], NDArray[np.bool_]]
+# Observations, rewards, terminated, truncated, states; which episodes ended and were started anew,
+# their last observations and states.
+_MazeStep: TypeAlias = tuple[
+    NDArray[np.float32],
+    NDArray[np.float64],
+    NDArray[np.bool_],
+    NDArray[np.bool_],
+    _MazeStates,
+    NDArray[np.int64],
+    NDArray[np.float32],
+    _MazeStates,
+]
+
 # Of spheres: how many, their quantities, colours, and finishes.
 _Points: TypeAlias = tuple[
     int, Sequence[ArrayLike | None], ArrayLike | None, Sequence[Finish] | None
@@ -252,13 +274,6 @@ class Engine:
     def _set_simulation(self, text: str) -> None: ...
 
 @final
-class Snapshot:
-    """The state of a world at one moment: what `World.snapshot` gives and `World.restore` takes."""
-
-    @property
-    def time(self) -> float: ...
-
-@final
 class MazeEpisodes:
     """Episodes of many balls in one maze: what the environments of `carom.gym` stand on."""
 
@@ -281,21 +296,6 @@ class MazeEpisodes:
     def rough_frames(self) -> int: ...
     @property
     def _seconds_in_engine(self) -> float: ...
-
-# Collectibles taken, and whether the end wall was touched.
-_MazeStates: TypeAlias = tuple[NDArray[np.int64], NDArray[np.bool_]]
-# Observations, rewards, terminated, truncated, states; which episodes ended and were started anew,
-# their last observations and states.
-_MazeStep: TypeAlias = tuple[
-    NDArray[np.float32],
-    NDArray[np.float64],
-    NDArray[np.bool_],
-    NDArray[np.bool_],
-    _MazeStates,
-    NDArray[np.int64],
-    NDArray[np.float32],
-    _MazeStates,
-]
 
 @final
 class Painter:

@@ -16,7 +16,7 @@ from carom._trajectory import Recorded, Trajectory
 if TYPE_CHECKING:
     from carom._world import World
 
-ForceFunction: TypeAlias = "Callable[[World], ArrayLike]"
+ForceFunction: TypeAlias = Callable[["World"], ArrayLike]
 """Takes a world, and returns the force on each of its spheres [N], spread to shape (n, 3)."""
 State: TypeAlias = tuple[
     NDArray[np.float64],

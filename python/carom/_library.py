@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from importlib.metadata import EntryPoint, entry_points
@@ -13,7 +14,7 @@ from typing import Any, NamedTuple, TypeVar
 from carom._carom import find_scene, list_scenes
 from carom._scene import NO_CHANGES, Scene, overrides
 from carom._text import fields_of
-from carom.errors import CaromError
+from carom.errors import CaromError, UnknownError
 
 _Maker = TypeVar("_Maker", bound=Callable[..., Scene])
 
@@ -71,6 +72,8 @@ def scene(name: str, description: str = "") -> Callable[[_Maker], _Maker]:
 def load(name: str, changes: Mapping[str, Any] = NO_CHANGES, **parameters: Any) -> Scene:
     """The scene with a name or title, in any case, or in a file whose path is given.
 
+    Where no scene has this name or title, it is the only one whose title has all words of it.
+
     Of several with one name, one registered in Python counts before one of another package, that
     before one in a folder of ``$CAROM_SCENES``, and that before a built-in one.
 
@@ -80,16 +83,18 @@ def load(name: str, changes: Mapping[str, Any] = NO_CHANGES, **parameters: Any) 
         parameters: For the function that makes the scene, if it is one of Python.
 
     Raises:
-        UnknownError: If there is none; the message says what is most like it.
+        UnknownError: If there is none (the message says what is most like it), or if several
+            titles have all its words (the message lists them).
         SceneError: If the scene makes no sense, or not with these changes.
 
     >>> import carom
     >>> carom.load("simtest1").name
     'simtest1'
+    >>> carom.load("rain").title
+    'Rain on a sphere'
     """
     announced = _announced()
-    names = [(own, "") for own in dict.fromkeys([*_registered, *announced])]
-    text, found = find_scene(name, overrides(changes), _folders(), names)
+    text, found = _found(name, overrides(changes), announced)
     if text is None:
         scene = _make(found, announced, parameters)
         return scene.with_changes(changes) if changes else scene
@@ -101,11 +106,39 @@ def load(name: str, changes: Mapping[str, Any] = NO_CHANGES, **parameters: Any) 
 def find(name: str) -> Scene | Callable[..., Scene]:
     """The scene with a name, as `load` finds it, or the function that makes it if it has one."""
     announced = _announced()
-    names = [(own, "") for own in dict.fromkeys([*_registered, *announced])]
-    text, found = find_scene(name, [], _folders(), names)
+    text, found = _found(name, [], announced)
     if text is None:
         return _maker(found, announced).make
     return Scene(**fields_of(json.loads(text)))
+
+
+def _found(
+    name: str, changes: list[str], announced: Mapping[str, EntryPoint]
+) -> tuple[str | None, str]:
+    """What `find_scene` finds by a name or title, or else by words of a title."""
+    names = [(own, "") for own in dict.fromkeys([*_registered, *announced])]
+    try:
+        return find_scene(name, changes, _folders(), names)
+    except UnknownError as error:
+        fitting = _of_title(name)
+        if len(fitting) > 1:
+            listed = ", ".join(f'"{it.name}" ({it.title})' for it in fitting)
+            raise UnknownError(
+                f'there is no scene "{name}"; several titles have these words: {listed}'
+            ) from None
+        if not fitting:
+            raise error
+    return find_scene(fitting[0].name, changes, _folders(), names)
+
+
+def _of_title(words: str) -> list[Listed]:
+    """The scenes whose titles have all these words."""
+    wanted = _words(words)
+    return [it for it in scenes() if wanted and wanted <= _words(it.title)]
+
+
+def _words(text: str) -> set[str]:
+    return set(re.findall(r"[^\W_]+", text.lower()))
 
 
 def scenes() -> list[Listed]:

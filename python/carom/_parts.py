@@ -1,25 +1,100 @@
 """What a scene is made of: plain values in the words of scene files.
 
 Right-handed frame, y up, SI units. Vectors are any three numbers, tuples or arrays; quaternions are
-x, y, z, w and of any length but zero. Values are checked when they come into a scene or a world.
+x, y, z, w and of any length but zero. A part checks its fields when it is made: a value of a wrong
+kind is a `TypeError`, another one that makes no sense a `CaromError`. What scene files take instead
+of numbers, parts take, too: numbers with units (``"5 cm"``), formulas (``"=2 * 3"``), colours as
+text (``"red"``), and turns (``{"normal": (1, 0, 0)}``); the engine reads these, in a scene or a
+world.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
-from typing import ClassVar, Literal, TypeAlias
+from collections.abc import Mapping, Sequence
+from dataclasses import MISSING, dataclass, field, fields
+from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
-import numpy as np
 from numpy.typing import NDArray
 
-Vector: TypeAlias = Sequence[float] | NDArray[np.float64]
+from carom._checks import ColorText, Numbers, Requirement, Turn, checks_of, wrong_value
+
+
+def _are_finite(values: Sequence[float]) -> bool:
+    return all(map(math.isfinite, values))
+
+
+def _is_turn(values: Sequence[float]) -> bool:
+    """Whether numbers are a direction: below this length their squares underflow."""
+    return _TINIEST <= sum(value * value for value in values) < math.inf
+
+
+_TINIEST = 2.0**-1022
+_FINITE = Requirement("finite", _are_finite)
+_POSITIVE = Requirement("positive and finite", lambda value: 0 < value < math.inf)
+_AT_LEAST_ONE = Requirement("at least 1", lambda value: value >= 1)
+_IN_32_BITS = Requirement("in [0, 2^32)", lambda value: 0 <= value < 2**32)
+_ALL_POSITIVE = Requirement(
+    "positive and finite along every axis", lambda it: _are_finite(it) and min(it) > 0
+)
+_PERIOD = Requirement("finite and longer than 1e-9 s", lambda value: 1e-9 < value < math.inf)
+_FIELD_OF_VIEW = Requirement("between 0 and 180", lambda value: 0 < value < 180)
+_QUATERNION = Requirement("a quaternion x, y, z, w that is finite and not zero", _is_turn)
+_THREE = Numbers("three numbers", 3)
+
+Numeric: TypeAlias = Sequence[float] | NDArray[Any]
+"""Numbers in a row."""
+Vector: TypeAlias = Annotated[Numeric, _THREE, _FINITE]
 """Three numbers x, y, z."""
-Quaternion: TypeAlias = Sequence[float] | NDArray[np.float64]
+Lengths: TypeAlias = Annotated[Numeric, _THREE, _ALL_POSITIVE]
+"""Lengths along x, y, z [m], each > 0."""
+Period: TypeAlias = Annotated[
+    Numeric,
+    _THREE,
+    Requirement(
+        "positive along every axis; infinite where it is open",
+        lambda values: all(value > 0 for value in values),
+    ),
+]
+"""Edges of a periodic box [m], each > 0, infinite along an axis that is open."""
+Direction: TypeAlias = Annotated[
+    Numeric, _THREE, Requirement("a direction that is finite and not zero", _is_turn)
+]
+"""A vector of any length but zero."""
+Quaternion: TypeAlias = Annotated[Numeric, Numbers("four numbers", 4), _QUATERNION, Turn]
 """A rotation x, y, z, w."""
-Color: TypeAlias = Sequence[float]
-"""Red, green, blue, each in [0, 1] (sRGB)."""
+Color: TypeAlias = Annotated[
+    Sequence[float] | str,
+    _THREE,
+    Requirement("three parts in [0, 1]", lambda values: all(0 <= value <= 1 for value in values)),
+    ColorText,
+]
+"""Red, green, blue, each in [0, 1] (sRGB), or a text like ``"red"`` or ``"#c0392b"``."""
+Positive: TypeAlias = Annotated[float, _POSITIVE]
+"""A number > 0."""
+NonNegative: TypeAlias = Annotated[
+    float, Requirement("zero or positive, and finite", lambda value: 0 <= value < math.inf)
+]
+"""A number >= 0."""
+Restitution: TypeAlias = Annotated[float, Requirement("in [0, 1]", lambda value: 0 <= value <= 1)]
+"""A number in [0, 1]."""
+Count: TypeAlias = Annotated[int, _AT_LEAST_ONE, _IN_32_BITS]
+"""A whole number >= 1."""
+Counts: TypeAlias = Annotated[
+    Sequence[int],
+    Numbers("whole numbers", are_whole=True),
+    Requirement("at least 1 each", lambda values: all(value >= 1 for value in values)),
+    Requirement("in [0, 2^32) each", lambda values: all(value < 2**32 for value in values)),
+]
+"""Whole numbers, each >= 1."""
+ThreeCounts: TypeAlias = Annotated[Counts, Numbers("three whole numbers", 3, are_whole=True)]
+"""How many along x, y and z, each >= 1."""
+RadiusRange: TypeAlias = Annotated[
+    Sequence[float],
+    Numbers("two numbers", 2),
+    Requirement("two positive radii in order", lambda it: 0 < it[0] <= it[1] < math.inf),
+]
+"""Smallest and largest radius [m]."""
 Finish: TypeAlias = Literal["matte", "satin", "glossy", "metal", "glass"]
 """How a surface takes light."""
 
@@ -31,16 +106,27 @@ class Part:
     """Something that a scene is made of. Arrays and lists become tuples: parts are values."""
 
     def __post_init__(self) -> None:
-        for each in fields(self):  # type: ignore[arg-type]  # Only dataclasses are made of it.
-            object.__setattr__(self, each.name, _plain(getattr(self, each.name)))
+        values = self.__dict__
+        kind: Any = type(self)
+        for name, default, keep in checks_of(kind):
+            value = values[name]
+            if value is not default:
+                values[name] = keep(value)
 
-
-def _plain(value: object) -> object:
-    if isinstance(value, (np.ndarray, np.generic)):
-        value = value.tolist()
-    if isinstance(value, (list, tuple)):
-        return tuple(_plain(item) for item in value)
-    return value
+    @classmethod
+    def _of_engine(cls, given: Mapping[str, Any]) -> Any:
+        """A part of the fields that the engine writes: the engine has checked them."""
+        part = object.__new__(cls)
+        values = part.__dict__
+        for each in fields(cls):  # type: ignore[arg-type]  # Only dataclasses are made of it.
+            if each.default_factory is not MISSING:
+                values[each.name] = each.default_factory()
+            else:
+                values[each.name] = each.default
+        if unknown := given.keys() - values.keys():
+            raise TypeError(f"carom.{cls.__name__} has no field {', '.join(sorted(unknown))}")
+        values.update(given)
+        return part
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,18 +158,18 @@ class Sphere(Part):
 
     position: Vector = _ORIGIN
     velocity: Vector = _ORIGIN
-    radius: float | None = None
-    diameter: float | None = None
-    mass: float | None = None
-    density: float | None = None
-    restitution: float = 1.0
-    friction: float | None = None
-    rolling_friction: float | None = None
-    spinning_friction: float | None = None
-    tangential_restitution: float | None = None
+    radius: Positive | None = None
+    diameter: Positive | None = None
+    mass: Positive | None = None
+    density: Positive | None = None
+    restitution: Restitution = 1.0
+    friction: NonNegative | None = None
+    rolling_friction: NonNegative | None = None
+    spinning_friction: NonNegative | None = None
+    tangential_restitution: Restitution | None = None
     orientation: Quaternion = _UNTURNED
     angular_velocity: Vector = _ORIGIN
-    inertia_factor: float = 0.4
+    inertia_factor: Positive = 0.4
     color: Color | None = None
     finish: Finish = "satin"
 
@@ -121,7 +207,7 @@ class ViscousDrag(Part):
     """
 
     tag: ClassVar[str] = "viscous-drag"
-    coefficient: float
+    coefficient: NonNegative
 
 
 Force: TypeAlias = ConstantForce | Gravity | ViscousDrag
@@ -137,7 +223,7 @@ class Ball(Part):
     """
 
     tag: ClassVar[str] = "sphere"
-    radius: float
+    radius: Positive
 
 
 @dataclass(frozen=True)
@@ -150,8 +236,8 @@ class Rectangle(Part):
     """
 
     tag: ClassVar[str] = "rectangle"
-    size_x: float
-    size_z: float
+    size_x: Positive
+    size_z: Positive
 
 
 @dataclass(frozen=True)
@@ -170,7 +256,7 @@ class Box(Part):
     """
 
     tag: ClassVar[str] = "box"
-    size: Vector
+    size: Lengths
 
 
 Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
@@ -187,7 +273,7 @@ class Container(Part):
     """
 
     tag: ClassVar[str] = "container"
-    size: Vector
+    size: Lengths
     open: Side | Sequence[Side] = ()
 
     def __post_init__(self) -> None:
@@ -230,15 +316,15 @@ class Collider(Part):
     rotation: Quaternion = _UNTURNED
     velocity: Vector = _ORIGIN
     angular_velocity: Vector = _ORIGIN
-    restitution: float = 1.0
+    restitution: Restitution = 1.0
     trigger: bool = False
     name: str = ""
     visible: bool = True
     color: Color | None = None
-    friction: float | None = None
-    rolling_friction: float | None = None
-    spinning_friction: float | None = None
-    tangential_restitution: float | None = None
+    friction: NonNegative | None = None
+    rolling_friction: NonNegative | None = None
+    spinning_friction: NonNegative | None = None
+    tangential_restitution: Restitution | None = None
     finish: Finish = "satin"
 
 
@@ -259,13 +345,13 @@ class Emitter(Part):
     """
 
     sphere: Sphere
-    period: float
+    period: Annotated[float, _PERIOD]
     position: Vector = _ORIGIN
     rotation: Quaternion = _UNTURNED
-    max_spheres: int | None = None
+    max_spheres: Count | None = None
     needs_room: bool | None = None
     name: str = ""
-    count: int | None = None
+    count: Count | None = None
 
 
 @dataclass(frozen=True)
@@ -282,7 +368,7 @@ class Row(Part):
     """
 
     tag: ClassVar[str] = "row"
-    count: int
+    count: Count
     start: Vector
     step: Vector
     sphere: Sphere | None = None
@@ -305,7 +391,7 @@ class Lattice(Part):
     """
 
     tag: ClassVar[str] = "lattice"
-    counts: Sequence[int]
+    counts: ThreeCounts
     start: Vector
     spacing: Vector
     sphere: Sphere | None = None
@@ -332,8 +418,8 @@ class StaggeredRows(Part):
     """
 
     tag: ClassVar[str] = "staggered-rows"
-    rows: int
-    counts: Sequence[int]
+    rows: Count
+    counts: Counts
     start: Vector
     step: Vector
     row_step: Vector
@@ -357,10 +443,10 @@ class ClosePacking(Part):
     """
 
     tag: ClassVar[str] = "close-packing"
-    counts: Sequence[int]
+    counts: ThreeCounts
     start: Vector
     sphere: Sphere
-    spacing: float | None = None
+    spacing: Positive | None = None
     stacking: Literal["hcp", "fcc"] = "hcp"
 
 
@@ -380,11 +466,11 @@ class Ring(Part):
     """
 
     tag: ClassVar[str] = "ring"
-    count: int
+    count: Count
     center: Vector
-    radius: float
+    radius: Positive
     sphere: Sphere | None = None
-    axis: Vector = (0.0, 1.0, 0.0)
+    axis: Direction = (0.0, 1.0, 0.0)
     collider: Collider | None = None
 
 
@@ -403,13 +489,13 @@ class RandomFill(Part):
     """
 
     tag: ClassVar[str] = "random"
-    count: int
+    count: Count
     min: Vector
     max: Vector
-    seed: int
+    seed: Annotated[int, _IN_32_BITS]
     sphere: Sphere
-    speed: float = 0.0
-    radius_range: Sequence[float] | None = None
+    speed: NonNegative = 0.0
+    radius_range: RadiusRange | None = None
 
 
 Generator: TypeAlias = Row | Lattice | StaggeredRows | ClosePacking | Ring | RandomFill
@@ -442,11 +528,11 @@ class Exact(Part):
     """
 
     impact_law: ImpactLaw = "reflection"
-    contact_duration: float | None = None
-    max_impacts: int | None = None
+    contact_duration: Positive | None = None
+    max_impacts: Count | None = None
     zones: Literal["automatic", "never"] = "automatic"
-    zone_budget: int | None = None
-    zone_tick: float | None = None
+    zone_budget: Count | None = None
+    zone_tick: Positive | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -462,9 +548,9 @@ class Bisect(Part):
     """
 
     integrator: Integrator = "semi-implicit-euler"
-    tolerance: float | None = None
-    max_halvings: int | None = None
-    max_impacts: int | None = None
+    tolerance: NonNegative | None = None
+    max_halvings: Count | None = None
+    max_impacts: Count | None = None
     wind_back: Literal["touched", "all"] = "touched"
 
 
@@ -489,8 +575,8 @@ class Contact(Part):
         converged: Whether sweeps go on until the solution has converged: slow, to compare with.
     """
 
-    sub_steps: int = 8
-    sweeps: int = 2
+    sub_steps: Count = 8
+    sweeps: Count = 2
     converged: bool = False
 
 
@@ -503,7 +589,7 @@ class Periodic(Part):
     """
 
     tag: ClassVar[str] = "periodic"
-    size: Vector = (math.inf, math.inf, math.inf)
+    size: Period = (math.inf, math.inf, math.inf)
 
 
 Rule: TypeAlias = Literal["exact", "contact", "bisect", "discrete"]
@@ -532,8 +618,8 @@ class Simulation(Part):
     """
 
     rule: Rule = "exact"
-    frame_time: float = 1.0 / 60.0
-    duration: float = 10.0
+    frame_time: Positive = 1.0 / 60.0
+    duration: Positive = 10.0
     spheres_collide: bool = True
     combine_rule: CombineRule = "product"
     friction_combine_rule: CombineRule = "geometric-mean"
@@ -559,9 +645,15 @@ class Camera(Part):
 
     position: Vector
     rotation: Quaternion = _UNTURNED
-    vertical_fov_degrees: float = 35.0
-    near: float = 0.3
-    far: float = 1000.0
+    vertical_fov_degrees: Annotated[float, _FIELD_OF_VIEW] = 35.0
+    near: Positive = 0.3
+    far: Positive = 1000.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        are_numbers = not isinstance(self.near, str) and not isinstance(self.far, str)
+        if are_numbers and self.far <= self.near:
+            raise wrong_value("Camera.far", "farther than `near`", self.far)
 
 
 @dataclass(frozen=True)
@@ -576,7 +668,7 @@ class Sun(Part):
 
     rotation: Quaternion
     color: Color
-    intensity: float = 1.0
+    intensity: NonNegative = 1.0
 
 
 @dataclass(frozen=True)
@@ -588,7 +680,7 @@ class DensityColor(Part):
         color: Their colour.
     """
 
-    density: float
+    density: Positive
     color: Color
 
 

@@ -36,8 +36,8 @@ _SAYS_NOTHING = ("frictions", "rolling_frictions", "spinning_frictions", "tangen
 class Points(Sequence[Sphere]):
     """Spheres of a scene as arrays: a hundred thousand of them take a hundredth of a second.
 
-    It stands where a scene has ``spheres``. It can be read like a list of `Sphere`, which are made
-    when they are asked for. Arrays are copied, and cannot be written to afterwards.
+    It stands where a scene has ``spheres``. It can be read like a list of `Sphere`, each of which
+    is made when it is read. Arrays are copied, and cannot be written to afterwards.
 
     Args:
         positions: Centres [m], shape (n, 3).
@@ -233,7 +233,7 @@ def _made(
 
 
 def count_of(positions: ArrayLike) -> int:
-    """How many spheres there are; 1 where that cannot be told, for the shape to be refused."""
+    """How many spheres there are; 1 for shapes that are refused later."""
     try:
         shape = np.shape(positions)
     except ValueError:

@@ -18,7 +18,6 @@ from numpy.typing import DTypeLike, NDArray
 from carom import _parts as parts
 from carom import _pictures as pictures
 from carom._carom import canonical_toml, read_scene, read_scene_file
-from carom._points import Points
 from carom._text import fields_of, toml_of, toml_value
 from carom._trajectory import Recorded, Trajectory
 from carom._world import World
@@ -77,15 +76,6 @@ class Scene(parts.Part):
     camera: parts.Camera | None = None
     sun: parts.Sun | None = None
     colors: parts.Colors | None = None
-
-    def __post_init__(self) -> None:
-        many = self.spheres if isinstance(self.spheres, Points) else None
-        if many is not None:
-            # They have been checked, and are not to become a sphere each.
-            object.__setattr__(self, "spheres", ())
-        super().__post_init__()
-        if many is not None:
-            object.__setattr__(self, "spheres", many)
 
     def __repr__(self) -> str:
         parts = {

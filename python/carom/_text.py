@@ -128,9 +128,9 @@ def part_of(key: str, value: Any) -> Any:
     if key in _CHOICES:
         kinds = {kind.tag: kind for kind in _CHOICES[key]}  # type: ignore[attr-defined]
         tag, fields = (value, {}) if isinstance(value, str) else next(iter(value.items()))
-        return kinds[tag](**fields_of(fields)) if tag in kinds else value
+        return kinds[tag]._of_engine(fields_of(fields)) if tag in kinds else value
     if isinstance(value, dict):
-        return _KINDS[key](**fields_of(value))
+        return _KINDS[key]._of_engine(fields_of(value))
     return value
 
 

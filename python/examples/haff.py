@@ -48,13 +48,13 @@ def cooling(world: carom.World, restitution: float, seed: int) -> dict[str, obje
     world.velocities = maxwell_velocities(len(world), seed)
     # One collision of each sphere, so that the list of impacts of a frame is short.
     frame = 1 / collision_rate(PACKING_FRACTION)
-    world.step(frame, frames=EQUILIBRATION)
+    world.step(dt=frame, frames=EQUILIBRATION)
     world.restitutions = restitution
     tau = haff_time(restitution)
     energies = [world.kinetic_energy]
     for time_between in tau * np.diff(LOOKS):
         frames = int(np.ceil(time_between / frame))
-        world.step(time_between / frames, frames=frames)
+        world.step(dt=time_between / frames, frames=frames)
         energies.append(world.kinetic_energy)
     temperature = np.array(energies) / energies[0]
     return {"temperature": temperature, "rate": (temperature[-1] ** -0.5 - 1) / LOOKS[-1]}

@@ -1,6 +1,7 @@
 """Forces that are functions of Python: Verlet's scheme, between impacts that are exact."""
 
 import copy
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -173,13 +174,13 @@ def test_ctrl_c_ends_a_run_under_functions_and_gives_back_what_it_has() -> None:
 
 
 def test_what_knows_no_functions_says_so() -> None:
-    world = trap()
-    calls = [
+    world, batch = trap(), carom.Batch("tutorial1", 1)
+    calls: list[Callable[[], object]] = [
         world.to_scene,
         lambda: world.step_to_next_event(1.0),
         lambda: world.next_event_time(1.0),
+        lambda: batch.set_world(0, world),
     ]
-    calls.append(lambda: carom.Batch("tutorial1", 1).set_world(0, world))
     for call in calls:
         with pytest.raises(carom.CaromError, match="knows no functions among the forces"):
             call()

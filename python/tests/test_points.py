@@ -14,6 +14,10 @@ def crystal(**more: object) -> carom.Points:
     return carom.Points(places, radii=0.4, **more)  # type: ignore[arg-type]
 
 
+METAL: list[carom.Finish] = ["metal"] * 5
+SATIN: list[carom.Finish] = ["satin"] * 55
+
+
 def everything() -> carom.Points:
     random = np.random.default_rng(1)
     return carom.Points(
@@ -27,7 +31,7 @@ def everything() -> carom.Points:
         inertia_factors=0.5,
         frictions=np.where(random.uniform(size=60) < 0.5, 0.25, np.nan),
         colors=np.where(np.arange(60)[:, None] < 9, (0.25, 0.5, 1.0), np.nan),
-        finishes=["metal"] * 5 + ["satin"] * 55,
+        finishes=[*METAL, *SATIN],
     )
 
 
@@ -158,7 +162,7 @@ def test_spheres_that_overlap_are_refused_if_that_is_asked_for() -> None:
     world.add_collider(carom.Collider(carom.HalfSpace()))
     world.add_spheres([(0, 1, 0), (3, 1, 0)], 1.0)
     before = world.state_hash
-    cases = [
+    cases: list[tuple[list[tuple[float, float, float]], str]] = [
         ([(6, 1, 0), (7, 1, 0)], r"sphere 1 of these overlaps sphere 0 of these by 1\.000e0 m"),
         ([(6, 5, 0), (3, 2, 0)], r"sphere 1 of these overlaps the sphere with the id 1 by"),
         ([(6, 0.5, 0)], r"sphere 0 of these overlaps the collider with the id 0 by 5\.000e-1 m"),

@@ -154,6 +154,52 @@ def test_folders_of_scenes_are_searched(tmp_path: Path, monkeypatch: pytest.Monk
     assert carom.load("my own").name == "mine"
 
 
+TITLED = 'name = "{}"\ntitle = "{}"\n'
+
+
+@pytest.fixture
+def titled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Three scenes in a folder."""
+    for name, title in [("a", "Zebra on a swing"), ("b", "A zebra's swing"), ("c", "Zeppelin")]:
+        (tmp_path / f"{name}.toml").write_text(TITLED.format(name, title), encoding="utf-8")
+    monkeypatch.setenv("CAROM_SCENES", str(tmp_path))
+
+
+@pytest.mark.usefixtures("titled")
+@pytest.mark.parametrize(
+    ("words", "name"), [("swing ON", "a"), ("zebra's", "b"), ("swing, a zebra on", "a")]
+)
+def test_words_that_one_title_alone_has_find_its_scene(words: str, name: str) -> None:
+    assert carom.load(words).name == name
+    assert carom.load(words, {"title": "Other"}).title == "Other"
+
+
+@pytest.mark.usefixtures("titled")
+def test_a_name_or_title_counts_before_words_of_another_title(tmp_path: Path) -> None:
+    (tmp_path / "d.toml").write_text(TITLED.format("zeppelin", "Balloon"), encoding="utf-8")
+    # It is a title, too, of a file that comes before.
+    assert carom.load("zeppelin").name == "c"
+    (tmp_path / "d.toml").write_text(TITLED.format("swing", "Balloon"), encoding="utf-8")
+    assert carom.load("Swing").title == "Balloon"
+
+
+@pytest.mark.usefixtures("titled")
+def test_words_of_several_titles_are_refused_with_their_names() -> None:
+    with pytest.raises(carom.UnknownError) as caught:
+        carom.load("zebra swing")
+    listed = '"a" (Zebra on a swing), "b" (A zebra\'s swing)'
+    assert str(caught.value) == (
+        f'there is no scene "zebra swing"; several titles have these words: {listed}'
+    )
+
+
+@pytest.mark.usefixtures("titled")
+@pytest.mark.parametrize("name", ["zeb", "zebra zeppelin", "", "'", "..."])
+def test_parts_of_words_and_words_of_no_single_title_find_nothing(name: str) -> None:
+    with pytest.raises(carom.UnknownError, match="there is no scene"):
+        carom.load(name)
+
+
 def test_values_are_taken_out_by_none() -> None:
     assert carom.load("simtest4").emitters[0].max_spheres is not None
     assert carom.load("simtest4", {"emitters.0.max_spheres": None}).emitters[0].max_spheres is None

@@ -7,7 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from functools import partial
+from functools import partial, wraps
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,7 @@ import pytest
 import carom
 from carom._sweep import plan
 from carom._sweep.cluster import Pace
+from carom._sweep.fingerprint import fingerprint_of
 
 pytest.importorskip("distributed")
 xarray = pytest.importorskip("xarray")
@@ -398,6 +399,57 @@ def test_a_killed_sweep_goes_on_where_it_was(where: str, tmp_path: Path) -> None
     assert not any(map(is_alive, workers(log)))
 
 
+UNGUARDED = """
+import carom, multiprocessing
+def measure(world, a):
+    return a
+print("begin", flush=True)
+{}
+"""
+
+
+@pytest.mark.parametrize("store", ["None", "'runs.sqlite'"])
+def test_a_script_without_a_guard_ends_in_one_line(store: str, tmp_path: Path) -> None:
+    call = f"carom.sweep('simtest1', {{'a': [1, 2]}}, measure=measure, store={store})"
+    script = tmp_path / "script.py"
+    script.write_text(UNGUARDED.format(call), encoding="utf-8")
+    command = [sys.executable, str(script)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert done.returncode == 1
+    assert {*done.stdout.splitlines()} == {"begin"}
+    [line] = done.stderr.splitlines()
+    assert line.startswith("carom.sweep: its worker processes import this script")
+    assert 'if __name__ == "__main__":' in line
+
+
+def test_a_script_can_catch_that_it_has_no_guard(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    call = (
+        "try:\n"
+        "    carom.sweep('simtest1', {'a': [1, 2]}, measure=measure)\n"
+        "except carom.RunError as error:\n"
+        "    print('caught', 'CAROM_SWEEP_MARK' in __import__('os').environ)\n"
+    )
+    script.write_text(UNGUARDED.format(call), encoding="utf-8")
+    command = [sys.executable, str(script)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "caught False"
+    assert done.stderr == ""
+
+
+def test_a_sweep_in_this_process_needs_no_guard_beside_one_that_has_it(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    call = (
+        "carom.sweep('simtest1', {'a': [1, 2]}, measure=measure, client='serial')\n"
+        "if __name__ == '__main__':\n"
+        "    print(len(carom.sweep('simtest1', {'a': [1, 2]}, measure=measure)))\n"
+    )
+    script.write_text(UNGUARDED.format(call), encoding="utf-8")
+    command = [sys.executable, str(script)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "2"
+
+
 def workers(log: Path) -> set[int]:
     """The processes that performed runs."""
     return {int(line.split()[1]) for line in log.read_text().splitlines()}
@@ -442,6 +494,102 @@ def test_a_store_knows_what_partial_functions_are_given(tmp_path: Path) -> None:
 
 def sum_of(world: carom.World, a: float, b: float) -> float:
     return a + b
+
+
+def of_source(source: str) -> Any:
+    """A function `measure`, as an edited script has it."""
+    names: dict[str, Any] = {"__name__": "script"}
+    exec(source, names)
+    return names["measure"]
+
+
+MEASURE = "def measure(world, a=1):\n    return a + 1\n"
+
+
+def swept(measure: Any, store: Path, **more: Any) -> list[float]:
+    arguments: dict[str, Any] = {"grid": {"a": [1, 2]}, "client": "serial", **more}
+    runs = carom.sweep("simtest1", measure=measure, store=store, **arguments)
+    return [float(it["value"]) for it in runs.results if it is not None]
+
+
+@pytest.mark.parametrize(
+    "edited",
+    [
+        MEASURE.replace("a + 1", "a + 2"),
+        MEASURE.replace("a + 1", "a - 1"),
+        MEASURE.replace("a + 1", "(lambda: a + 3)()"),
+        MEASURE.replace("a + 1", "a + len(world)"),
+        MEASURE.replace("a=1", "a=2"),
+    ],
+)
+def test_a_store_warns_of_a_measurement_whose_code_was_edited(edited: str, tmp_path: Path) -> None:
+    store = tmp_path / "runs.sqlite"
+    assert swept(of_source(MEASURE), store) == [2, 3]
+    for _ in range(2):
+        with pytest.warns(RuntimeWarning, match="store: the code of measure has changed") as told:
+            assert swept(of_source(edited), store) == [2, 3]
+        assert [Path(it.filename).name for it in told] == ["test_sweep.py"]
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_store_warns_of_nothing_but_other_code_of_stored_runs(tmp_path: Path) -> None:
+    store = tmp_path / "runs.sqlite"
+    assert swept(of_source(MEASURE), store) == [2, 3]
+    documented = MEASURE.replace("\n", '\n    """Adds."""\n    # One.\n', 1)
+    other = of_source(MEASURE.replace("a + 1", "a + 2"))
+    for same in [MEASURE, "\n\n" + MEASURE]:
+        assert swept(of_source(same), store) == [2, 3]
+    assert swept(of_source(documented), tmp_path / "other") == [2, 3]
+    documented = documented.replace("Adds", "Adds one").replace("# One", "# Two")
+    assert swept(of_source(documented), tmp_path / "other") == [2, 3]
+    # Other runs, and another version.
+    assert swept(other, store, grid={"a": [3]}) == [5]
+    assert swept(other, store, version="2") == [3, 4]
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_store_of_before_fingerprints_is_taken_without_a_warning(tmp_path: Path) -> None:
+    store = tmp_path / "runs.sqlite"
+    assert swept(of_source(MEASURE), store) == [2, 3]
+    with sqlite3.connect(store) as database:
+        database.execute("DROP TABLE codes")
+    edited = of_source(MEASURE.replace("a + 1", "a + 2"))
+    assert swept(edited, store, grid={"a": [1, 2, 3]}) == [2, 3, 5]
+    with sqlite3.connect(store) as database:
+        # As by another version of Python.
+        database.execute("UPDATE codes SET fingerprint = '00:1'")
+    assert swept(edited, store, grid={"a": [1, 2, 3]}) == [2, 3, 5]
+
+
+def doubled(function: Any) -> Any:
+    @wraps(function)
+    def call(*given: Any, **named: Any) -> Any:
+        return 2 * function(*given, **named)
+
+    return call
+
+
+def test_a_fingerprint_is_the_same_in_every_process_and_sees_through_wrappers() -> None:
+    source = "def measure(world, a=1, *, b=object):\n    return a in {'x', 'y', 'z', 1.5}\n"
+    program = (
+        "from carom._sweep.fingerprint import fingerprint_of\n"
+        f"names = {{}}\nexec({source!r}, names)\nprint(fingerprint_of(names['measure']))"
+    )
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", program],
+            capture_output=True,
+            text=True,
+            check=True,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+        ).stdout.strip()
+        for seed in "123"
+    }
+    assert found == {fingerprint_of(of_source(source))}
+    one, other = of_source(MEASURE), of_source(MEASURE.replace("+", "-"))
+    assert fingerprint_of(partial(one, a=2)) == fingerprint_of(one) != fingerprint_of(other)
+    assert fingerprint_of(doubled(one)) not in (fingerprint_of(one), fingerprint_of(doubled(other)))
+    assert fingerprint_of(len) is None
 
 
 def test_a_store_keeps_every_bit(tmp_path: Path) -> None:

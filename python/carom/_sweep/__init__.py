@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
+import sys
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack
@@ -24,6 +25,7 @@ from carom._sweep.experiment import (
     fault,
 )
 from carom._sweep.experiment import experiment as make_experiment
+from carom._sweep.guard import check_not_in_worker
 from carom._sweep.plan import Plan, make_plan
 from carom._sweep.runs import Failure, Runs
 from carom._sweep.store import Key, Store
@@ -81,7 +83,8 @@ def sweep(
         store: A file that takes each batch of runs as it is finished. What it holds already is not
             run again: it is found by the scene, the parameters and seed, the qualified name of
             ``measure``, and ``version``. Failed runs are not kept there.
-        version: To be changed with what ``measure`` does.
+        version: To be changed with what ``measure`` does; a warning tells where the code of
+            ``measure`` has changed and this has not.
         on_error: ``"keep"`` has a run that raises kept among the errors, with a warning at the end;
             ``"raise"`` stops there.
         progress: Whether to show a line on stderr (by tqdm); if stderr is a terminal unless given.
@@ -89,7 +92,8 @@ def sweep(
     Raises:
         TypeError, CaromError: For arguments that make no sense, a scene among them that cannot even
             begin the first run; named.
-        RunError: If a run fails and ``on_error`` says so, or the cluster is lost.
+        RunError: If a run fails and ``on_error`` says so, if the cluster is lost, or if a script
+            calls this without ``if __name__ == "__main__":``.
         ModuleNotFoundError: Where Dask is not installed.
 
     >>> import carom
@@ -103,6 +107,8 @@ def sweep(
     >>> runs.to_xarray().value.shape
     (2, 3)
     """
+    if client is None:
+        check_not_in_worker()
     _check_choices(measure, version, on_error)
     check_client(client)
     plan = make_plan(grid, samples, repeats, seed)
@@ -165,6 +171,7 @@ class _Book:
         self._results: list[Measured | None] = [None] * len(plan)
         self._faults: dict[int, Fault] = {}
         self._keys: dict[int, Key] = {}
+        self._has_warned = False
 
     def missing(self) -> Iterator[Run]:
         """The runs that are not finished, one by one: cluster and keys are at work together."""
@@ -178,11 +185,24 @@ class _Book:
                     continue
                 found = self._store.find(key)
                 if found is not None:
+                    self._warn_of_other_code(key)
                     self._results[run.row] = found
                     self._line.update()
                     continue
                 self._keys[run.row] = key
             yield run
+
+    def _warn_of_other_code(self, key: Key) -> None:
+        """Warns once if a run that is taken from the store was measured by other code."""
+        if self._has_warned or self._store is None or not self._store.is_of_other_code(key):
+            return
+        self._has_warned = True
+        warnings.warn(
+            "store: the code of measure has changed since runs were stored, and version= has not: "
+            "the stored runs are taken as they are; with another version= they are run again",
+            RuntimeWarning,
+            stacklevel=_level_of_caller(),
+        )
 
     def enter(self, outcomes: Sequence[Outcome]) -> None:
         """Takes in a batch; first of all the store does."""
@@ -225,6 +245,14 @@ class _Book:
             _plan=self._plan,
             _experiment=self._experiment,
         )
+
+
+def _level_of_caller() -> int:
+    """How far above the caller of this is what is no part of sweeps: ``stacklevel`` of warnings."""
+    frame, level = sys._getframe(1), 1
+    while frame.f_globals.get("__name__", "").startswith(__name__) and frame.f_back is not None:
+        frame, level = frame.f_back, level + 1
+    return level
 
 
 def _told(run: Run) -> str:

@@ -9,6 +9,7 @@ from collections.abc import Generator, Iterator
 from typing import TYPE_CHECKING, Any, Literal
 
 from carom._sweep.experiment import Experiment, Fault, Outcome, Run, fault, perform
+from carom._sweep.guard import telling_of_missing_guards
 from carom.errors import RunError
 
 if TYPE_CHECKING:
@@ -169,10 +170,13 @@ def _local_client() -> Iterator[Any]:
     """A cluster on this machine, with a process of one thread for each core."""
     from distributed import Client, LocalCluster
 
-    with (
-        LocalCluster(processes=True, threads_per_worker=1, dashboard_address=_ANY_PORT) as cluster,
-        Client(cluster) as client,
-    ):
+    with contextlib.ExitStack() as stack:
+        with telling_of_missing_guards():
+            cluster = LocalCluster(
+                processes=True, threads_per_worker=1, dashboard_address=_ANY_PORT
+            )
+            stack.enter_context(cluster)
+            client = stack.enter_context(Client(cluster))
         # A process that dies while it starts is not started again, unless the number is kept up.
         count = len(cluster.workers)
         cluster.adapt(minimum=count, maximum=count)

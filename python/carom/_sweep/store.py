@@ -16,6 +16,7 @@ import numpy as np
 
 from carom._scene import Scene
 from carom._sweep.experiment import Measured, Run
+from carom._sweep.fingerprint import fingerprint_of, tells_of_change
 from carom._sweep.plan import canonical_text
 from carom._text import toml_of
 from carom.errors import CaromError
@@ -38,6 +39,14 @@ CREATE TABLE IF NOT EXISTS runs (
 )
 """
 """What was measured is an ``.npz``, with an array for each of the names (JSON)."""
+
+_CODE_TABLE = """
+CREATE TABLE IF NOT EXISTS codes (
+    key TEXT PRIMARY KEY,
+    fingerprint TEXT NOT NULL
+)
+"""
+"""The code of ``measure`` by which a run was measured; none for runs of older stores."""
 
 
 class Key(NamedTuple):
@@ -64,6 +73,7 @@ class Store:
                 no name.
         """
         self._measure, self._version = _name_of(measure), version
+        self._fingerprint = fingerprint_of(measure)
         self._path = os.fspath(path)
         try:
             self._database = sqlite3.connect(self._path, timeout=_PATIENCE)
@@ -87,6 +97,8 @@ class Store:
                 self._database.execute(_TABLE)
                 self._database.execute(f"PRAGMA application_id = {_APPLICATION}")
                 self._database.execute(f"PRAGMA user_version = {_FORMAT}")
+        with self._database:
+            self._database.execute(_CODE_TABLE)
 
     def __enter__(self) -> Store:
         return self
@@ -112,16 +124,25 @@ class Store:
         row = self._database.execute(question, (key.digest,)).fetchone()
         return None if row is None else _unpack(*row)
 
+    def is_of_other_code(self, key: Key) -> bool:
+        """Whether a finished run was measured before the code of ``measure`` was changed."""
+        question = "SELECT fingerprint FROM codes WHERE key = ?"
+        row = self._database.execute(question, (key.digest,)).fetchone()
+        now = self._fingerprint
+        return row is not None and now is not None and tells_of_change(row[0], now)
+
     def add(self, finished: Iterable[tuple[Key, Measured]]) -> None:
         """Writes down finished runs, all or none of them; those that are there stay."""
         rows = [
             (key.digest, self._measure, self._version, key.parameters, key.seed, *_pack(measured))
             for key, measured in finished
         ]
+        codes = [] if self._fingerprint is None else [(row[0], self._fingerprint) for row in rows]
         with self._database:
             self._database.executemany(
                 "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?)", rows
             )
+            self._database.executemany("INSERT OR IGNORE INTO codes VALUES (?, ?)", codes)
 
 
 def _pack(measured: Mapping[str, Any]) -> tuple[str, bytes]:

@@ -1,8 +1,9 @@
 """Environments of Gymnasium: mazes to be learned.
 
-To import this module registers them; ``pip install 'carom[gym]'`` brings Gymnasium.
+To import `carom` and Gymnasium, in either order, registers them, and to import this module does;
+``pip install 'carom[gym]'`` brings Gymnasium.
 
->>> import carom.gym
+>>> import carom
 >>> import gymnasium
 >>> env = gymnasium.make("carom/Maze-v0")
 >>> observation, info = env.reset(seed=1)
@@ -21,20 +22,11 @@ except ModuleNotFoundError as error:
         "carom.gym needs Gymnasium: pip install 'carom[gym]'", name=error.name
     ) from error
 
+from carom._gymnasium import MAZE, register_environments
 from carom.gym._arguments import MazeArguments
 from carom.gym._maze import MazeEnv
 from carom.gym._maze_vector import MazeVectorEnv
 
 __all__ = ["MAZE", "MazeArguments", "MazeEnv", "MazeVectorEnv"]
 
-MAZE = "carom/Maze-v0"
-"""The name under which Gymnasium knows the maze."""
-
-if MAZE not in gymnasium.registry:
-    gymnasium.register(
-        id=MAZE,
-        entry_point="carom.gym:MazeEnv",
-        vector_entry_point="carom.gym:MazeVectorEnv",
-        # 40 s.
-        max_episode_steps=2000,
-    )
+register_environments(gymnasium)
