@@ -120,6 +120,8 @@ class Batch(Strict, BatchEngine):
             CaromError: If it has another number of spheres than the others, emitters, or functions
                 among its forces.
         """
+        if not isinstance(world, World):
+            raise TypeError(f"world: must be a carom.World, not {type(world).__name__}")
         world._refuse_functions("a batch")
         self._restore(self._number(index), world.snapshot())
 

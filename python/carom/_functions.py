@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
+from operator import index as as_index
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -12,6 +14,7 @@ from carom._carom import Engine
 from carom._points import spread
 from carom._tables import IMPACT
 from carom._trajectory import Recorded, Trajectory
+from carom.errors import CaromError
 
 if TYPE_CHECKING:
     from carom._world import World
@@ -30,19 +33,28 @@ State: TypeAlias = tuple[
 """What the engine records of a run: times, ids, radii, masses, impacts, what changes, its end."""
 
 
+_FROZEN = ("positions", "velocities", "masses", "radii")
+"""Arrays of a world that functions are likely to read: while they are at work, these are not to be
+written to by mistake, as by ``p -= p.mean(axis=0)``."""
+
+
 class Functions:
     """The functions among the forces of a world, by their ids, which are negative.
 
     In a frame of length h each sphere of mass m is under the constant force F0 that the functions
     give at its start, between impacts on an exact parabola; at its end, where they give F1, its
     velocity changes by h (F1 - F0) / (2 m). That is the scheme of Verlet in its velocity form
-    (Swope et al., J. Chem. Phys. 76, 637 (1982)): its error is of the second order in h, and the
-    energy in a force that has one is kept but for swings of that order.
+    (Swope et al., J. Chem. Phys. 76, 637 (1982)): its error is of the second order in h. Without
+    impacts the energy in a force that has one swings by that order and does not drift; each impact
+    adds an error of that order. The rules ``discrete`` and ``bisect`` have integrators of their
+    own, to which nothing is added.
     """
 
     def __init__(self) -> None:
         self.by_id: dict[int, ForceFunction] = {}
         self._next = -1
+        self._lock = threading.RLock()
+        self._is_asked = False
 
     def add(self, force: ForceFunction) -> int:
         """Adds a function, and returns its id."""
@@ -51,14 +63,22 @@ class Functions:
         self._next -= 1
         return number
 
+    def copy(self) -> Functions:
+        """The same functions, for another world."""
+        twin = Functions()
+        twin.by_id, twin._next = dict(self.by_id), self._next
+        return twin
+
     def step(self, world: World, dt: float | None, frames: int) -> None:
         """Takes frames; if one is refused, the world is as it was before the call."""
-        before = world.snapshot()
-        try:
-            self._go(world, dt, frames, lambda frame: None)
-        except BaseException:
-            world.restore(before)
-            raise
+        count = _count("frames", frames)
+        with self._lock:
+            before = world.snapshot()
+            try:
+                self._go(world, dt, count, lambda frame: None)
+            except BaseException:
+                world.restore(before)
+                raise
 
     def record(
         self,
@@ -70,23 +90,27 @@ class Functions:
         is_single: bool,
     ) -> Trajectory:
         """Takes frames, and records states and impacts as `World.run` does."""
-        before = world.snapshot()
-        states = [world._record(0, dt, 1, quantities, is_single)]
-        impacts: list[NDArray[np.void]] = []
+        count, rhythm = _count("frames", frames), _count("every", every)
+        if rhythm == 0:
+            raise CaromError("every: must be at least 1, not 0", "every")
+        with self._lock:
+            before = world.snapshot()
+            states = [world._record(0, dt, 1, quantities, is_single)]
+            impacts: list[NDArray[np.void]] = []
 
-        def look(frame: int) -> None:
-            impacts.append(world.impacts)
-            if (frame + 1) % every == 0:
-                states.append(world._record(0, dt, 1, quantities, is_single))
+            def look(frame: int) -> None:
+                impacts.append(world.impacts)
+                if (frame + 1) % rhythm == 0:
+                    states.append(world._record(0, dt, 1, quantities, is_single))
 
-        stopped = None
-        try:
-            self._go(world, dt, frames, look)
-        except KeyboardInterrupt as error:
-            stopped = error
-        except BaseException:
-            world.restore(before)
-            raise
+            stopped = None
+            try:
+                self._go(world, dt, count, look)
+            except KeyboardInterrupt as error:
+                stopped = error
+            except BaseException:
+                world.restore(before)
+                raise
         trajectory = _joined(states, impacts)
         if stopped is not None:
             stopped.trajectory = trajectory  # type: ignore[attr-defined]
@@ -94,34 +118,81 @@ class Functions:
         return trajectory
 
     def _go(self, world: World, dt: float | None, frames: int, look: Callable[[int], None]) -> None:
-        """Takes frames, and has ``look`` look at the world after each."""
+        """Takes frames, and has ``look`` look at the world after each.
+
+        What ends them leaves the world at the end of the last whole one.
+        """
         length = world.frame_time if dt is None else dt
+        is_corrected = world.simulation.rule in ("exact", "contact")
+        ids, own = world.ids, world.applied_forces.copy()
         force = self._force(world)
         for frame in range(frames):
-            ids, own = world.ids, world.applied_forces.copy()
-            world.applied_forces = own + force
+            before = world.snapshot()
             try:
+                world.applied_forces = own + force
                 Engine.step(world, dt=dt)
-            finally:
-                # Of the spheres that are still there; others come without one.
-                stay = np.isin(world.ids, ids)
-                places = np.searchsorted(ids, world.ids[stay])
-                kept, acted = np.zeros((len(world), 3)), np.zeros((len(world), 3))
-                kept[stay], acted[stay] = own[places], force[places]
-                if kept.any() or force.any():
-                    world.applied_forces = kept
-            force = self._force(world)
-            change = np.where(stay[:, None], force - acted, 0.0)
-            if change.any():
-                world.velocities += change * (0.5 * length / world.masses[:, None])
+                if world.ids is not ids:
+                    # Of the spheres that are still there; others come without a force.
+                    stay = np.isin(world.ids, ids)
+                    places = np.searchsorted(ids, world.ids[stay])
+                    own, force = (_among(all_, places, stay) for all_ in (own, force))
+                    ids = world.ids
+                last, force = force, self._force(world)
+                if is_corrected:
+                    change = force - last
+                    if world.emitted.size:
+                        change[np.isin(ids, world.emitted)] = 0
+                    if change.any():
+                        world.velocities += change * (0.5 * length / world.masses[:, None])
+                world.applied_forces = own
+            except BaseException:
+                world.restore(before)
+                raise
             look(frame)
 
     def _force(self, world: World) -> NDArray[np.float64]:
         """The sum of all functions for the world of now [N], shape (n, 3)."""
-        total = np.zeros((len(world), 3))
-        for number, function in self.by_id.items():
-            total += spread(f"force {number}", function(world), len(world), 3)
+        if self._is_asked:
+            problem = "a force that is a function must not step the world that it acts on"
+            raise CaromError(f"forces: {problem}", "forces")
+        total, ids = np.zeros((len(world), 3)), world.ids
+        frozen = [getattr(world, name) for name in _FROZEN]
+        self._is_asked = True
+        try:
+            for array in frozen:
+                array.flags.writeable = False
+            for number, function in list(self.by_id.items()):
+                force = function(world)
+                if world.ids is not ids:
+                    problem = "a function must neither add nor remove spheres"
+                    raise CaromError(f"force {number}: {problem}", "forces")
+                total += spread(f"force {number}", force, len(world), 3)
+        finally:
+            self._is_asked = False
+            if world.ids is ids:
+                for array in frozen:
+                    array.flags.writeable = True
         return total
+
+
+def _among(
+    values: NDArray[np.float64], places: NDArray[np.intp], stay: NDArray[np.bool_]
+) -> NDArray[np.float64]:
+    """Vectors of the spheres that stay, in these places before; none for others."""
+    kept = np.zeros((len(stay), 3))
+    kept[stay] = values[places]
+    return kept
+
+
+def _count(name: str, given: object) -> int:
+    """A count, as the engine reads it."""
+    if isinstance(given, bool) or not hasattr(given, "__index__"):
+        kind = type(given).__name__
+        raise TypeError(f"{name}: must be a whole number, not {kind}")
+    count = as_index(given)
+    if not 0 <= count < 2**64:
+        raise CaromError(f"{name}: must be in [0, 2^64), not {count}", name)
+    return count
 
 
 def _joined(states: list[State], impacts: list[NDArray[np.void]]) -> Trajectory:

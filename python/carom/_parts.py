@@ -129,6 +129,33 @@ class Part:
         return part
 
 
+def expect(name: str, value: object, *kinds: type[Part] | str) -> None:
+    """Refuses a value that is of none of these classes.
+
+    Args:
+        name: What errors call it.
+        value: What was given.
+        kinds: Classes of parts, and words for what else may be given.
+
+    Raises:
+        TypeError: For any other value.
+    """
+    classes = tuple(kind for kind in kinds if not isinstance(kind, str))
+    if isinstance(value, classes):
+        return
+    *most, last = [it if isinstance(it, str) else f"carom.{it.__name__}" for it in kinds]
+    words = f"{', '.join(most)} or {last}" if most else last
+    shown, remedy = type(value).__name__, ""
+    if isinstance(value, type):
+        shown = f"the class {value.__name__}"
+        remedy = f"; write carom.{value.__name__}(...)" if value in classes else ""
+    elif isinstance(value, Part):
+        shown = f"carom.{shown}"
+    raise TypeError(
+        f"{name}: must be {'' if isinstance(kinds[0], str) else 'a '}{words}, not {shown}{remedy}"
+    )
+
+
 @dataclass(frozen=True, kw_only=True)
 class Sphere(Part):
     """A sphere, or what the spheres of a generator or an emitter have in common.

@@ -56,7 +56,7 @@ class Points(Sequence[Sphere]):
         spinning_frictions: Coefficients of spinning friction, as ``frictions``.
         tangential_restitutions: Coefficients of tangential restitution in [0, 1], as ``frictions``.
         colors: Red, green, blue, each in [0, 1], spread to shape (n, 3); nan for none of its own.
-        finishes: How their surfaces take light, one of each; satin unless given.
+        finishes: How their surfaces take light, one for each or one for all; satin unless given.
 
     Raises:
         CaromError: For shapes that do not fit, and numbers that are not finite. What else makes no
@@ -92,7 +92,7 @@ class Points(Sequence[Sphere]):
         spinning_frictions: ArrayLike | None = None,
         tangential_restitutions: ArrayLike | None = None,
         colors: ArrayLike | None = None,
-        finishes: Sequence[Finish] | None = None,
+        finishes: Finish | Sequence[Finish] | None = None,
     ) -> None:
         self._count = count_of(positions)
         given = {
@@ -120,7 +120,8 @@ class Points(Sequence[Sphere]):
             own = spread("densities", densities, self._count, 1)
             self._arrays["masses"] = _frozen(masses_of(own, self._arrays["radii"]))
         self._colors = None if colors is None else spread("colors", colors, self._count, 3)
-        self._finishes = None if finishes is None else tuple(finishes)
+        one_for_all = (finishes,) * self._count if isinstance(finishes, str) else finishes
+        self._finishes = None if one_for_all is None else tuple(one_for_all)
         if self._finishes is not None and len(self._finishes) != self._count:
             problem = f"must be {self._count}, not {len(self._finishes)}"
             raise CaromError(f"finishes: {problem}", "finishes")
@@ -131,14 +132,16 @@ class Points(Sequence[Sphere]):
     @overload
     def __getitem__(self, index: int) -> Sphere: ...
     @overload
-    def __getitem__(self, index: slice) -> Points: ...
-    def __getitem__(self, index: int | slice) -> Sphere | Points:
-        if isinstance(index, slice):
+    def __getitem__(self, index: slice | NDArray[Any]) -> Points: ...
+    def __getitem__(self, index: int | slice | NDArray[Any]) -> Sphere | Points:
+        if isinstance(index, (slice, np.ndarray)):
             part = {name: values[index] for name, values in self._arrays.items()}
             return Points(
                 **part,
                 colors=None if self._colors is None else self._colors[index],
-                finishes=None if self._finishes is None else self._finishes[index],
+                finishes=None
+                if self._finishes is None
+                else np.array(self._finishes)[index].tolist(),
             )
         number = as_index(index)
         if not -self._count <= number < self._count:
@@ -163,6 +166,16 @@ class Points(Sequence[Sphere]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _made, (self._arrays, self._colors, self._finishes)
+
+    @property
+    def colors(self) -> NDArray[np.float64] | None:
+        """Red, green, blue of each, shape (n, 3), if any were given; nan for none of its own."""
+        return self._colors
+
+    @property
+    def finishes(self) -> tuple[Finish, ...] | None:
+        """How their surfaces take light, if that was given."""
+        return self._finishes
 
     def __getattr__(self, name: str) -> NDArray[np.float64]:
         """The array of a quantity, as it was given; an `AttributeError` for one that was not."""
@@ -258,6 +271,9 @@ def spread(name: str, values: ArrayLike, count: int, width: int) -> NDArray[np.f
         ) from None
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}: must be an array of numbers, not of {array.dtype}")
+    if array.ndim == 2 and array.shape[1] != width:
+        # No number for all axes.
+        raise CaromError(f"{name}: must be of shape {shape}, not {array.shape}", name)
     try:
         whole = np.array(np.broadcast_to(array, shape), dtype=np.float64, order="C")
     except ValueError:

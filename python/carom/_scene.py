@@ -18,6 +18,7 @@ from numpy.typing import DTypeLike, NDArray
 from carom import _parts as parts
 from carom import _pictures as pictures
 from carom._carom import canonical_toml, read_scene, read_scene_file
+from carom._points import Points
 from carom._text import fields_of, toml_of, toml_value
 from carom._trajectory import Recorded, Trajectory
 from carom._world import World
@@ -134,6 +135,9 @@ class Scene(parts.Part):
         >>> carom.load("simtest1").with_changes({"simulation.rule": "exact"}).simulation.rule
         'exact'
         """
+        if isinstance(self.spheres, Points) and not any(it.startswith("spheres") for it in changes):
+            # Without a text of each of them.
+            return replace(replace(self, spheres=()).with_changes(changes), spheres=self.spheres)
         return Scene.from_toml(toml_of(self), source=self.name, changes=changes)
 
     def with_seed(self, seed: int) -> Scene:
@@ -168,7 +172,7 @@ class Scene(parts.Part):
         frames: int | None = None,
         dt: float | None = None,
         every: int = 1,
-        quantities: Sequence[Recorded] | None = None,
+        quantities: Recorded | Sequence[Recorded] | None = None,
         dtype: DTypeLike = np.float64,
     ) -> Trajectory:
         """Runs the scene from its start, and records what happens: see `World.run`."""

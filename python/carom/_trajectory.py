@@ -154,6 +154,9 @@ class Trajectory:
             CaromError: If it is no such file.
             OSError: If it cannot be read.
         """
+        with open(path, "rb") as file:
+            if not zipfile.is_zipfile(file):
+                raise CaromError(f"{os.fspath(path)}: no trajectory of carom: no .npz file", "path")
         try:
             with np.load(path, allow_pickle=False) as file:
                 arrays = {name: file[name] for name in file.files}

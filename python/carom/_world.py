@@ -6,7 +6,6 @@ import copy
 import os
 from collections.abc import Sequence
 from dataclasses import replace
-from operator import index as as_index
 from typing import TYPE_CHECKING, Any, Literal, NoReturn, overload
 
 import numpy as np
@@ -18,7 +17,7 @@ from carom import _tables as tables
 from carom._carom import Engine
 from carom._contact_account import ContactAccount
 from carom._functions import ForceFunction, Functions
-from carom._points import Points, count_of, masses_of, spread
+from carom._points import Points
 from carom._stage_counts import StageCounts
 from carom._strict import Strict
 from carom._text import read_part, read_parts, toml_of, toml_value
@@ -27,15 +26,12 @@ from carom._zone_account import ZoneAccount
 from carom.errors import CaromError, UnknownError
 
 if TYPE_CHECKING:
-    from typing_extensions import TypeIs
+    from typing_extensions import Never, TypeIs
 
     from carom._scene import Scene
 
 
-_OF_FUNCTIONS = ("_functions", "step")
-"""What a world with functions among its forces has besides."""
-_ROUNDING = 1e-9
-"""Overlaps of so much [m] are rounding."""
+_FORCES = (parts.ConstantForce, parts.Gravity, parts.ViscousDrag)
 
 
 def _are_spheres(
@@ -46,7 +42,7 @@ def _are_spheres(
         return True
     if not isinstance(given, Sequence) or isinstance(given, (str, bytes)):
         return False
-    return len(given) > 0 and all(isinstance(it, parts.Sphere) for it in given)
+    return all(isinstance(it, parts.Sphere) for it in given)
 
 
 class World(Strict, Engine):
@@ -103,6 +99,9 @@ class World(Strict, Engine):
     def __init__(self, scene: Scene | None = None) -> None:
         """Everything is made by then."""
 
+    _functions: Functions | None = None
+    """The functions among the forces, if there are any."""
+
     def __copy__(self) -> World:
         """A world of its own that goes on as this one does, bit for bit.
 
@@ -113,10 +112,10 @@ class World(Strict, Engine):
     def __deepcopy__(self, memo: dict[int, Any]) -> World:
         twin = type(self).__new__(type(self))
         twin.restore(self.snapshot())
-        own = {name: it for name, it in self.__dict__.items() if name not in _OF_FUNCTIONS}
+        memo[id(self)] = twin
+        own = {name: it for name, it in self.__dict__.items() if name != "_functions"}
         twin.__dict__.update(copy.deepcopy(own, memo))
-        if self._functions is not None:
-            twin._take_functions(copy.deepcopy(self._functions, memo))
+        twin._functions = None if self._functions is None else self._functions.copy()
         return twin
 
     def __reduce__(self) -> NoReturn:
@@ -130,6 +129,24 @@ class World(Strict, Engine):
 
     # Time
 
+    def step(self, *unnamed: Never, dt: float | None = None, frames: int = 1) -> None:
+        """Advances the world by ``frames`` frames of ``dt`` [s], or of the scene's own frame time.
+
+        Both go by their names. Other threads run meanwhile. If a frame is refused, the world is as
+        it was before the call.
+
+        Raises:
+            CaromError: If ``dt`` is not positive and finite, an emitter runs away, or a periodic
+                box is too small for the spheres.
+            StepError: If a number would overflow, or there are too many impacts.
+            KeyboardInterrupt: On Ctrl-C, within a tenth of a second; the world is then as it was
+                before the call.
+        """
+        if self._functions is None or unnamed:
+            super().step(*unnamed, dt=dt, frames=frames)
+        else:
+            self._functions.step(self, dt, frames)
+
     def run(
         self,
         seconds: float | None = None,
@@ -137,7 +154,7 @@ class World(Strict, Engine):
         frames: int | None = None,
         dt: float | None = None,
         every: int = 1,
-        quantities: Sequence[Recorded] | None = None,
+        quantities: Recorded | Sequence[Recorded] | None = None,
         dtype: DTypeLike = np.float64,
     ) -> Trajectory:
         """Runs on, and records what happens.
@@ -172,7 +189,8 @@ class World(Strict, Engine):
         kind = np.dtype(dtype)
         if kind not in (np.float64, np.float32):
             raise CaromError(f"dtype: must be float64 or float32, not {kind}", "dtype")
-        names = None if quantities is None else list(quantities)
+        one = [quantities] if isinstance(quantities, str) else quantities
+        names: list[Recorded] | None = None if one is None else list(one)
         if self._functions is not None:
             is_single = kind == np.float32
             return self._functions.record(self, frames, dt, every, names, is_single)
@@ -248,18 +266,19 @@ class World(Strict, Engine):
         Raises:
             SceneError: For a number that makes no sense.
         """
-        [number] = self._add_described_spheres(f"spheres = [{toml_value(sphere, 'sphere')}]")
-        return number
+        parts.expect("sphere", sphere, parts.Sphere)
+        text = f"spheres = [{toml_value(sphere, 'sphere')}]"
+        return int(self._add_described_spheres(text, True)[0])
 
     def add_spheres(
         self,
         positions: ArrayLike | Sequence[parts.Sphere],
         radii: ArrayLike | None = None,
         *,
-        velocities: ArrayLike = 0.0,
+        velocities: ArrayLike | None = None,
         masses: ArrayLike | None = None,
         densities: ArrayLike | None = None,
-        restitutions: ArrayLike = 1.0,
+        restitutions: ArrayLike | None = None,
         orientations: ArrayLike | None = None,
         angular_velocities: ArrayLike | None = None,
         inertia_factors: ArrayLike | None = None,
@@ -306,42 +325,31 @@ class World(Strict, Engine):
         if overlap not in ("allow", "raise"):
             raise CaromError(f"overlap: must be 'allow' or 'raise', not {overlap!r}", "overlap")
         may_overlap = overlap == "allow"
+        given = {
+            "radii": radii,
+            "velocities": velocities,
+            "masses": masses,
+            "densities": densities,
+            "restitutions": restitutions,
+            "orientations": orientations,
+            "angular_velocities": angular_velocities,
+            "inertia_factors": inertia_factors,
+            "frictions": frictions,
+            "rolling_frictions": rolling_frictions,
+            "spinning_frictions": spinning_frictions,
+            "tangential_restitutions": tangential_restitutions,
+        }
+        named = {name: values for name, values in given.items() if values is not None}
         if _are_spheres(positions):
-            if radii is not None:
-                raise TypeError("radii: spheres have their own")
-            return self._add_described(positions, may_overlap)
+            if named:
+                raise TypeError(f"{next(iter(named))}: spheres have their own")
+            if isinstance(positions, Points):
+                return self._add_spheres(positions._given(), may_overlap)
+            texts = [toml_value(it, f"spheres[{number}]") for number, it in enumerate(positions)]
+            return self._add_described_spheres(f"spheres = [{', '.join(texts)}]", may_overlap)
         if radii is None:
             raise TypeError("radii: must be given")
-        count = count_of(positions)
-        if densities is not None:
-            if masses is not None:
-                raise CaromError("densities: give masses or densities", "densities")
-            own = spread("densities", densities, count, 1)
-            masses = masses_of(own, spread("radii", radii, count, 1))
-        motion = (positions, velocities)
-        properties = (radii, 1.0 if masses is None else masses, restitutions)
-        rotation = (orientations, angular_velocities, inertia_factors)
-        friction = (frictions, rolling_frictions, spinning_frictions, tangential_restitutions)
-        quantities = (*motion, *properties, *rotation, *friction)
-        return self._add_spheres(count, quantities, may_overlap)
-
-    def _add_described(
-        self, spheres: Sequence[parts.Sphere], may_overlap: bool
-    ) -> NDArray[np.uint64]:
-        """Adds spheres with their colours."""
-        before = None if may_overlap else self.snapshot()
-        texts = ", ".join(
-            toml_value(sphere, f"spheres[{number}]") for number, sphere in enumerate(spheres)
-        )
-        ids = np.array(self._add_described_spheres(f"spheres = [{texts}]"), dtype=np.uint64)
-        if before is not None:
-            touching = self.overlaps(_ROUNDING)
-            new = touching[(touching["sphere_1"] >= ids[0]) | (touching["sphere_2"] >= ids[0])]
-            if len(new):
-                self.restore(before)
-                depth = new["depth"].max()
-                raise CaromError(f"spheres: overlap by up to {depth:.3e} m", "spheres")
-        return ids
+        return self._add_spheres(Points(positions, **named)._given(), may_overlap)  # type: ignore[arg-type]
 
     def remove_spheres(self, ids: ArrayLike) -> None:
         """Takes spheres out of the world. Those after them move up in the arrays.
@@ -400,6 +408,7 @@ class World(Strict, Engine):
             UnknownError: If it is not in the world.
             SceneError: For a number that makes no sense.
         """
+        parts.expect("sphere", sphere, parts.Sphere)
         self._set_sphere(id, f"spheres = [{toml_value(sphere, 'sphere')}]")
 
     # Forces, colliders, emitters
@@ -419,8 +428,11 @@ class World(Strict, Engine):
         spread to shape (n, 3). It is called once in each frame, and once more at the start of each
         call of `step` and `run`; its id is negative. Velocities follow by Verlet's scheme, whose
         error is of the second order in the length of a frame: in a trap of frequency ω energy
-        swings by (ω dt / 2)² of itself at most, and does not drift. Copies of the world have the
-        function, snapshots and scenes do not.
+        swings by (ω dt / 2)² of itself at most, and does not drift; each impact adds an error of
+        that order. Under ``discrete`` and ``bisect`` it is that of their integrators. A sphere that
+        an emitter brings is under it from its first whole frame on. While a function is at work,
+        the world is not to be changed. Copies of the world have the function, snapshots and scenes
+        do not.
 
         >>> import carom
         >>> world = carom.World()
@@ -430,18 +442,22 @@ class World(Strict, Engine):
         >>> world.positions.round(3).tolist()
         [[-1.0, 0.0, 0.0]]
         """
-        if isinstance(force, parts.Part) or not callable(force):
+        if isinstance(force, (parts.Part, type)) or not callable(force):
+            parts.expect("force", force, *_FORCES, "a function")
             return self._add_force(f"forces = [{toml_value(force, 'force')}]")
         if self._functions is None:
-            self._take_functions(Functions())
-        assert self._functions is not None
+            self._functions = Functions()
         return self._functions.add(force)
 
     def set_force(self, id: int, force: parts.Force | ForceFunction) -> None:
         """Puts a force in the place of another; a function in that of a function."""
-        if self._functions is not None and id in self._functions.by_id and callable(force):
-            self._functions.by_id[id] = force
+        is_function = callable(force) and not isinstance(force, (parts.Part, type))
+        if self._functions is not None and id in self._functions.by_id:
+            if not is_function:
+                raise TypeError(f"force: {id} is a function; remove it, and add the other")
+            self._functions.by_id[id] = force  # type: ignore[assignment]
             return
+        parts.expect("force", force, *_FORCES)
         self._set_force(id, f"forces = [{toml_value(force, 'force')}]")
 
     def remove_force(self, id: int) -> None:
@@ -455,24 +471,7 @@ class World(Strict, Engine):
             return
         del self._functions.by_id[id]
         if not self._functions.by_id:
-            for name in _OF_FUNCTIONS:
-                del self.__dict__[name]
-
-    @property
-    def _functions(self) -> Functions | None:
-        """The functions among the forces, if there are any."""
-        functions: Functions | None = self.__dict__.get("_functions")
-        return functions
-
-    def _take_functions(self, functions: Functions) -> None:
-        """Has functions act from now on; a world without them steps without this detour."""
-
-        def step(*unnamed: object, dt: float | None = None, frames: int = 1) -> None:
-            if unnamed:
-                Engine.step(self, *unnamed)  # Refused there.
-            functions.step(self, dt, as_index(frames))
-
-        self.__dict__.update(_functions=functions, step=step)
+            self._functions = None
 
     def _refuse_functions(self, what: str) -> None:
         if self._functions is not None:
@@ -515,10 +514,12 @@ class World(Strict, Engine):
 
     def add_collider(self, collider: parts.Collider) -> int:
         """Adds a collider, and returns its id."""
+        parts.expect("collider", collider, parts.Collider)
         return self._add_collider(f"colliders = [{toml_value(collider, 'collider')}]")
 
     def set_collider(self, id: int, collider: parts.Collider) -> None:
         """Changes a collider; spheres feel no velocity but the one it is given."""
+        parts.expect("collider", collider, parts.Collider)
         self._set_collider(id, f"colliders = [{toml_value(collider, 'collider')}]")
 
     @property
@@ -528,10 +529,12 @@ class World(Strict, Engine):
 
     def add_emitter(self, emitter: parts.Emitter) -> int:
         """Adds an emitter, and returns its id; its first sphere is due now."""
+        parts.expect("emitter", emitter, parts.Emitter)
         return self._add_emitter(f"emitters = [{toml_value(emitter, 'emitter')}]")
 
     def set_emitter(self, id: int, emitter: parts.Emitter) -> None:
         """Changes an emitter; with another period it starts anew, now."""
+        parts.expect("emitter", emitter, parts.Emitter)
         self._set_emitter(id, f"emitters = [{toml_value(emitter, 'emitter')}]")
 
     # How it is stepped
@@ -549,7 +552,8 @@ class World(Strict, Engine):
     def to_scene(self) -> Scene:
         """A scene that begins as the world is now: time begins at 0 there, emitters begin anew.
 
-        Its spheres are `Points`, which read like a list of `Sphere`.
+        Its spheres are `Points`, which read like a list of `Sphere`. Forces that are applied to
+        single spheres are no part of a scene.
         """
         from carom._scene import Scene
 

@@ -567,3 +567,24 @@ def test_a_run_that_did_not_record_a_quantity_says_so() -> None:
     with pytest.raises(carom.CaromError, match="velocities: were not recorded by the run"):
         analysis.velocity_autocorrelation(run)
     analysis.mean_square_displacement(run)
+
+
+def test_impacts_after_the_last_recorded_state_do_not_count() -> None:
+    lattice = carom.Lattice([6] * 3, [0.0] * 3, [1.2] * 3, carom.Sphere(diameter=1.0, mass=1.0))
+    simulation = carom.Simulation(boundary=carom.Periodic([7.2] * 3))
+    world = carom.Scene(name="fluid", simulation=simulation, generators=[lattice]).world()
+    world.velocities = np.random.default_rng(1).standard_normal((216, 3))
+    snapshot = world.snapshot()
+    run = world.run(frames=199, dt=0.02, every=100)
+    world.restore(snapshot)
+    same = world.run(frames=100, dt=0.02, every=100)
+    one, other = (analysis.virial_pressure(it, volume=7.2**3) for it in (run, same))
+    assert one == other
+    assert analysis.collision_frequency(run) == analysis.collision_frequency(same)
+
+
+def test_a_box_is_the_boundary_of_a_scene_too() -> None:
+    paths = np.array([[[9.0, 0, 0]], [[1.0, 0, 0]]])
+    of_sides = analysis.unwrap(paths, [10.0, 10.0, 10.0])
+    of_boundary = analysis.unwrap(paths, carom.Periodic((10.0, 10.0, 10.0)))
+    assert of_boundary.tolist() == of_sides.tolist() == [[[9, 0, 0]], [[11, 0, 0]]]

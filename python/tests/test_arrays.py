@@ -238,3 +238,12 @@ def test_a_fortran_ordered_array_is_understood() -> None:
     world = two_balls()
     world.velocities = np.asfortranarray([[1, 2, 3], [4, 5, 6]])
     assert world.velocities.tolist() == [[1, 2, 3], [4, 5, 6]]
+
+
+def test_restoring_voids_what_was_written() -> None:
+    world = two_balls()
+    snapshot = world.snapshot()
+    world.masses[0] = -1
+    world.restore(snapshot)
+    assert world.masses.tolist() == [1, 1]
+    world.step()

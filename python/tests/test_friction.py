@@ -154,11 +154,11 @@ def test_spheres_added_by_arrays_are_those_added_one_by_one() -> None:
     ("given", "words"),
     [
         ({"frictions": -0.1}, "`friction` must be zero or positive"),
-        ({"rolling_frictions": math.inf}, "`rolling_friction` must be"),
+        ({"rolling_frictions": math.inf}, r"rolling_frictions\[0\]: must be finite"),
         ({"tangential_restitutions": 2}, "`tangential_restitution` must be"),
         ({"orientations": (0, 0, 0, 0)}, "`orientation` must"),
         ({"orientations": (0, 0, 1)}, r"orientations: must be of shape \(2, 4\), not \(3,\)"),
-        ({"angular_velocities": math.nan}, "`angular_velocity` must be finite"),
+        ({"angular_velocities": math.nan}, r"angular_velocities\[0\]: must be finite"),
         ({"inertia_factors": 0}, "`inertia_factor` must be positive"),
     ],
 )

@@ -1,11 +1,15 @@
 """Forces that are functions of Python: Verlet's scheme, between impacts that are exact."""
 
 import copy
+import threading
+import time
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 from interrupts import ctrl_c
+from numpy.typing import NDArray
 
 import carom
 
@@ -184,3 +188,174 @@ def test_what_knows_no_functions_says_so() -> None:
     for call in calls:
         with pytest.raises(carom.CaromError, match="knows no functions among the forces"):
             call()
+
+
+def test_discrete_rules_have_integrators_of_their_own() -> None:
+    function, held = (
+        carom.Scene(name="trap", simulation=carom.Simulation(rule="discrete")).world()
+        for _ in range(2)
+    )
+    for world in (function, held):
+        world.add_sphere(carom.Sphere(position=(1, 0, 0), radius=0.1))
+    function.add_force(lambda world: -world.positions)
+    for _ in range(100):
+        function.step(dt=0.01)
+        held.applied_forces = -held.positions
+        held.step(dt=0.01)
+    assert function.positions.tolist() == held.positions.tolist()
+    assert function.velocities.tolist() == held.velocities.tolist()
+
+
+def test_threads_that_step_one_world_under_a_function_wait_for_each_other() -> None:
+    world = carom.World()
+    world.add_sphere(carom.Sphere(radius=0.5))
+
+    def fall(world: carom.World) -> tuple[float, float, float]:
+        time.sleep(0)
+        return (0, -1, 0)
+
+    world.add_force(fall)
+
+    def work() -> None:
+        for _ in range(100):
+            world.step(dt=0.01)
+
+    threads = [threading.Thread(target=work) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    # Some roundings in each frame.
+    assert world.velocities[0, 1] == pytest.approx(-3.0, rel=1e-13)
+
+
+def test_a_stopped_run_leaves_the_world_at_the_end_of_its_last_whole_frame() -> None:
+    world, calls = trap(), []
+
+    def stop(world: carom.World) -> tuple[float, float, float]:
+        calls.append(world.time)
+        if len(calls) == 8:
+            raise KeyboardInterrupt
+        return (0, 0, 0)
+
+    world.add_force(stop)
+    with pytest.raises(KeyboardInterrupt) as stopped:
+        world.run(frames=100, dt=0.01)
+    trajectory = stopped.value.trajectory  # type: ignore[attr-defined]
+    assert trajectory.time[-1] == world.time == pytest.approx(0.06)
+    assert trajectory.velocities[-1].tolist() == world.velocities.tolist()
+
+
+def test_a_step_of_a_class_of_ones_own_stands() -> None:
+    class Counted(carom.World):
+        steps = 0
+
+        def step(self, **arguments: Any) -> None:  # type: ignore[override]
+            type(self).steps += 1
+            super().step(**arguments)
+
+    world = Counted()
+    world.add_sphere(carom.Sphere(position=(1, 0, 0), radius=0.1))
+    world.add_force(lambda world: -world.positions)
+    world.step(dt=0.1)
+    assert Counted.steps == 1
+    assert world.velocities[0, 0] < 0
+
+
+def test_arguments_are_those_of_a_world_without_functions() -> None:
+    functional, plain = trap(), carom.World()
+    for world in (functional, plain):
+        with pytest.raises(carom.CaromError, match="every: must be at least 1"):
+            world.run(frames=1, dt=0.1, every=0)
+        with pytest.raises(carom.CaromError, match=r"frames: must be in \[0, 2\^64\), not -3"):
+            world.step(frames=-3)
+        for frames in (True, 2.5):
+            with pytest.raises(TypeError, match="frames: must be a whole number, not"):
+                world.step(frames=frames)  # type: ignore[arg-type]
+        with pytest.raises(TypeError, match="by its name"):
+            world.step(10)  # type: ignore[arg-type]
+
+
+def remove_another(world: carom.World) -> tuple[float, float, float]:
+    world.remove_sphere(world.ids[-1])
+    return (0, 0, 0)
+
+
+def step_on(world: carom.World) -> tuple[float, float, float]:
+    world.step()
+    return (0, 0, 0)
+
+
+def move_by_mistake(world: carom.World) -> NDArray[np.float64]:
+    positions = world.positions
+    positions -= positions.mean(axis=0)
+    return -positions
+
+
+@pytest.mark.parametrize(
+    ("function", "error", "problem"),
+    [
+        (remove_another, carom.CaromError, "neither add nor remove spheres"),
+        (step_on, carom.CaromError, "must not step the world"),
+        (move_by_mistake, ValueError, "read-only"),
+    ],
+)
+def test_a_function_that_changes_its_world_is_refused(
+    function: Callable[[carom.World], Any], error: type[Exception], problem: str
+) -> None:
+    world = carom.World()
+    world.add_spheres([(1, 0, 0), (4, 0, 0)], 0.5)
+    number = world.add_force(function)
+    before = world.state_hash
+    with pytest.raises(error, match=problem):
+        world.step(dt=0.1)
+    assert world.state_hash == before
+    world.remove_force(number)
+    # Arrays can be written to as before.
+    world.positions[0] = (0, 0, 0)
+    world.step(dt=0.1)
+
+
+def test_a_copy_shares_functions_and_whatever_they_hold() -> None:
+    class Spring:
+        def __init__(self) -> None:
+            self.calls = 0
+            self.lock = threading.Lock()
+
+        def force(self, world: carom.World) -> NDArray[np.float64]:
+            self.calls += 1
+            return -world.positions
+
+    spring, world = Spring(), carom.World()
+    world.add_sphere(carom.Sphere(position=(1, 0, 0), radius=0.1))
+    world.add_force(spring.force)
+    copy.copy(world).step(dt=0.1)
+    assert spring.calls == 2
+
+
+@pytest.mark.parametrize(
+    ("call", "problem"),
+    [
+        (
+            lambda w: w.add_force((0, -9.81, 0)),
+            "force: must be a carom.ConstantForce, .* or a function",
+        ),
+        (
+            lambda w: w.add_force(carom.Gravity),
+            r"the class Gravity; write carom\.Gravity\(\.\.\.\)",
+        ),
+        (
+            lambda w: w.add_collider(carom.HalfSpace()),
+            "collider: must be a carom.Collider, not carom.HalfSpace",
+        ),
+        (lambda w: w.add_sphere((0, 0, 0)), "sphere: must be a carom.Sphere, not tuple"),
+        (lambda w: w.add_emitter(None), "emitter: must be a carom.Emitter, not NoneType"),
+        (lambda w: w.set_sphere(0, 1), "sphere: must be a carom.Sphere, not int"),
+        (lambda w: w.set_force(-1, carom.Gravity()), "force: -1 is a function; remove it"),
+    ],
+)
+def test_parts_of_another_kind_are_refused_by_name(
+    call: Callable[[carom.World], object], problem: str
+) -> None:
+    with pytest.raises(TypeError, match=problem):
+        call(trap())

@@ -111,6 +111,7 @@ def test_densities_give_the_masses_of_spheres_with_them() -> None:
         ),
         ({"masses": 1, "densities": 1}, "give masses or densities"),
         ({"finishes": ["metal"]}, "finishes: must be 3, not 1"),
+        ({"positions": [[0], [2], [4]]}, r"positions: must be of shape \(3, 3\), not \(3, 1\)"),
     ],
 )
 def test_points_refuse_what_does_not_fit(wrong: dict[str, object], problem: str) -> None:
@@ -143,8 +144,39 @@ def test_spheres_are_added_as_a_list_with_their_colours() -> None:
     )
     assert ids.tolist() == [0, 1]
     assert world.sphere(0).color == (1, 0, 0)
-    with pytest.raises(TypeError, match="spheres have their own"):
+    with pytest.raises(TypeError, match="radii: spheres have their own"):
         world.add_spheres([carom.Sphere(radius=0.5)], 0.5)
+    with pytest.raises(TypeError, match="velocities: spheres have their own"):
+        world.add_spheres(crystal(), velocities=1)
+    assert world.add_spheres([]).tolist() == []
+    assert world.add_spheres(np.empty((0, 3)), 1.0, overlap="raise").tolist() == []
+
+
+def test_points_are_added_with_their_colours_and_without_text() -> None:
+    by_points, by_list = carom.World(), carom.World()
+    by_points.add_spheres(everything())
+    by_list.add_spheres(list(everything()))
+    assert by_points.state_hash == by_list.state_hash
+    assert by_points.to_scene() == by_list.to_scene()
+
+
+def test_changes_of_other_fields_leave_points_points() -> None:
+    scene = carom.Scene(name="many", spheres=everything())
+    changed = scene.with_changes({"simulation.rule": "contact"})
+    assert isinstance(changed.spheres, carom.Points)
+    assert changed == scene.with_changes({"simulation": {"rule": "contact"}})
+    moved = scene.with_changes({"spheres.0.position.1": -9.0})
+    assert moved.spheres[0].position == (0, -9, 0)
+
+
+def test_points_are_picked_by_marks_and_tell_how_they_look() -> None:
+    points = everything()
+    heavy = points[points.masses > 1.5]
+    assert 0 < len(heavy) < 60 and all(sphere.mass > 1.5 for sphere in heavy)  # type: ignore[operator]
+    assert points.colors is not None and points.colors.shape == (60, 3)
+    assert points.finishes is not None and points.finishes[4:6] == ("metal", "satin")
+    assert crystal(finishes="glass")[7].finish == "glass"
+    assert crystal().colors is None
 
 
 def test_an_error_of_many_spheres_names_the_row() -> None:
@@ -152,7 +184,7 @@ def test_an_error_of_many_spheres_names_the_row() -> None:
     places = [(0, 0, 0), (3, 0, 0)]
     with pytest.raises(carom.CaromError, match=r"spheres\[1\].*radius.*must be positive"):
         world.add_spheres(places, [1, -1])
-    with pytest.raises(carom.CaromError, match=r"spheres\[1\].*position.*must be finite"):
+    with pytest.raises(carom.CaromError, match=r"positions\[1\]: must be finite"):
         world.add_spheres([(0, 0, 0), (np.nan, 0, 0)], 1)
     assert len(world) == 0
 
@@ -171,7 +203,7 @@ def test_spheres_that_overlap_are_refused_if_that_is_asked_for() -> None:
         with pytest.raises(carom.CaromError, match=problem):
             world.add_spheres(places, 1.0, overlap="raise")
         described = [carom.Sphere(position=place, radius=1.0) for place in places]
-        with pytest.raises(carom.CaromError, match="overlap by up to"):
+        with pytest.raises(carom.CaromError, match=problem):
             world.add_spheres(described, overlap="raise")
         assert world.state_hash == before
     world.add_spheres([(6, 1, 0)], 1.0, overlap="raise")

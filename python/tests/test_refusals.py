@@ -122,7 +122,7 @@ def test_ids_cannot_be_assigned(world: carom.World) -> None:
         ({"positions": np.zeros((2, 2)), "radii": 1}, "positions: must be of shape (2, 3)"),
         ({"positions": np.zeros((2, 3)), "radii": [1, -1]}, "`radius` must be positive"),
         ({"positions": np.zeros((2, 3)), "radii": 1, "masses": -1}, "`mass` must be positive"),
-        ({"positions": np.full((2, 3), NAN), "radii": 1}, "`position` must be finite"),
+        ({"positions": np.full((2, 3), NAN), "radii": 1}, "positions[0]: must be finite"),
     ],
 )
 def test_spheres_that_make_no_sense(

@@ -146,8 +146,9 @@ def test_a_file_of_something_else_is_no_trajectory(tmp_path: Path) -> None:
     np.savez(path, a=np.zeros(3))
     with pytest.raises(carom.CaromError, match=r"other\.npz: no trajectory of carom"):
         carom.Trajectory.load(path)
-    path.write_bytes(b"PK but no archive")
-    with pytest.raises(carom.CaromError, match="no trajectory of carom"):
-        carom.Trajectory.load(path)
+    for text in (b"PK but no archive", b"t,ball,x"):
+        path.write_bytes(text)
+        with pytest.raises(carom.CaromError, match=r"no trajectory of carom: no \.npz file"):
+            carom.Trajectory.load(path)
     with pytest.raises(FileNotFoundError):
         carom.Trajectory.load(tmp_path / "none.npz")

@@ -14,8 +14,6 @@ use pyo3::prelude::*;
 
 use crate::arguments;
 use crate::arrays;
-use crate::quantity::Quantity;
-use crate::setting::sphere_at;
 
 use crate::engine::{Engine, Inner};
 use crate::failure::Failure;
@@ -27,44 +25,27 @@ use crate::points;
 impl Engine {
     /// Adds the spheres that `text` describes, and answers with their ids.
     #[pyo3(name = "_add_described_spheres")]
-    fn add_spheres_of(&self, py: Python<'_>, text: &str) -> PyResult<Vec<u64>> {
+    fn add_spheres_of<'py>(
+        &self,
+        py: Python<'py>,
+        text: &str,
+        may_overlap: bool,
+    ) -> PyResult<Bound<'py, PyArray1<u64>>> {
         let part = part::read(text)?;
-        let spheres = spheres_of(&part)?;
-        let ids = self.change(py, |inner| {
-            let ids = add_all(&mut inner.world, &spheres)?;
-            for (id, sphere) in ids.iter().zip(&part.spheres) {
-                inner.palette_mut().add_sphere(id.number(), sphere.into());
-            }
-            Ok(ids)
-        })?;
-        Ok(ids.iter().map(|id| id.number()).collect())
+        let paints = part.spheres.iter().map(Paint::from).collect();
+        self.add_all(py, spheres_of(&part)?, paints, may_overlap)
     }
 
-    /// Adds `count` spheres by their quantities, in the order of [`Quantity::OF_A_SPHERE`], each spread over
-    /// all of them, and answers with their ids. What is missing is as [`Sphere::new`] has it.
+    /// Adds spheres by arrays, and answers with their ids.
     #[pyo3(name = "_add_spheres")]
     fn add_spheres_by_arrays<'py>(
         &self,
         py: Python<'py>,
-        count: usize,
-        quantities: [Option<Bound<'py, PyAny>>; Quantity::OF_A_SPHERE.len()],
+        given: points::Given<'py>,
         may_overlap: bool,
     ) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        let columns = points::columns(count, quantities)?;
-        let spheres: Vec<Sphere> = (0..count).map(|index| sphere_at(&columns, index)).collect();
-        let ids = self.change(py, |inner| {
-            let before = (!may_overlap).then(|| inner.world.snapshot());
-            let ids = add_all(&mut inner.world, &spheres)?;
-            if let Some(before) = before
-                && let Some(failure) = overlap_of(&inner.world, &ids)
-            {
-                inner.world.restore(&before);
-                return Err(failure);
-            }
-            ids.iter().for_each(|id| inner.palette_mut().add_sphere(id.number(), Paint::default()));
-            Ok(ids)
-        })?;
-        Ok(arrays::numbers(py, &ids))
+        let (spheres, paints) = points::read(given)?;
+        self.add_all(py, spheres, paints, may_overlap)
     }
 
     /// Adds the force that `text` describes, and answers with its id.
@@ -104,6 +85,33 @@ impl Engine {
             inner.described_mut().emitters.extend(part.emitters);
             Ok(id.number())
         })
+    }
+}
+
+impl Engine {
+    /// Adds spheres with their colours, and answers with their ids.
+    fn add_all<'py>(
+        &self,
+        py: Python<'py>,
+        spheres: Vec<Sphere>,
+        paints: Vec<Paint>,
+        may_overlap: bool,
+    ) -> PyResult<Bound<'py, PyArray1<u64>>> {
+        let ids = self.change(py, |inner| {
+            let before = (!may_overlap).then(|| inner.world.snapshot());
+            let ids = add_all(&mut inner.world, &spheres)?;
+            if let Some(before) = before
+                && let Some(failure) = overlap_of(&inner.world, &ids)
+            {
+                inner.world.restore(&before);
+                return Err(failure);
+            }
+            for (id, paint) in ids.iter().zip(paints) {
+                inner.palette_mut().add_sphere(id.number(), paint);
+            }
+            Ok(ids)
+        })?;
+        Ok(arrays::numbers(py, &ids))
     }
 }
 

@@ -113,7 +113,7 @@ impl Engine {
     /// Waits until no other thread is at work on this world, and takes over what was written into its arrays.
     ///
     /// # Errors
-    /// [`Failure`] if the world refuses what was written.
+    /// `CaromError` if the world refuses what was written.
     pub fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
         let mut inner = self.lock_as_it_is(py)?;
         inner.take_written(py)?;
@@ -155,7 +155,7 @@ impl Engine {
     fn new(text: &str, points: Option<points::Given<'_>>) -> PyResult<Self> {
         let mut scene = Scene::from_toml(text, "scene").map_err(Failure::of_part)?;
         if let Some(points) = points {
-            scene.spheres = points::read(points)?;
+            scene.spheres = points::described(points::read(points)?);
         }
         let world = scene.world().map_err(Failure::of_part)?;
         let palette = Arc::new(Palette::new(&scene).map_err(Failure::from)?);
@@ -231,10 +231,11 @@ impl Engine {
 
     /// Returns to a snapshot, bit for bit. What happened in the last frame is forgotten.
     fn restore(&self, py: Python<'_>, snapshot: &Snapshot) -> PyResult<()> {
-        self.change(py, |inner| {
-            inner.restore(snapshot);
-            Ok(())
-        })
+        // What was written before is void, whatever it is.
+        let inner = &mut *self.lock_as_it_is(py)?;
+        inner.restore(snapshot);
+        inner.arrays.write_all(py, inner.world.spheres());
+        Ok(())
     }
 }
 

@@ -1,7 +1,7 @@
 //! Many spheres of a scene as arrays, between Python and scenes: no text, and no object for each.
 
-use carom::World;
-use carom_scene::scene::{Finish, Sphere};
+use carom::{Sphere, World};
+use carom_scene::scene::{self, Finish};
 use carom_scene::{Paint, Palette};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
@@ -25,39 +25,37 @@ pub type Given<'py> = (
 pub type Told<'py> =
     (Vec<Bound<'py, PyArrayDyn<f64>>>, Option<Bound<'py, PyArrayDyn<f64>>>, Option<Vec<String>>);
 
-/// The columns of what was given, each spread over all spheres.
+/// The spheres that were given, and how each looks.
 ///
 /// # Errors
-/// As [`arguments::array`].
-pub fn columns<'py>(
-    count: usize,
-    quantities: [Option<Bound<'py, PyAny>>; Quantity::OF_A_SPHERE.len()],
-) -> PyResult<Vec<Column>> {
+/// As [`arguments::array`], and [`Failure`] for other finishes than there are.
+pub fn read(
+    (count, quantities, colors, finishes): Given<'_>,
+) -> PyResult<(Vec<Sphere>, Vec<Paint>)> {
     let read = |(quantity, values): (Quantity, Option<_>)| {
         let array = |values| arguments::array(quantity.name(), &values, &quantity.shape(count));
         Some(array(values?).map(|values| (quantity, values)))
     };
-    Quantity::OF_A_SPHERE.into_iter().zip(quantities).filter_map(read).collect()
-}
-
-/// The spheres that were given.
-///
-/// # Errors
-/// As [`columns`], and [`Failure`] for other finishes than there are.
-pub fn read((count, quantities, colors, finishes): Given<'_>) -> PyResult<Vec<Sphere>> {
-    let columns = columns(count, quantities)?;
+    let given = Quantity::OF_A_SPHERE.into_iter().zip(quantities);
+    let columns: Vec<Column> = given.filter_map(read).collect::<PyResult<_>>()?;
+    let spheres = (0..count).map(|index| sphere_at(&columns, index)).collect();
     let colors =
         colors.map(|colors| arguments::array("colors", &colors, &[count, 3])).transpose()?;
     let finishes = finishes.unwrap_or_default();
     let finishes = finishes.iter().map(|name| finish(name));
     let finishes: Vec<Finish> = finishes.collect::<Result<_, Failure>>()?;
-    let sphere = |index: usize| {
+    let paint = |index: usize| {
         let color = colors.as_ref().map(|all| [0, 1, 2].map(|part| all[3 * index + part]));
         let color = color.filter(|color| !color[0].is_nan());
-        let finish = finishes.get(index).copied().unwrap_or_default();
-        Sphere::of(&sphere_at(&columns, index)).painted(Paint { color, finish })
+        Paint { color, finish: finishes.get(index).copied().unwrap_or_default() }
     };
-    Ok((0..count).map(sphere).collect())
+    Ok((spheres, (0..count).map(paint).collect()))
+}
+
+/// These spheres as scenes have them.
+pub fn described((spheres, paints): (Vec<Sphere>, Vec<Paint>)) -> Vec<scene::Sphere> {
+    let both = spheres.iter().zip(paints);
+    both.map(|(sphere, paint)| scene::Sphere::of(sphere).painted(paint)).collect()
 }
 
 /// Tells all spheres of a world.

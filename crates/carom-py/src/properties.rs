@@ -61,8 +61,8 @@ macro_rules! sphere_properties {
     };
     ($engine:ident; $($get:ident, $set:ident, $quantity:ident: $doc:expr;)*) => {
         /// Arrays of spheres, in ascending order of id. Each is made at its first read, and then
-        /// the same object for as long as no sphere comes or goes: every frame writes into it. It
-        /// cannot be written to; to set a quantity, assign to the attribute.
+        /// the same object for as long as no sphere comes or goes: every frame writes into it. What
+        /// is written into it, the next call takes over; a whole quantity is set by assignment.
         #[pymethods]
         impl $engine {
             $(

@@ -67,11 +67,14 @@ impl Recording {
             None => &WITHOUT_SPIN,
         };
         let spheres = world.spheres().len();
+        let (mut times, mut members) = (Vec::new(), Vec::new());
+        let count = usize::try_from(rows).unwrap_or(usize::MAX);
+        times.try_reserve_exact(count).map_err(no_room)?;
+        members.try_reserve_exact(count).map_err(no_room)?;
         let mut motion: Vec<_> =
             all.iter().map(|&it| (it, Numbers::new(selection.is_single))).collect();
         for (quantity, numbers) in &mut motion {
-            let count = usize::try_from(rows).ok();
-            let count = count.and_then(|rows| rows.checked_mul(quantity.width() * spheres));
+            let count = count.checked_mul(quantity.width() * spheres);
             let is_room = count.is_some_and(|count| numbers.reserve(count).is_ok());
             if !is_room {
                 let widths: usize = all.iter().map(|it| it.width()).sum();
@@ -85,10 +88,10 @@ impl Recording {
             }
         }
         Ok(Self {
-            times: Vec::new(),
+            times,
             motion,
             row: Vec::new(),
-            members: Vec::new(),
+            members,
             known: BTreeMap::new(),
             impacts: Table::default(),
         })
@@ -155,7 +158,7 @@ impl Recording {
 const WITHOUT_SPIN: [Quantity; 2] = [Quantity::Positions, Quantity::Velocities];
 
 fn no_room(_: TryReserveError) -> Failure {
-    Failure::memory("there is no memory for more of the recording")
+    Failure::memory("there is no memory for so many states: record fewer (every=10)")
 }
 
 impl Numbers {

@@ -12,15 +12,17 @@ pub struct Written {
     pub quantity: Quantity,
     /// The whole array.
     pub values: Vec<f64>,
-    /// The spheres of which it is not what the world has.
+    /// The spheres of which it is not what the world has, ascending.
     pub rows: Vec<usize>,
 }
 
 impl Written {
     /// What was written of the spheres from this row on: so many are in one world.
     pub fn of_world(&self, first: usize, count: usize) -> Option<Self> {
-        let rows = self.rows.iter().filter(|&&row| (first..first + count).contains(&row));
-        let rows: Vec<usize> = rows.map(|row| row - first).collect();
+        // Rows ascend.
+        let place = |row: usize| self.rows.partition_point(|&other| other < row);
+        let rows = &self.rows[place(first)..place(first + count)];
+        let rows: Vec<usize> = rows.iter().map(|row| row - first).collect();
         let width = self.quantity.width();
         let values = || self.values[first * width..(first + count) * width].to_vec();
         (!rows.is_empty()).then(|| Self { quantity: self.quantity, values: values(), rows })

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 from operator import index
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom._parts import Periodic
 from carom._trajectory import Trajectory
 from carom.errors import CaromError
 
 Floats = NDArray[np.float64]
+Box: TypeAlias = Periodic | ArrayLike
+"""A periodic box: the boundary of a scene, or three sides [m]."""
 
 
 def floats(values: ArrayLike, name: str) -> Floats:
@@ -50,11 +53,18 @@ def path(values: Trajectory | ArrayLike, name: Literal["positions", "velocities"
     return vectors
 
 
-def box_sides(box: ArrayLike | None) -> Floats:
+def recorded_impacts(run: Trajectory) -> NDArray[np.void]:
+    """The impacts until the last recorded state, after which there may be others."""
+    end = run.time[-1] if len(run) else -math.inf
+    impacts: NDArray[np.void] = run.impacts[run.impacts["time"] <= end]
+    return impacts
+
+
+def box_sides(box: Box | None) -> Floats:
     """Sides of a periodic box, shape (3,); infinite along each axis without a box."""
     if box is None:
         return np.full(3, np.inf)
-    sides = floats(box, "box")
+    sides = floats(box.size if isinstance(box, Periodic) else box, "box")
     if sides.shape != (3,) or not (sides > 0).all():
         raise CaromError(f"box: must be three sides > 0, not {box}", "box")
     return sides

@@ -55,7 +55,7 @@ def collision_frequency(
                 raise CaromError(f"{name}: is that of the run, and must not be given, too", name)
         spheres = _mean_count(impacts)
         elapsed = float(np.ptp(impacts.time)) if len(impacts) else 0.0
-        impacts = impacts.impacts
+        impacts = arguments.recorded_impacts(impacts)
     else:
         for name, value in (("count", count), ("duration", duration)):
             if value is None:

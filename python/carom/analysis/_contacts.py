@@ -14,7 +14,7 @@ from carom.errors import CaromError
 def contact_network(
     positions: ArrayLike,
     radii: ArrayLike,
-    box: ArrayLike | None = None,
+    box: arguments.Box | None = None,
     *,
     tolerance: float,
 ) -> Indices:

@@ -12,7 +12,7 @@ from carom.analysis._lags import blocks, correlate
 from carom.errors import CaromError
 
 
-def unwrap(positions: Trajectory | ArrayLike, box: ArrayLike) -> Floats:
+def unwrap(positions: Trajectory | ArrayLike, box: arguments.Box) -> Floats:
     """Continuous paths from positions that were wrapped into a periodic box.
 
     Each coordinate must move by less than half a side from frame to frame; if one moves farther,
@@ -43,7 +43,7 @@ def unwrap(positions: Trajectory | ArrayLike, box: ArrayLike) -> Floats:
 
 
 def mean_square_displacement(
-    positions: Trajectory | ArrayLike, box: ArrayLike | None = None, *, lags: int | None = None
+    positions: Trajectory | ArrayLike, box: arguments.Box | None = None, *, lags: int | None = None
 ) -> Floats:
     """The mean square displacement over the lag, averaged over spheres and all time origins.
 

@@ -51,7 +51,7 @@ def virial_pressure(run: Trajectory, volume: float) -> VirialPressure:
     """
     if not isinstance(run, Trajectory):
         raise CaromError("run: must be a carom.Trajectory; or see pressure_from_impacts", "run")
-    between = impacts_between_spheres(run.impacts)
+    between = impacts_between_spheres(arguments.recorded_impacts(run))
     if not len(run) or not len(run.ids):
         return VirialPressure(float("nan"), float("nan"), len(between))
     squares = np.nan_to_num((arguments.frames(run, "velocities") ** 2).sum(axis=2))

@@ -36,7 +36,7 @@ class RadialDistribution:
 
 def radial_distribution(
     positions: Trajectory | ArrayLike,
-    box: ArrayLike | None = None,
+    box: arguments.Box | None = None,
     *,
     r_max: float,
     bins: int = 100,

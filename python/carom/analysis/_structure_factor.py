@@ -44,7 +44,7 @@ class _Plane(NamedTuple):
 
 
 def structure_factor(
-    positions: Trajectory | ArrayLike, box: ArrayLike, *, q_max: float, bins: int = 100
+    positions: Trajectory | ArrayLike, box: arguments.Box, *, q_max: float, bins: int = 100
 ) -> StructureFactor:
     """The static structure factor S(q), averaged over shells of wave vectors and over frames.
 

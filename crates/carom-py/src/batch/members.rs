@@ -221,12 +221,14 @@ impl Members {
         written.iter().try_for_each(|written| written.check(of_all))?;
         let is_safe = !written.iter().any(|written| written.quantity.is_bounded());
         let mut before = Vec::new();
-        for number in 0..self.len() {
+        let first_rows =
+            written.iter().flat_map(|it| it.rows.chunk_by(|&a, &b| a / spheres == b / spheres));
+        let mut numbers: Vec<usize> = first_rows.map(|rows| rows[0] / spheres).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        for number in numbers {
             let of_world = |it: &Written| it.of_world(number * spheres, spheres);
             let own: Vec<Written> = written.iter().filter_map(of_world).collect();
-            if own.is_empty() {
-                continue;
-            }
             let world = &mut self.members[number].now.world;
             if !is_safe {
                 before.push((number, world.snapshot()));
