@@ -37,8 +37,8 @@ _PLACES = ("scene", "fit", "front", "top")
 
 SIZE = (1280, 720)
 """Of pictures and films, by default."""
-_NOTEBOOK_SIZE = (640, 360)
-"""Of pictures in notebooks: of the proportions for which scenes are made."""
+NOTEBOOK_SIZE = (640, 360)
+"""Of pictures and films in notebooks: of the proportions for which scenes are made."""
 
 
 class Renderer:
@@ -107,7 +107,7 @@ def picture(
 
 def notebook_picture(scene: Scene | World) -> bytes | None:
     """A scene or world as a PNG for a notebook; nothing where nothing can be drawn."""
-    view = View.of(_NOTEBOOK_SIZE, "scene", "good", stamp=True)
+    view = View.of(NOTEBOOK_SIZE, "scene", "good", stamp=True)
     try:
         world = scene if isinstance(scene, engine.Engine) else scene.world()
         return _painter(world, view).png(world)

@@ -18,6 +18,7 @@ from numpy.typing import DTypeLike, NDArray
 from carom import _parts as parts
 from carom import _pictures as pictures
 from carom._carom import canonical_toml, read_scene, read_scene_file
+from carom._film import Film, filmed
 from carom._points import Points
 from carom._text import fields_of, toml_of, toml_value
 from carom._trajectory import Recorded, Trajectory
@@ -273,6 +274,33 @@ class Scene(parts.Part):
         """
         view = pictures.View.of(size, camera, quality, stamp=stamp)
         return pictures.film(toml_of(self), path, seconds, frame_rate, view)
+
+    def film(
+        self,
+        seconds: float | None = None,
+        *,
+        frame_rate: int = 30,
+        size: pictures.Size = pictures.NOTEBOOK_SIZE,
+        camera: pictures.Viewpoint = "scene",
+        quality: pictures.Quality = "good",
+        stamp: bool = True,
+    ) -> Film:
+        """Films the scene from its start, for the output of a notebook: see `carom.Film`.
+
+        Args:
+            seconds: How long [s], up to a whole frame; the scene's own duration unless given.
+            frame_rate: Frames per second of the film: a divisor of 90,000 up to 240.
+            size: Width and height [pixels], both even.
+            camera: Where to look from: see `carom.Viewpoint`.
+            quality: How much work goes into each picture.
+            stamp: Whether scene and time stand at the lower left.
+
+        Raises:
+            CaromError: For an argument that makes no sense, or a step that cannot be taken.
+            GraphicsError: If nothing can be drawn here.
+        """
+        view = pictures.View.of(size, camera, quality, stamp=stamp)
+        return filmed(toml_of(self), seconds, frame_rate, view)
 
     def view(self) -> subprocess.Popen[bytes]:
         """Opens the scene in a window, in a process of its own, and does not wait.

@@ -1,8 +1,10 @@
 """Pictures and films show what is there, where it is. They need a graphics driver, for which one in
 software is enough."""
 
+import base64
 import math
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -182,6 +184,23 @@ def test_a_film_is_that_of_the_command_line_byte_for_byte(tmp_path: Path) -> Non
     arguments = ("--seconds", "0.2", "--size", "320x180", "--out", str(theirs))
     carom_command("record", "simtest1", *arguments)
     assert ours.read_bytes() == theirs.read_bytes()
+
+
+def test_a_film_in_memory_is_that_of_a_file_and_shows_itself(tmp_path: Path) -> None:
+    scene = carom.load("simtest1")
+    film = scene.film(0.2, frame_rate=24, size=(128, 72), quality="draft")
+    path = tmp_path / "film.mp4"
+    scene.record(path, seconds=0.2, frame_rate=24, size=(128, 72), quality="draft")
+    assert film.data == path.read_bytes()
+    assert (film.frames, film.size, film.frame_rate) == (5, (128, 72), 24)
+    assert repr(film).startswith("<carom.Film of 0.208 s, 128 x 72 pixels, ")
+    film.save(tmp_path / "saved.mp4")
+    assert (tmp_path / "saved.mp4").read_bytes() == film.data
+    with pytest.raises(carom.CaromError, match=r"must end in \.mp4"):
+        film.save(tmp_path / "saved.gif")
+    page = film._repr_html_()
+    text = re.search(r'src="data:video/mp4;base64,([^"]*)"', page)
+    assert text is not None and base64.b64decode(text[1]) == film.data
 
 
 def test_what_was_filmed_until_ctrl_c_is_a_film(tmp_path: Path) -> None:
