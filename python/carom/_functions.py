@@ -143,7 +143,8 @@ class Functions:
                     if world.emitted.size:
                         change[np.isin(ids, world.emitted)] = 0
                     if change.any():
-                        world.velocities += change * (0.5 * length / world.masses[:, None])
+                        change *= 0.5 * length / world.masses[:, None]
+                        world.velocities = world.velocities + change
                 world.applied_forces = own
             except BaseException:
                 world.restore(before)
