@@ -98,7 +98,7 @@ fn recordings_without_rotation_stay_as_they_are() {
         let text = std::fs::read_to_string(path("t.csv")).unwrap();
         assert!(text.lines().all(|line| line.split(',').count() == 8));
         record(&frictionless, &path("t.npz"));
-        assert_eq!(arrays(&path("t.npz")), 5);
+        assert_eq!(arrays(&path("t.npz")), 9);
         record(&frictionless, &path("t.pvd"));
         assert_eq!(attributes(&path("t_frames/000009.vtp")).len(), 4);
     }
