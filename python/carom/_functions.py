@@ -125,6 +125,7 @@ class Functions:
         length = world.frame_time if dt is None else dt
         is_corrected = world.simulation.rule in ("exact", "contact")
         ids, own = world.ids, world.applied_forces.copy()
+        has_own = bool(own.any())
         force = self._force(world)
         for frame in range(frames):
             before = world.snapshot()
@@ -137,6 +138,9 @@ class Functions:
                     places = np.searchsorted(ids, world.ids[stay])
                     own, force = (_among(all_, places, stay) for all_ in (own, force))
                     ids = world.ids
+                if not has_own:
+                    # Without any, flights and heaps are those of a world that has none.
+                    world._release()
                 last, force = force, self._force(world)
                 if is_corrected:
                     change = force - last
@@ -145,7 +149,8 @@ class Functions:
                     if change.any():
                         change *= 0.5 * length / world.masses[:, None]
                         world.velocities = world.velocities + change
-                world.applied_forces = own
+                if has_own:
+                    world.applied_forces = own
             except BaseException:
                 world.restore(before)
                 raise

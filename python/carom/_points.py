@@ -252,7 +252,7 @@ def count_of(positions: ArrayLike) -> int:
     except ValueError:
         # Rows of different lengths.
         return 1
-    return shape[0] if len(shape) == 2 else 1
+    return 0 if shape == (0,) else shape[0] if len(shape) == 2 else 1
 
 
 def spread(name: str, values: ArrayLike, count: int, width: int) -> NDArray[np.float64]:
@@ -271,6 +271,8 @@ def spread(name: str, values: ArrayLike, count: int, width: int) -> NDArray[np.f
         ) from None
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}: must be an array of numbers, not of {array.dtype}")
+    if array.shape == (0,) and count == 0:
+        array = array.reshape(shape)
     if array.ndim == 2 and array.shape[1] != width:
         # No number for all axes.
         raise CaromError(f"{name}: must be of shape {shape}, not {array.shape}", name)

@@ -34,6 +34,10 @@ _COLUMNS: dict[Recorded, str] = {
 """What they are called in files."""
 
 
+_REQUIRED = ("positions", "velocities", "impacts")
+"""What is there unless it was not recorded."""
+
+
 def _not_recorded() -> Any:
     """Stands for what was not recorded, until it is taken out."""
     return None
@@ -43,8 +47,8 @@ def _not_recorded() -> Any:
 class Trajectory:
     """States of all spheres over time, and every impact between them. Arrays are C-ordered.
 
-    What a run was told not to record is not there: to read it raises an `AttributeError` that says
-    so.
+    Positions, velocities and impacts that were not recorded are not there: to read them raises an
+    `AttributeError` that says so.
 
     Attributes:
         time: When the states were recorded, on the world's clock [s], shape (t,). The first is the
@@ -56,8 +60,8 @@ class Trajectory:
         masses: Masses [kg], shape (n,).
         impacts: Every impact of the run, recorded state or not, records of `carom.IMPACT`.
         orientations: How spheres are turned, quaternions x, y, z, w, shape (t, n, 4); NaN where a
-            sphere is not there. None where no sphere turned at the beginning, and no friction
-            could make one turn.
+            sphere is not there. None where they were not recorded: unless asked for, where no
+            sphere turned at the beginning, and no friction could make one turn.
         angular_velocities: Angular velocities, along the axes [rad/s], shape (t, n, 3), or None, as
             the orientations.
     """
@@ -66,20 +70,20 @@ class Trajectory:
     ids: NDArray[np.uint64]
     radii: NDArray[np.float64]
     masses: NDArray[np.float64]
-    impacts: NDArray[np.void]
+    impacts: NDArray[np.void] = field(default_factory=_not_recorded)
     positions: NDArray[np.float64] = field(default_factory=_not_recorded)
     velocities: NDArray[np.float64] = field(default_factory=_not_recorded)
     orientations: NDArray[np.float64] | None = None
     angular_velocities: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
-        for name in ("positions", "velocities"):
+        for name in _REQUIRED:
             if getattr(self, name) is None:
                 object.__delattr__(self, name)
 
     def __getattr__(self, name: str) -> Any:
-        if name in ("positions", "velocities"):
-            raise AttributeError(f"{name} were not recorded: see `quantities` of `World.run`")
+        if name in _REQUIRED:
+            raise AttributeError(f"{name} were not recorded: see `World.run`")
         raise AttributeError(f"a carom.Trajectory has no attribute {name!r}")
 
     def __len__(self) -> int:
@@ -88,9 +92,11 @@ class Trajectory:
 
     def __repr__(self) -> str:
         begin, end = self.time[0], self.time[-1]
+        impacts = self.__dict__.get("impacts")
+        told = "" if impacts is None else f", {len(impacts)} impacts"
         return (
             f"<carom.Trajectory of {len(self.ids)} spheres from {begin} to {end} s, "
-            f"{len(self)} states, {len(self.impacts)} impacts>"
+            f"{len(self)} states{told}>"
         )
 
     def _recorded(self, name: Recorded) -> NDArray[np.float64] | None:
@@ -137,8 +143,9 @@ class Trajectory:
             "id": self.ids.astype(np.int64),
             "radius": self.radii,
             "mass": self.masses,
-            "impacts": self.impacts,
         }
+        if "impacts" in self.__dict__:
+            arrays["impacts"] = self.impacts
         for name, column_name in _COLUMNS.items():
             values = self._recorded(name)
             if values is not None:
@@ -179,15 +186,16 @@ class Trajectory:
                 spread = np.full((len(time), len(ids), values.shape[1]), np.nan, values.dtype)
                 spread[row, column] = values
                 motion[name] = spread
-        impacts = arrays.get("impacts", np.empty(0, IMPACT))
-        if impacts.dtype != IMPACT:
-            raise ValueError("its impacts are of another version")
+        impacts = arrays.get("impacts")
+        if impacts is not None:
+            if impacts.dtype != IMPACT:
+                raise ValueError("its impacts are of another version")
+            motion["impacts"] = impacts
         return cls(
             time=time,
             ids=ids,
             radii=arrays["radius"],
             masses=arrays["mass"],
-            impacts=impacts,
             **motion,
         )
 

@@ -42,7 +42,7 @@ def _are_spheres(
         return True
     if not isinstance(given, Sequence) or isinstance(given, (str, bytes)):
         return False
-    return all(isinstance(it, parts.Sphere) for it in given)
+    return len(given) > 0 and all(isinstance(it, parts.Sphere) for it in given)
 
 
 class World(Strict, Engine):
@@ -348,6 +348,8 @@ class World(Strict, Engine):
             texts = [toml_value(it, f"spheres[{number}]") for number, it in enumerate(positions)]
             return self._add_described_spheres(f"spheres = [{', '.join(texts)}]", may_overlap)
         if radii is None:
+            if np.shape(positions) == (0,):
+                return np.empty(0, np.uint64)
             raise TypeError("radii: must be given")
         return self._add_spheres(Points(positions, **named)._given(), may_overlap)  # type: ignore[arg-type]
 

@@ -359,3 +359,15 @@ def test_parts_of_another_kind_are_refused_by_name(
 ) -> None:
     with pytest.raises(TypeError, match=problem):
         call(trap())
+
+
+def test_without_its_functions_a_heap_sleeps_again() -> None:
+    world = carom.Scene(name="heap", simulation=carom.Simulation(rule="contact")).world()
+    world.add_collider(carom.Collider(carom.HalfSpace(), restitution=0.0))
+    world.add_force(carom.Gravity())
+    world.add_spheres([(0, 0.5, 0), (2, 0.5, 0)], 0.5, restitutions=0.0)
+    number = world.add_force(lambda world: np.zeros((len(world), 3)))
+    world.step(frames=5)
+    world.remove_force(number)
+    world.step(frames=120)
+    assert world.contact_account.asleep == 2

@@ -148,7 +148,8 @@ def test_spheres_are_added_as_a_list_with_their_colours() -> None:
         world.add_spheres([carom.Sphere(radius=0.5)], 0.5)
     with pytest.raises(TypeError, match="velocities: spheres have their own"):
         world.add_spheres(crystal(), velocities=1)
-    assert world.add_spheres([]).tolist() == []
+    assert world.add_spheres([]).tolist() == world.add_spheres([], []).tolist() == []
+    assert len(carom.Points([], [])) == 0
     assert world.add_spheres(np.empty((0, 3)), 1.0, overlap="raise").tolist() == []
 
 

@@ -124,7 +124,13 @@ def test_a_trajectory_of_the_command_line_is_loaded(tmp_path: Path) -> None:
     np.testing.assert_array_equal(again.ids, run.ids)
     np.testing.assert_array_equal(again.radii, run.radii)
     np.testing.assert_array_equal(again.masses, run.masses)
-    assert len(again.impacts) == 0
+    with pytest.raises(AttributeError, match="impacts were not recorded"):
+        _ = again.impacts
+    assert "impacts" not in repr(again)
+    again.save(tmp_path / "again.npz")
+    assert not hasattr(carom.Trajectory.load(tmp_path / "again.npz"), "impacts")
+    with pytest.raises(carom.CaromError, match="impacts: were not recorded by the run"):
+        carom.analysis.collision_frequency(again)
 
 
 def test_the_arrays_of_a_saved_trajectory_are_those_of_the_command_line(tmp_path: Path) -> None:

@@ -164,6 +164,23 @@ def many_frames() -> None:
     gas().step(dt=1e-3, frames=10**9)
 
 
+def many_frames_of_many_spheres() -> None:
+    crowd().step(dt=1e-3, frames=10**9)
+
+
+def a_long_frame_of_many_spheres() -> None:
+    crowd().step(dt=1e6)
+
+
+def crowd() -> carom.World:
+    """So many that threads share them, while the caller waits."""
+    lattice = carom.Lattice((15, 10, 10), (-14, -9, -9), (2, 2, 2), carom.Sphere(radius=0.6))
+    box = carom.Simulation(boundary=carom.Periodic((30, 20, 20)))
+    world = carom.Scene(name="crowd", simulation=box, generators=[lattice]).world()
+    world.velocities = [(i % 7 - 3, i % 5 - 2, i % 3 - 1) for i in range(1500)]
+    return world
+
+
 def many_worlds() -> None:
     few(4).step(dt=1e-3, frames=10**9)
 
@@ -176,7 +193,17 @@ def a_long_run() -> None:
     gas().run(frames=10**6, dt=1e-3, quantities=[])
 
 
-@pytest.mark.parametrize("call", [many_frames, many_worlds, many_worlds_in_one_thread, a_long_run])
+@pytest.mark.parametrize(
+    "call",
+    [
+        many_frames,
+        many_frames_of_many_spheres,
+        a_long_frame_of_many_spheres,
+        many_worlds,
+        many_worlds_in_one_thread,
+        a_long_run,
+    ],
+)
 def test_ctrl_c_ends_every_long_call(call: Callable[[], None]) -> None:
     with pytest.raises(KeyboardInterrupt), ctrl_c(after=0.3):
         call()
@@ -261,3 +288,20 @@ except MemoryError as error:
     answer = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert answer.returncode == 0, answer.stderr
     assert answer.stdout.startswith("refused:")
+
+
+def test_a_handler_that_comes_while_an_error_is_made_is_not_kept_waiting() -> None:
+    world = gas()
+    seen: list[float] = []
+    before = signal.signal(signal.SIGALRM, lambda *_: seen.append(world.time))
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.001, 0.001)
+        for _ in range(300):
+            with pytest.raises(carom.CaromError):
+                world.step(dt=-1.0)
+            with pytest.raises(carom.CaromError):
+                world.masses = -1
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert set(seen) == {0.0}

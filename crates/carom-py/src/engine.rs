@@ -21,7 +21,7 @@ use crate::properties::sphere_properties;
 use crate::quantity::Quantity;
 use crate::setting;
 use crate::snapshot::Snapshot;
-use crate::stop;
+use crate::stop::{self, Watch};
 use crate::tables::Table;
 use crate::threads;
 use crate::written;
@@ -78,16 +78,18 @@ impl Inner {
         self.frame_start = snapshot.time;
     }
 
-    /// Has Python's signals stop the frames that follow.
-    pub fn heed_signals(&mut self) {
-        self.world.set_stop_request(Some(stop::on_signal()));
+    /// Has Python's signals stop the frames that this thread begins now.
+    pub fn heed_signals(&mut self) -> Watch {
+        let watch = Watch::begin();
+        self.world.set_stop_request(Some(watch.request()));
+        watch
     }
 
     /// Takes one frame.
-    pub fn take_frame(&mut self, dt: f64) -> Result<(), carom::Error> {
+    pub fn take_frame(&mut self, dt: f64, watch: &Watch) -> Result<(), carom::Error> {
         let start = self.world.time();
         let world = &mut self.world;
-        threads::among_all(world.spheres().len(), || world.step(dt).map(|_| ()))?;
+        threads::among_all(world.spheres().len(), watch, || world.step(dt).map(|_| ()))?;
         self.frame_start = start;
         Ok(())
     }
@@ -116,8 +118,14 @@ impl Engine {
     /// `CaromError` if the world refuses what was written.
     pub fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Inner>> {
         let mut inner = self.lock_as_it_is(py)?;
-        inner.take_written(py)?;
-        Ok(inner)
+        match inner.take_written(py) {
+            Ok(()) => Ok(inner),
+            Err(failure) => {
+                // To make an exception runs Python, which may run a handler that waits for this lock.
+                drop(inner);
+                Err(failure.into())
+            }
+        }
     }
 
     /// Waits until no other thread is at work on this world. The handler of a signal that comes in the
@@ -139,9 +147,12 @@ impl Engine {
     ) -> PyResult<T> {
         let mut guard = self.lock(py)?;
         let inner = &mut *guard;
-        let result = change(inner)?;
-        inner.arrays.write_all(py, inner.world.spheres());
-        Ok(result)
+        let result = change(inner);
+        if result.is_ok() {
+            inner.arrays.write_all(py, inner.world.spheres());
+        }
+        drop(guard);
+        Ok(result?)
     }
 }
 
@@ -194,9 +205,12 @@ impl Engine {
         let mut guard = self.lock(py)?;
         let inner = &mut *guard;
         let dt = inner.frame_time(dt);
-        py.detach(|| step(inner, dt, frames))?;
-        inner.arrays.write_motion(py, inner.world.spheres());
-        Ok(())
+        let taken = py.detach(|| step(inner, dt, frames));
+        if taken.is_ok() {
+            inner.arrays.write_motion(py, inner.world.spheres());
+        }
+        drop(guard);
+        Ok(taken?)
     }
 
     /// Time since the beginning [s].
@@ -241,16 +255,25 @@ impl Engine {
 
 /// Takes frames of `dt` \[s\]; if one of them is refused, none was taken.
 fn step(inner: &mut Inner, dt: f64, frames: u64) -> Result<(), Failure> {
-    inner.heed_signals();
+    let watch = inner.heed_signals();
     // A single frame that is refused leaves the world as it was by itself.
     let before = (frames > 1).then(|| inner.snapshot());
     for _ in 0..frames {
-        if let Err(error) = inner.take_frame(dt) {
+        if let Err(error) = inner.take_frame(dt, &watch) {
             before.iter().for_each(|before| inner.restore(before));
             return Err(error.into());
         }
     }
     Ok(())
+}
+
+#[pymethods]
+impl Engine {
+    /// Takes away the forces that are applied to single spheres: then none can be, until some are.
+    #[pyo3(name = "_release")]
+    fn release(&self, py: Python<'_>) -> PyResult<()> {
+        self.change(py, |inner| Ok(inner.world.set_applied_forces(&[])?))
+    }
 }
 
 sphere_properties!(Engine, numbers "(n,)", vectors "(n, 3)", rotations "(n, 4)");

@@ -24,9 +24,12 @@ impl Engine {
     fn next_event_time(&self, within: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
         let py = within.py();
         let within = arguments::number("within", within)?;
-        let inner = &mut *self.lock(py)?;
+        let mut guard = self.lock(py)?;
+        let inner = &mut *guard;
         inner.heed_signals();
-        Ok(py.detach(|| inner.world.next_event_time(within)).map_err(Failure::from)?)
+        let time = py.detach(|| inner.world.next_event_time(within));
+        drop(guard);
+        Ok(time.map_err(Failure::from)?)
     }
 
     /// Advances the world to its next impact, and answers it with all others at that instant; by
@@ -43,17 +46,21 @@ impl Engine {
         let within = arguments::number("within", within)?;
         let mut guard = self.lock(py)?;
         let inner = &mut *guard;
-        py.detach(|| step_to_next_event(inner, within))?;
-        inner.arrays.write_motion(py, inner.world.spheres());
-        Ok(())
+        let taken = py.detach(|| step_to_next_event(inner, within));
+        if taken.is_ok() {
+            inner.arrays.write_motion(py, inner.world.spheres());
+        }
+        drop(guard);
+        Ok(taken?)
     }
 }
 
 fn step_to_next_event(inner: &mut Inner, within: f64) -> Result<(), Failure> {
     let start = inner.world.time();
-    inner.heed_signals();
+    let watch = inner.heed_signals();
     let world = &mut inner.world;
-    threads::among_all(world.spheres().len(), || world.step_to_next_event(within).map(|_| ()))?;
+    let spheres = world.spheres().len();
+    threads::among_all(spheres, &watch, || world.step_to_next_event(within).map(|_| ()))?;
     inner.frame_start = start;
     Ok(())
 }

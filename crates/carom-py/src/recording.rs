@@ -71,21 +71,24 @@ impl Recording {
         let count = usize::try_from(rows).unwrap_or(usize::MAX);
         times.try_reserve_exact(count).map_err(no_room)?;
         members.try_reserve_exact(count).map_err(no_room)?;
+        // Of all at once: to each alone a system may promise memory that it does not have.
+        let widths: usize = all.iter().map(|it| it.width()).sum();
+        let size = if selection.is_single { size_of::<f32>() } else { size_of::<f64>() };
+        let bytes = count.checked_mul(size * widths * spheres);
+        let is_room = bytes.is_some_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok());
+        if !is_room {
+            let gigabytes = rows as f64 * (size * widths * spheres) as f64 / 1e9;
+            return Err(Failure::memory(format_args!(
+                "{rows} states of {spheres} spheres take {gigabytes:.1} GB, more than there is: record \
+                 fewer (every=10), less of each (quantities=[\"positions\"]), or in single precision \
+                 (dtype=\"float32\")"
+            )));
+        }
         let mut motion: Vec<_> =
             all.iter().map(|&it| (it, Numbers::new(selection.is_single))).collect();
         for (quantity, numbers) in &mut motion {
             let count = count.checked_mul(quantity.width() * spheres);
-            let is_room = count.is_some_and(|count| numbers.reserve(count).is_ok());
-            if !is_room {
-                let widths: usize = all.iter().map(|it| it.width()).sum();
-                let size = if selection.is_single { 4.0 } else { 8.0 };
-                let gigabytes = rows as f64 * (widths * spheres) as f64 * size / 1e9;
-                return Err(Failure::memory(format_args!(
-                    "{rows} states of {spheres} spheres take {gigabytes:.1} GB, more than there is: record \
-                     fewer (every=10), less of each (quantities=[\"positions\"]), or in single precision \
-                     (dtype=\"float32\")"
-                )));
-            }
+            numbers.reserve(count.unwrap_or(usize::MAX)).map_err(no_room)?;
         }
         Ok(Self {
             times,

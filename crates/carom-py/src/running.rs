@@ -128,13 +128,15 @@ impl Engine {
         before: &Snapshot,
         recording: &mut Recording,
     ) -> Result<u64, Refused> {
-        let inner = &mut *self.lock(py).map_err(Refused::Failed)?;
+        let mut guard = self.lock(py).map_err(Refused::Failed)?;
+        let inner = &mut *guard;
         let taken = py.detach(|| take_frames(inner, frames, rhythm, recording));
         let is_stop = matches!(&taken, Err(failure) if failure.is_stop());
         if taken.is_err() && !is_stop {
             inner.restore(before);
         }
         inner.arrays.write_motion(py, inner.world.spheres());
+        drop(guard);
         let refused = if is_stop { Refused::Stopped } else { Refused::Failed };
         taken.map_err(|failure| refused(failure.into()))
     }
@@ -148,9 +150,9 @@ fn take_frames(
     recording: &mut Recording,
 ) -> Result<u64, Failure> {
     let (began, end) = (Instant::now(), frames.end);
-    inner.heed_signals();
+    let watch = inner.heed_signals();
     for frame in frames {
-        inner.take_frame(inner.frame_time(rhythm.dt))?;
+        inner.take_frame(inner.frame_time(rhythm.dt), &watch)?;
         recording.push_impacts(inner.frame_start, &inner.world.report().impacts)?;
         if (frame + 1).is_multiple_of(rhythm.every) {
             recording.push(&inner.world)?;

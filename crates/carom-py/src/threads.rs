@@ -1,7 +1,7 @@
 //! Threads of the engine's own.
 
 use std::num::NonZero;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use std::{mem, process, thread};
 
 use pyo3::prelude::*;
@@ -9,6 +9,7 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::arguments;
 use crate::failure::Failure;
+use crate::stop::Watch;
 
 /// Reads how many threads are wanted, if that is said.
 ///
@@ -78,12 +79,25 @@ impl Drop for Pool {
 /// The threads that share the work of one world.
 static SHARED: Pool = Pool::new(0);
 
-/// Does work on so many spheres of one world, which all processors share where there are many.
-pub fn among_all<T: Send>(spheres: usize, work: impl FnOnce() -> T + Send) -> T {
-    if spheres < FEW || rayon::current_thread_index().is_some() {
-        return work();
+/// Does work on so many spheres of one world, which all processors share where there are many. Meanwhile this
+/// thread watches for signals.
+pub fn among_all<T: Send>(spheres: usize, watch: &Watch, work: impl FnOnce() -> T + Send) -> T {
+    let is_shared = spheres >= FEW && rayon::current_thread_index().is_none();
+    let threads = if is_shared { SHARED.started().ok() } else { None };
+    let Some(threads) = threads else { return work() };
+    let done = threads.in_place_scope(|scope| {
+        let (send, done) = mpsc::channel();
+        scope.spawn(move |_| {
+            // It is waited for.
+            let _ = send.send(work());
+        });
+        watch.wait(&done)
+    });
+    match done {
+        Some(value) => value,
+        // A panic of the work has come here before.
+        None => unreachable!("work that ends tells so"),
     }
-    SHARED.install(work)
 }
 
 /// So many threads, by default as many as there are processors, but no more than `most`; `None`

@@ -282,6 +282,45 @@ fn a_fast_ball_stays_in_its_box() {
     }
 }
 
+/// A piston is met as it moves, also by a ball that comes to it after a bounce.
+#[test]
+fn a_fast_ball_does_not_pass_a_piston() {
+    for speed in [50.0, 200.0, 1000.0] {
+        let mut world = world();
+        add_wall(&mut world, DVec3::X, DVec3::ZERO, 1.0);
+        let facing = DQuat::from_rotation_arc(DVec3::Y, DVec3::NEG_X);
+        let pose = Pose::at(DVec3::new(0.6, 0.0, 0.0)).rotated(facing);
+        let piston = Collider::new(Shape::Rectangle { size_x: 2.0, size_z: 2.0 }, pose);
+        let piston = piston.moving(DVec3::new(-0.1, 0.0, 0.0), DVec3::ZERO);
+        world.add_collider(piston).unwrap();
+        let ball = Sphere::new(DVec3::new(0.3, 0.0, 0.0), 0.05);
+        world.add_sphere(ball.with_velocity(DVec3::new(-speed, 0.0, 0.0))).unwrap();
+        for frame in 1..=120 {
+            run(&mut world, 1);
+            let (at, piston) =
+                (world.spheres().positions()[0].x, 0.6 - 0.1 * FRAME * f64::from(frame));
+            assert!(at > 0.049 && at < piston - 0.049, "{speed}, frame {frame}: {at} of {piston}");
+        }
+    }
+}
+
+/// A floor bears it all the while.
+#[test]
+fn a_ball_that_slides_fast_into_a_wall_comes_back_as_fast() {
+    let mut world = under_gravity();
+    add_box(&mut world, 5.0, 1.0);
+    let radius = 0.1;
+    let ball = Sphere::new(DVec3::new(0.0, radius, 0.0), radius).with_velocity(DVec3::X * 40.0);
+    world.add_sphere(ball).unwrap();
+    for frame in 0..120 {
+        run(&mut world, 1);
+        let spheres = world.spheres();
+        let (at, velocity) = (spheres.positions()[0], spheres.velocities()[0]);
+        assert!((at.y - radius).abs() < 1e-3 * radius, "{frame}: {at}");
+        assert!((velocity.x.abs() - 40.0).abs() < 1e-9, "{frame}: {velocity}");
+    }
+}
+
 #[test]
 fn a_fast_ball_that_passes_is_not_stopped() {
     let mut world = world();

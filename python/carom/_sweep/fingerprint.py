@@ -15,7 +15,8 @@ _INTERPRETER = importlib.util.MAGIC_NUMBER.hex()
 def fingerprint_of(function: Any) -> str | None:
     """The fingerprint of a function's code; ``None`` if it has no code of Python.
 
-    What it calls has code of its own, which does not count. Neither do comments and docstrings.
+    What it calls has code of its own, which does not count, and neither do comments. A docstring
+    that is added or taken away may count, another text of one does not.
     """
     told: list[object] = []
     while function is not None:

@@ -56,8 +56,11 @@ def path(values: Trajectory | ArrayLike, name: Literal["positions", "velocities"
 def recorded_impacts(run: Trajectory) -> NDArray[np.void]:
     """The impacts until the last recorded state, after which there may be others."""
     end = run.time[-1] if len(run) else -math.inf
-    impacts: NDArray[np.void] = run.impacts[run.impacts["time"] <= end]
-    return impacts
+    impacts: NDArray[np.void] | None = getattr(run, "impacts", None)
+    if impacts is None:
+        raise CaromError("impacts: were not recorded by the run", "impacts")
+    until: NDArray[np.void] = impacts[impacts["time"] <= end]
+    return until
 
 
 def box_sides(box: Box | None) -> Floats:

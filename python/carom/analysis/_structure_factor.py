@@ -89,15 +89,16 @@ def structure_factor(
     frames = [frame for frame in frames if len(frame)]
     most = np.floor(q_max * sides / (2 * np.pi)).astype(np.int64)
     vectors, wave_numbers, sums = np.zeros(bins, np.int64), np.zeros(bins), np.zeros(bins)
-    phases = [[_phases(frame, sides, axis, most) for axis in range(3)] for frame in frames]
-    for h in range(most[0] + 1):
-        q, keep, rows, columns = _plane(h, sides, q_max, most)
-        shell = np.minimum((q * (bins / q_max)).astype(np.int64), bins - 1)
+    planes = [_plane(h, sides, q_max, most) for h in range(most[0] + 1)]
+    shells = [np.minimum((plane.q * (bins / q_max)).astype(np.int64), bins - 1) for plane in planes]
+    for plane, shell in zip(planes, shells, strict=True):
         vectors += np.bincount(shell, minlength=bins)
-        wave_numbers += np.bincount(shell, q, bins)
-        for along_x, along_y, along_z in phases:
-            amplitudes = (along_x[h] * along_y[rows]) @ along_z[columns].T
-            power = (amplitudes.real**2 + amplitudes.imag**2)[keep] / along_x.shape[1]
+        wave_numbers += np.bincount(shell, plane.q, bins)
+    for frame in frames:
+        along_x, along_y, along_z = (_phases(frame, sides, axis, most) for axis in range(3))
+        for h, (plane, shell) in enumerate(zip(planes, shells, strict=True)):
+            amplitudes = (along_x[h] * along_y[plane.rows]) @ along_z[plane.columns].T
+            power = (amplitudes.real**2 + amplitudes.imag**2)[plane.keep] / len(frame)
             sums += np.bincount(shell, power, bins)
     some = vectors > 0
     s = sums[some] / (vectors[some] * len(frames)) if frames else np.full(some.sum(), np.nan)

@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::quantity::Quantity;
 use crate::setting;
 use crate::snapshot::Snapshot;
-use crate::stop;
+use crate::stop::Watch;
 use crate::threads::Pool;
 use crate::written::{self, Written};
 
@@ -42,9 +42,9 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// What a handler of a signal has ended frames with, if one has.
-    pub fn take_stop(&mut self) -> Option<Failure> {
-        self.refused.take_if(|failure| failure.is_stop())
+    /// Whether a handler of a signal has ended frames.
+    pub fn is_stopped(&self) -> bool {
+        self.refused.as_ref().is_some_and(Failure::is_stop)
     }
 }
 
@@ -120,12 +120,12 @@ impl Members {
     /// Takes frames of `dt` \[s\], or of each world's own length, in every world, for a while; tells whether
     /// all were taken by then. A world that refuses a frame stays as it was before that.
     pub fn step(&mut self, dt: Option<f64>, progress: &mut [Progress]) -> bool {
-        let end = Instant::now() + PATIENCE;
+        let (watch, end) = (Watch::begin(), Instant::now() + PATIENCE);
         let step = |(member, progress): (&mut Member, &mut Progress)| {
             let length = member.now.frame_time(dt);
             while progress.left > 0 {
                 progress.left -= 1;
-                if let Err(error) = member.now.take_frame(length) {
+                if let Err(error) = member.now.take_frame(length, &watch) {
                     *progress = Progress { left: 0, refused: Some(error.into()) };
                 } else if progress.left > 0 && Instant::now() > end {
                     return false;
@@ -135,7 +135,7 @@ impl Members {
         };
         let share = (SPHERES_PER_TASK / self.spheres.max(1)).max(1);
         // Handlers of signals run in the thread that has called, if it steps.
-        let request = self.pool.is_none().then(stop::on_signal);
+        let request = self.pool.is_none().then(|| watch.request());
         for member in &mut self.members {
             member.now.world.set_stop_request(request.clone());
         }

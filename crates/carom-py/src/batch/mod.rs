@@ -10,7 +10,7 @@ use std::sync::{Mutex, MutexGuard};
 
 use carom::StepReport;
 use numpy::PyArray1;
-use pyo3::exceptions::{PyIndexError, PyRuntimeError};
+use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
 
@@ -50,7 +50,11 @@ impl BatchEngine {
         if !written.is_empty() {
             let taken = members.take_over(&written);
             arrays.write_all(py, members);
-            taken?;
+            if let Err(failure) = taken {
+                // To make an exception runs Python, which may run a handler that waits for this lock.
+                drop(guard);
+                return Err(failure.into());
+            }
         }
         Ok(guard)
     }
@@ -74,9 +78,12 @@ impl BatchEngine {
     ) -> PyResult<T> {
         let mut guard = self.lock(py)?;
         let Inner { members, arrays } = &mut *guard;
-        let result = change(members)?;
-        arrays.write_all(py, members);
-        Ok(result)
+        let result = change(members);
+        if result.is_ok() {
+            arrays.write_all(py, members);
+        }
+        drop(guard);
+        Ok(result?)
     }
 
     fn quantity(&self, py: Python<'_>, quantity: Quantity) -> PyResult<Py<PyAny>> {
@@ -141,11 +148,14 @@ impl BatchEngine {
         let mut progress = vec![Progress { left: frames, refused: None }; members.len()];
         let mut handled = Ok(());
         while handled.is_ok() && !py.detach(|| members.step(dt, &mut progress)) {
-            let stopped = progress.iter_mut().find_map(Progress::take_stop);
-            handled = stopped.map_or_else(|| stop::check(py), |failure| Err(failure.into()));
+            let is_stopped = progress.iter().any(Progress::is_stopped);
+            handled = if is_stopped { Err(stop::raised()) } else { stop::check(py).map_err(Some) };
         }
         arrays.write_motion(py, members);
-        handled?;
+        drop(guard);
+        if let Err(raised) = handled {
+            return Err(raised.unwrap_or_else(|| PyKeyboardInterrupt::new_err(())));
+        }
         let refused = progress.into_iter().map(|it| it.refused).enumerate();
         Ok(refused.filter_map(|(world, failure)| Some((world, failure?.into()))).collect())
     }

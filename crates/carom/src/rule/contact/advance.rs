@@ -71,7 +71,7 @@ fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) {
         let position = &mut run.position[slot];
         *position = position.with_vector(position.vector() + bounce.shift);
         run.velocity[slot] = run.velocity[slot].with_vector(bounce.velocity);
-        run.bears[slot] = false;
+        run.bears[slot] &= !bounce.is_alone;
     }
 }
 

@@ -52,7 +52,8 @@ pub(super) fn note(solver: &mut Solver, sub_step: &SubStep) {
             let [start, velocity] = [slots.position[slot], slots.velocity[slot]].map(Row::vector);
             let (end, velocity_there) = leg.flight.after(time);
             let shift = end - start - sub_step.h * velocity;
-            Bounce { slot: slot as u32, shift, velocity: velocity_there }
+            let is_alone = own.is_some();
+            Bounce { slot: slot as u32, shift, velocity: velocity_there, is_alone }
         });
         bounces.extend(stopped.or(own.map(|own| own.bounce)));
     }
@@ -108,7 +109,7 @@ fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Alone>
     let (position, arriving) = start.after(time);
     let flight = Flight { position, velocity: arriving + own, ..start };
     let leg = Leg { slot, flight, duration: sub_step.h - time };
-    Some(Alone { bounce: Bounce { slot: slot as u32, shift, velocity }, leg })
+    Some(Alone { bounce: Bounce { slot: slot as u32, shift, velocity, is_alone: true }, leg })
 }
 
 /// The change of velocity by an impulse \[m/s\]; `None` if something else changed the sphere's, too.
@@ -143,7 +144,7 @@ impl Leg {
         if duration * flight.velocity.length() <= FAR * radius {
             return None;
         }
-        let times = slabs.surfaces_of(*slot).filter_map(|surface| {
+        let times = slabs.free_surfaces_of(*slot).filter_map(|surface| {
             let (form, motion) = &places[surface as usize];
             let meets = || contact_time::sphere_surface(flight, radius, form, motion, *duration);
             motion.is_at_rest().then(meets)?

@@ -20,7 +20,7 @@ pub(crate) struct Solver {
     pub(super) slabs: Slabs,
     /// The impulses of contacts that were taken out of [`Self::slabs`], until the next search.
     pub(super) kept: Option<Kept>,
-    /// The spheres that bounce in the sub-step and bear nothing, by slot.
+    /// The spheres that go elsewhere than their last velocity takes them, for they bounce, by slot.
     pub(super) bounces: Vec<Bounce>,
     /// Where surfaces are at the start of the sub-step, and how they move.
     pub(super) places: Vec<Place>,
@@ -62,6 +62,8 @@ pub(super) struct Bounce {
     pub shift: DVec3,
     /// There \[m/s\].
     pub velocity: DVec3,
+    /// Whether nothing else touches it in the sub-step.
+    pub is_alone: bool,
 }
 
 /// Working memory of the rule, kept from step to step only to spare its allocation.
