@@ -10,7 +10,7 @@ from typing_extensions import disjoint_base
 
 from carom._parts import Finish
 from carom._pictures import View
-from carom._trajectory import Recorded
+from carom._trajectory import Recorded, RunRecord
 
 __all__ = [
     "HAS_WINDOW",
@@ -239,15 +239,7 @@ class Engine:
         every: int,
         quantities: list[Recorded] | None,
         is_single: bool,
-    ) -> tuple[
-        NDArray[np.float64],
-        NDArray[np.uint64],
-        NDArray[np.float64],
-        NDArray[np.float64],
-        NDArray[np.uint64],
-        list[tuple[Recorded, NDArray[np.float64]]],
-        BaseException | None,
-    ]: ...
+    ) -> RunRecord: ...
     def _simulation_json(self) -> str: ...
     def _forces_json(self) -> str: ...
     def _colliders_json(self) -> str: ...

@@ -339,7 +339,7 @@ def _choice(names: tuple[str, ...]) -> _Kind:
         value = plain(value)
         return value if isinstance(value, str) and value in names else _OTHER
 
-    return _Kind(_listed(repr(name) for name in names), keep, names)
+    return _Kind(listed(repr(name) for name in names), keep, names)
 
 
 def _sequence(elements: Sequence[_Kind], where: str) -> _Kind:
@@ -377,11 +377,11 @@ def _part(kinds: tuple[type, ...]) -> _Kind:
         return f"write carom.{found}(...)" if found else None
 
     names = [f"carom.{kind.__name__}" for kind in kinds]
-    words = f"a {names[0]}" if len(names) == 1 else f"a {_listed(names)}"
+    words = f"a {names[0]}" if len(names) == 1 else f"a {listed(names)}"
     return _Kind(words, lambda value: value if isinstance(value, kinds) else _OTHER, remedy=remedy)
 
 
-def _listed(names: Iterable[str]) -> str:
+def listed(names: Iterable[str]) -> str:
     """Names as people list them."""
     *most, last = names
     return f"{', '.join(most)} or {last}" if most else last

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from carom._carom import Engine
 from carom._points import spread
 from carom._tables import IMPACT
-from carom._trajectory import Recorded, Trajectory
+from carom._trajectory import Recorded, RunRecord, Trajectory
 from carom.errors import CaromError
 
 if TYPE_CHECKING:
@@ -21,17 +21,6 @@ if TYPE_CHECKING:
 
 ForceFunction: TypeAlias = Callable[["World"], ArrayLike]
 """Takes a world, and returns the force on each of its spheres [N], spread to shape (n, 3)."""
-State: TypeAlias = tuple[
-    NDArray[np.float64],
-    NDArray[np.uint64],
-    NDArray[np.float64],
-    NDArray[np.float64],
-    NDArray[np.uint64],
-    list[tuple[Recorded, NDArray[np.float64]]],
-    BaseException | None,
-]
-"""What the engine records of a run: times, ids, radii, masses, impacts, what changes, its end."""
-
 
 _FROZEN = ("positions", "velocities", "masses", "radii")
 """Arrays of a world that functions are likely to read: while they are at work, these are not to be
@@ -201,7 +190,7 @@ def _count(name: str, given: object) -> int:
     return count
 
 
-def _joined(states: list[State], impacts: list[NDArray[np.void]]) -> Trajectory:
+def _joined(states: list[RunRecord], impacts: list[NDArray[np.void]]) -> Trajectory:
     """A trajectory of single states, each as the engine records it."""
     known: dict[int, tuple[float, float]] = {}
     for state in states:

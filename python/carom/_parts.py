@@ -17,7 +17,15 @@ from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
 from numpy.typing import NDArray
 
-from carom._checks import ColorText, Numbers, Requirement, Turn, checks_of, wrong_value
+from carom._checks import (
+    ColorText,
+    Numbers,
+    Requirement,
+    Turn,
+    checks_of,
+    listed,
+    wrong_value,
+)
 
 
 def _are_finite(values: Sequence[float]) -> bool:
@@ -143,8 +151,7 @@ def expect(name: str, value: object, *kinds: type[Part] | str) -> None:
     classes = tuple(kind for kind in kinds if not isinstance(kind, str))
     if isinstance(value, classes):
         return
-    *most, last = [it if isinstance(it, str) else f"carom.{it.__name__}" for it in kinds]
-    words = f"{', '.join(most)} or {last}" if most else last
+    words = listed(it if isinstance(it, str) else f"carom.{it.__name__}" for it in kinds)
     shown, remedy = type(value).__name__, ""
     if isinstance(value, type):
         shown = f"the class {value.__name__}"

@@ -25,6 +25,17 @@ _AXES = _PARTS[:3]
 Recorded: TypeAlias = Literal["positions", "velocities", "orientations", "angular_velocities"]
 """What a run can record of each state."""
 
+RunRecord: TypeAlias = tuple[
+    NDArray[np.float64],
+    NDArray[np.uint64],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.uint64],
+    list[tuple[Recorded, NDArray[np.float64]]],
+    BaseException | None,
+]
+"""What the engine records of a run: times, ids, radii, masses, impacts, what changes, its end."""
+
 _COLUMNS: dict[Recorded, str] = {
     "positions": "position",
     "velocities": "velocity",

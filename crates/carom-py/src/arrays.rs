@@ -62,9 +62,7 @@ impl Quantities {
             }
         }
     }
-}
 
-impl Quantities {
     /// What a script has written: where arrays no longer have the values that `fill` writes.
     pub fn written(&self, py: Python<'_>, fill: impl Fn(Quantity, &mut [f64])) -> Vec<Written> {
         let mut all = Vec::new();
@@ -97,7 +95,7 @@ impl Quantities {
 #[derive(Debug)]
 struct Shown {
     own: Py<PyArrayDyn<f64>>,
-    /// The same memory. It is another array for the world to write into, whatever a script makes of this one.
+    /// Another array of this memory: a script can have NumPy refuse to write to it, and the world still can.
     view: Py<PyAny>,
 }
 

@@ -269,7 +269,7 @@ fn step(inner: &mut Inner, dt: f64, frames: u64) -> Result<(), Failure> {
 
 #[pymethods]
 impl Engine {
-    /// Takes away the forces that are applied to single spheres: then none can be, until some are.
+    /// Takes the forces that are applied to single spheres away, as if none had ever been applied.
     #[pyo3(name = "_release")]
     fn release(&self, py: Python<'_>) -> PyResult<()> {
         self.change(py, |inner| Ok(inner.world.set_applied_forces(&[])?))

@@ -4,7 +4,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use carom_cli::pictures::{Filming, Order, Stepped, Studio};
 use carom_scene::Scene;
@@ -15,9 +15,7 @@ use crate::failure::Failure;
 use crate::graphics_failure::raised;
 use crate::look::{Sight, View};
 use crate::running::whole_frames;
-
-/// How long the film goes on between two looks at Python's signals.
-const PATIENCE: Duration = Duration::from_millis(50);
+use crate::stop::PATIENCE;
 
 /// Films the scene that `text` describes in TOML, for `seconds` [s] or as long as the scene says, up
 /// to a whole frame. Answers with the number of frames.

@@ -4,7 +4,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 use std::ops::Range;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -16,9 +16,7 @@ use crate::failure::Failure;
 use crate::quantity::Quantity;
 use crate::recording::{Numbers, Recording, Selection};
 use crate::snapshot::Snapshot;
-
-/// How long a run goes on between two looks at Python's signals.
-const PATIENCE: Duration = Duration::from_millis(50);
+use crate::stop::PATIENCE;
 
 /// Time, ids, radii, masses, the impacts as words, by their names the quantities that change, and the exception
 /// that ended the run before its time.

@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 
 /// How long frames go on before they look at the signals, and between two looks: each waits for the
 /// interpreter.
-const PATIENCE: Duration = Duration::from_millis(50);
+pub const PATIENCE: Duration = Duration::from_millis(50);
 
 /// What a handler of a signal raised while a step was at work.
 static RAISED: Mutex<Option<PyErr>> = Mutex::new(None);

@@ -62,11 +62,23 @@ pub fn take_over(
     // What is finite is refused only where there are bounds.
     let is_safe = !written.iter().any(|written| written.quantity.is_bounded());
     let before = (!is_safe).then(|| world.snapshot());
-    let taken = written.iter().try_for_each(|written| set(world, written, &place_of));
+    let taken = set_checked(world, written, place_of);
     if taken.is_err() {
         before.iter().for_each(|before| world.restore(before));
     }
     taken
+}
+
+/// Has a world take over what was written and checked, until it refuses a value. `place_of` writes a row.
+///
+/// # Errors
+/// [`Failure`] that names the array and the row; the values before it are taken over.
+pub fn set_checked(
+    world: &mut World,
+    written: &[Written],
+    place_of: impl Fn(usize) -> String,
+) -> Result<(), Failure> {
+    written.iter().try_for_each(|written| set(world, written, &place_of))
 }
 
 fn set(

@@ -1,7 +1,7 @@
 //! The worlds of a batch.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use carom::{StepReport, World};
 use rayon::prelude::*;
@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::quantity::Quantity;
 use crate::setting;
 use crate::snapshot::Snapshot;
-use crate::stop::Watch;
+use crate::stop::{PATIENCE, Watch};
 use crate::threads::Pool;
 use crate::written::{self, Written};
 
@@ -28,9 +28,6 @@ pub struct Members {
     /// None where one thread does everything.
     pool: Option<Pool>,
 }
-
-/// How long frames are taken between two looks at Python's signals.
-const PATIENCE: Duration = Duration::from_millis(50);
 
 /// What is left to do in a world.
 #[derive(Debug, Clone)]
@@ -233,7 +230,7 @@ impl Members {
             if !is_safe {
                 before.push((number, world.snapshot()));
             }
-            let taken = written::take_over(world, &own, |row| format!("{number}, {row}"));
+            let taken = written::set_checked(world, &own, |row| format!("{number}, {row}"));
             if taken.is_err() {
                 let restore = |(number, before): &(usize, carom::Snapshot)| {
                     self.members[*number].now.world.restore(before);
