@@ -10,12 +10,27 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom import _tables as tables
-from carom._carom import BatchEngine
+from carom._carom import BatchEngine, Snapshot
 from carom._library import load
 from carom._scene import Scene
 from carom._strict import Strict
 from carom._world import World
 from carom.errors import CaromError, StepError
+
+
+def _restored(
+    kind: type[Batch],
+    threads: int | None,
+    starts: list[Snapshot],
+    of_worlds: list[int],
+    now: list[Snapshot],
+) -> Batch:
+    """A batch that goes on from these states: what a pickle of one makes."""
+    each = starts if len(starts) == 1 else [starts[number] for number in of_worlds]
+    batch = BatchEngine.__new__(kind, each, len(of_worlds), threads)
+    for number, snapshot in enumerate(now):
+        batch._go_on_from(number, snapshot)
+    return batch
 
 
 class Batch(Strict, BatchEngine):
@@ -28,6 +43,8 @@ class Batch(Strict, BatchEngine):
     ``spinning_frictions`` and ``tangential_restitutions`` (n, spheres). They are kept as those of a
     `World` are: made at the first read, written anew by every step, read without copying. To set
     one, assign to it or write into it: ``batch.velocities = 0``, ``batch.velocities[3] = 0``.
+
+    A batch can be copied and pickled; the copy goes on by itself, bit for bit.
 
     Args:
         scene: The scene of all worlds, or its name; or a sequence of scenes, one for each world.
@@ -62,10 +79,20 @@ class Batch(Strict, BatchEngine):
         """Makes the worlds."""
         scenes = _scenes(scene, n, changes or {}, seeds)
         starts = [scene.world().snapshot() for scene in scenes]
-        return super().__new__(cls, starts, len(starts) if n is None else n, threads)
+        batch = super().__new__(cls, starts, len(starts) if n is None else n, threads)
+        batch._threads = threads
+        return batch
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         """Everything is made by then."""
+
+    _threads: int | None
+    """As they were wanted."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        starts, of_worlds = self._starts()
+        now = [self._snapshot(number) for number in range(len(self))]
+        return _restored, (type(self), self._threads, starts, of_worlds, now), dict(self.__dict__)
 
     def __repr__(self) -> str:
         return f"<carom.Batch of {len(self)} worlds, {self.radii.shape[1]} spheres each>"
@@ -73,9 +100,8 @@ class Batch(Strict, BatchEngine):
     def step(self, *, dt: float | None = None, frames: int = 1) -> None:
         """Advances every world by ``frames`` frames of ``dt`` [s], or of its scene's own length.
 
-        Other threads run meanwhile. Ctrl-C stops within a tenth of a second, but for a single frame
-        that takes longer; each world is then at the end of one of its frames, some further on than
-        others.
+        Other threads run meanwhile. Ctrl-C stops within a tenth of a second; each world is then at
+        the end of one of its frames, some further on than others.
 
         Raises:
             CaromError: If ``dt`` is not positive and finite. No world was moved.

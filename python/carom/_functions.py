@@ -58,6 +58,13 @@ class Functions:
         twin.by_id, twin._next = dict(self.by_id), self._next
         return twin
 
+    def __getstate__(self) -> tuple[dict[int, ForceFunction], int]:
+        return self.by_id, self._next
+
+    def __setstate__(self, state: tuple[dict[int, ForceFunction], int]) -> None:
+        self.__init__()  # type: ignore[misc]
+        self.by_id, self._next = state
+
     def step(self, world: World, dt: float | None, frames: int) -> None:
         """Takes frames; if one is refused, the world is as it was before the call."""
         count = _count("frames", frames)

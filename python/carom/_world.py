@@ -6,7 +6,7 @@ import copy
 import os
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal, NoReturn, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from carom import _parts as parts
 from carom import _pictures as pictures
 from carom import _tables as tables
-from carom._carom import Engine
+from carom._carom import Engine, Snapshot
 from carom._contact_account import ContactAccount
 from carom._functions import ForceFunction, Functions
 from carom._points import Points
@@ -45,6 +45,13 @@ def _are_spheres(
     return len(given) > 0 and all(isinstance(it, parts.Sphere) for it in given)
 
 
+def _restored(kind: type[World], snapshot: Snapshot) -> World:
+    """A world that goes on from a snapshot: what a pickle of one makes."""
+    world = kind.__new__(kind)
+    world.restore(snapshot)
+    return world
+
+
 class World(Strict, Engine):
     """Spheres that move.
 
@@ -62,6 +69,8 @@ class World(Strict, Engine):
       row, and the array is as the world again.
     - What is assigned to the attribute is copied, spread by NumPy's rules of broadcasting, and
       checked first: ``world.velocities = 0``. ``ids`` cannot be changed.
+
+    A world can be copied (``copy.copy``) and pickled; the copy goes on by itself, bit for bit.
 
     Calls that take long let other threads run; threads that use one world wait for each other. What
     is refused raises a `carom.CaromError` that names the argument, and leaves the world unchanged.
@@ -118,11 +127,8 @@ class World(Strict, Engine):
         twin._functions = None if self._functions is None else self._functions.copy()
         return twin
 
-    def __reduce__(self) -> NoReturn:
-        raise TypeError(
-            "a carom.World cannot be pickled: flights under the rule exact have no written form; "
-            "pickle world.to_scene(), which begins as the world is now, or copy.copy the world"
-        )
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (type(self), self.snapshot()), dict(self.__dict__)
 
     def __repr__(self) -> str:
         return f"<carom.World at {self.time} s, {len(self)} spheres>"

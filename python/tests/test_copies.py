@@ -48,11 +48,6 @@ def test_a_copy_of_a_world_with_more_to_it_has_that_too() -> None:
     assert len(twin) == len(world)
 
 
-def test_a_world_says_why_it_cannot_be_pickled() -> None:
-    with pytest.raises(TypeError, match="to_scene"):
-        pickle.dumps(carom.World())
-
-
 def colors(world: carom.World) -> list[object]:
     """The colours of its spheres, by the scene that begins as it is now."""
     return [sphere.color for sphere in world.to_scene().spheres]

@@ -189,6 +189,20 @@ def many_worlds_in_one_thread() -> None:
     few(4, threads=1).step(dt=1e-3, frames=10**9)
 
 
+def a_long_frame_of_sub_steps() -> None:
+    overrides = {"simulation.rule": "contact", "simulation.contact.sub_steps": 2**32 - 1}
+    carom.load("pour", overrides).world().step(dt=1e3)
+
+
+def a_long_frame_of_worlds() -> None:
+    few(4).step(dt=1e6)
+
+
+def a_long_frame_of_a_batch_of_sub_steps() -> None:
+    overrides = {"simulation.rule": "contact", "simulation.contact.sub_steps": 2**32 - 1}
+    carom.Batch(carom.load("billiards", overrides), 4, threads=2).step(dt=1e3)
+
+
 def a_long_run() -> None:
     gas().run(frames=10**6, dt=1e-3, quantities=[])
 
@@ -201,6 +215,9 @@ def a_long_run() -> None:
         a_long_frame_of_many_spheres,
         many_worlds,
         many_worlds_in_one_thread,
+        a_long_frame_of_sub_steps,
+        a_long_frame_of_worlds,
+        a_long_frame_of_a_batch_of_sub_steps,
         a_long_run,
     ],
 )

@@ -5,8 +5,11 @@
 
 use std::sync::Arc;
 
-use carom_scene::{Palette, Scene};
+use carom_scene::{Checkpoint, Palette, Scene};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::failure::Failure;
 
 /// The state of a world at one moment: what `World.snapshot` gives and `World.restore` takes.
 #[pyclass(frozen, module = "carom")]
@@ -25,6 +28,39 @@ impl Snapshot {
     #[getter]
     fn time(&self) -> f64 {
         self.time
+    }
+
+    /// The snapshot as bytes, the same ones on every platform: what `from_bytes` takes.
+    ///
+    /// The same version of Carom reads them; pickles of snapshots, worlds and batches hold them.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let written =
+            py.detach(|| Checkpoint::bytes_of(&self.world, &self.described, &self.palette));
+        Ok(PyBytes::new(py, &written.map_err(|error| Failure::value("snapshot", error))?))
+    }
+
+    /// The snapshot that `to_bytes` made these bytes of: a world that is restored from it goes on as the
+    /// one that it was taken of, bit for bit.
+    ///
+    /// A checksum notices damage, but not what was made to mislead: read only bytes that you trust.
+    ///
+    /// Raises:
+    ///     CaromError: For bytes that are no snapshot, of another version of Carom, or damaged.
+    #[staticmethod]
+    fn from_bytes(py: Python<'_>, data: &[u8]) -> PyResult<Self> {
+        let read = py.detach(|| Checkpoint::from_bytes(data));
+        let Checkpoint { snapshot, scene, palette } =
+            read.map_err(|error| Failure::value("data", error))?;
+        let time = snapshot.time();
+        let (described, palette) = (Arc::new(scene), Arc::new(palette));
+        Ok(Self { world: snapshot, described, palette, time })
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let bytes = slf.get().to_bytes(slf.py())?;
+        Ok((slf.getattr("from_bytes")?, (bytes,)))
     }
 
     fn __repr__(&self) -> String {

@@ -51,6 +51,15 @@ impl Pool {
         }
     }
 
+    /// Has the threads do work that may take long, while this one watches for signals; where they cannot be
+    /// started, this one does it.
+    pub fn watch<T: Send>(&self, watch: &Watch, work: impl FnOnce() -> T + Send) -> T {
+        match self.started() {
+            Ok(threads) => watched(&threads, watch, work),
+            Err(_) => work(),
+        }
+    }
+
     /// The threads of this process.
     fn started(&self) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
         let mut started = self.started.lock().unwrap_or_else(PoisonError::into_inner);
@@ -84,7 +93,14 @@ static SHARED: Pool = Pool::new(0);
 pub fn among_all<T: Send>(spheres: usize, watch: &Watch, work: impl FnOnce() -> T + Send) -> T {
     let is_shared = spheres >= FEW && rayon::current_thread_index().is_none();
     let threads = if is_shared { SHARED.started().ok() } else { None };
-    let Some(threads) = threads else { return work() };
+    match threads {
+        Some(threads) => watched(&threads, watch, work),
+        None => work(),
+    }
+}
+
+/// Has threads do work, while this one watches for signals.
+fn watched<T: Send>(threads: &ThreadPool, watch: &Watch, work: impl FnOnce() -> T + Send) -> T {
     let done = threads.in_place_scope(|scope| {
         let (send, done) = mpsc::channel();
         scope.spawn(move |_| {

@@ -19,6 +19,8 @@ mod bodies;
 mod builtin;
 mod changed_file;
 mod check;
+#[cfg(feature = "checkpoint")]
+mod checkpoint;
 mod color_text;
 mod error;
 mod expand;
@@ -47,6 +49,8 @@ mod world;
 
 pub use builtin::FILES as BUILT_IN_FILES;
 pub use changed_file::ChangedFile;
+#[cfg(feature = "checkpoint")]
+pub use checkpoint::{Checkpoint, CheckpointError};
 pub use error::{Fault, SceneError};
 pub use library::{Entry, Library, Source};
 pub use overrides::Override;

@@ -19,6 +19,7 @@ pub(crate) enum Origin {
 /// comes first may depend on the frames (under `discrete` and `bisect`): they must be those of the
 /// scene, `simulation.frame_time` long.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Origins {
     /// Single spheres.
     spheres: usize,
@@ -99,6 +100,7 @@ impl Origins {
 /// When an emitter emits depends on no sphere; so the order is that of the scene's own world,
 /// under any rule. Emitter i puts its spheres at x = i, which distinguishes them.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 struct Emissions {
     world: World,
     /// In s.

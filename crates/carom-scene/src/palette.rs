@@ -14,6 +14,7 @@ const SAME_DENSITY: f64 = 1e-9;
 
 /// What a sphere or a collider says of its look.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Paint {
     /// A colour of its own.
     pub color: Option<Color>,
@@ -76,6 +77,7 @@ impl From<Color> for Coat {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Palette {
     origins: Origins,
     /// Numbers of spheres that were added in code, ascending: `origins` does not count them.
@@ -88,6 +90,8 @@ pub struct Palette {
     /// Those of emitters by the indices of `origins`.
     emitters: Vec<Paint>,
     colliders: Vec<Paint>,
+    /// Those of the scene.
+    #[cfg_attr(feature = "checkpoint", serde(skip))]
     colors: Colors,
 }
 
@@ -115,6 +119,12 @@ impl Palette {
             colliders: scene.all_colliders().iter().map(Paint::from).collect(),
             colors: scene.colors.clone().unwrap_or_default(),
         })
+    }
+
+    /// These colours, where the scene says those of its own.
+    #[cfg(feature = "checkpoint")]
+    pub(crate) fn in_colors_of(self, scene: &Scene) -> Self {
+        Self { colors: scene.colors.clone().unwrap_or_default(), ..self }
     }
 
     /// Makes known which emitters the spheres come from that are emitted until `time` \[s\]: to be

@@ -1,178 +1,15 @@
-//! Spheres: what one is, and how many are stored.
-
-use std::f64::consts::PI;
+//! Spheres as they are stored: an array for each quantity.
 
 use glam::{DQuat, DVec3};
 
-use crate::error::InvalidValue;
 use crate::friction::Friction;
 use crate::id::SphereId;
 use crate::rotation;
-use crate::validate;
-
-/// Moment of inertia of a solid ball, divided by m r².
-pub const SOLID_BALL: f64 = 2.0 / 5.0;
-/// Moment of inertia of a thin spherical shell, divided by m r².
-pub const THIN_SHELL: f64 = 2.0 / 3.0;
-
-/// Mass, or the density to compute it from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Mass {
-    /// Mass \[kg\], > 0.
-    Kilograms(f64),
-    /// Density \[kg/m³\], > 0; the mass is density times the sphere's volume.
-    Density(f64),
-}
-
-impl From<f64> for Mass {
-    /// This many kilograms.
-    fn from(kilograms: f64) -> Self {
-        Self::Kilograms(kilograms)
-    }
-}
-
-/// One sphere, as it is added to a world and read from it.
-///
-/// ```
-/// use carom::{DVec3, Sphere};
-///
-/// let sphere = Sphere::new(DVec3::new(0.0, 2.0, 0.0), 0.5)
-///     .with_velocity(DVec3::X)
-///     .with_density(1000.0)
-///     .with_restitution(0.8);
-/// assert_eq!(sphere.kilograms(), 1000.0 * carom::volume(0.5));
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct Sphere {
-    /// Centre \[m\].
-    pub position: DVec3,
-    /// Velocity \[m/s\].
-    pub velocity: DVec3,
-    /// Radius \[m\], > 0.
-    pub radius: f64,
-    /// Mass or density; a world answers with [`Mass::Kilograms`].
-    pub mass: Mass,
-    /// Coefficient of restitution in \[0, 1\].
-    pub restitution: f64,
-    /// Friction at its surface; it says nothing unless given.
-    pub friction: Friction,
-    /// How it is turned, from its own coordinate system to the world's; any length but zero.
-    pub orientation: DQuat,
-    /// Angular velocity, along the axis of rotation \[rad/s\].
-    pub angular_velocity: DVec3,
-    /// Moment of inertia about any axis through the centre, divided by m r², > 0: [`SOLID_BALL`]
-    /// unless given, [`THIN_SHELL`] for a hollow one.
-    pub inertia_factor: f64,
-}
-
-impl Sphere {
-    /// A solid ball at rest, of 1 kg, that leaves restitution (its own is 1) and friction to what it
-    /// meets.
-    pub fn new(position: DVec3, radius: f64) -> Self {
-        Self {
-            position,
-            velocity: DVec3::ZERO,
-            radius,
-            mass: Mass::Kilograms(1.0),
-            restitution: 1.0,
-            friction: Friction::default(),
-            orientation: DQuat::IDENTITY,
-            angular_velocity: DVec3::ZERO,
-            inertia_factor: SOLID_BALL,
-        }
-    }
-
-    /// The same sphere with its centre at this place \[m\].
-    pub fn with_position(self, position: DVec3) -> Self {
-        Self { position, ..self }
-    }
-
-    /// The same sphere with this radius \[m\].
-    pub fn with_radius(self, radius: f64) -> Self {
-        Self { radius, ..self }
-    }
-
-    /// The same sphere with this velocity \[m/s\].
-    pub fn with_velocity(self, velocity: DVec3) -> Self {
-        Self { velocity, ..self }
-    }
-
-    /// The same sphere with this mass: a number \[kg\], or a [`Mass`].
-    pub fn with_mass(self, mass: impl Into<Mass>) -> Self {
-        Self { mass: mass.into(), ..self }
-    }
-
-    /// The same sphere with the mass of this density \[kg/m³\].
-    pub fn with_density(self, density: f64) -> Self {
-        Self { mass: Mass::Density(density), ..self }
-    }
-
-    /// The same sphere with this coefficient of restitution.
-    pub fn with_restitution(self, restitution: f64) -> Self {
-        Self { restitution, ..self }
-    }
-
-    /// The same sphere with this friction: a coefficient, or a [`Friction`].
-    pub fn with_friction(self, friction: impl Into<Friction>) -> Self {
-        Self { friction: friction.into(), ..self }
-    }
-
-    /// The same sphere, turned.
-    pub fn with_orientation(self, orientation: DQuat) -> Self {
-        Self { orientation, ..self }
-    }
-
-    /// The same sphere with this angular velocity \[rad/s\].
-    pub fn with_angular_velocity(self, angular_velocity: DVec3) -> Self {
-        Self { angular_velocity, ..self }
-    }
-
-    /// The same sphere with this moment of inertia, divided by m r².
-    pub fn with_inertia_factor(self, inertia_factor: f64) -> Self {
-        Self { inertia_factor, ..self }
-    }
-
-    /// Mass \[kg\], however it was given.
-    pub fn kilograms(&self) -> f64 {
-        match self.mass {
-            Mass::Kilograms(kilograms) => kilograms,
-            Mass::Density(density) => density * volume(self.radius),
-        }
-    }
-
-    /// Whether it is turned, or turns.
-    pub(crate) fn is_turned(&self) -> bool {
-        self.orientation != DQuat::IDENTITY || self.angular_velocity != DVec3::ZERO
-    }
-
-    pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
-        validate::finite("position", self.position)?;
-        validate::finite("velocity", self.velocity)?;
-        validate::positive("radius", self.radius)?;
-        match self.mass {
-            Mass::Kilograms(mass) => validate::positive("mass", mass)?,
-            // So small or large a sphere that its mass is no number is refused here, too.
-            Mass::Density(density) => {
-                validate::positive("density", density)?;
-                validate::positive("density times volume", self.kilograms())?;
-            }
-        }
-        validate::unit_interval("restitution", self.restitution)?;
-        self.friction.validate()?;
-        validate::rotation("orientation", self.orientation)?;
-        validate::finite("angular_velocity", self.angular_velocity)?;
-        validate::positive("inertia_factor", self.inertia_factor)
-    }
-}
-
-/// Volume of a sphere \[m³\], 4/3 π r³.
-pub fn volume(radius: f64) -> f64 {
-    4.0 / 3.0 * PI * (radius * radius * radius)
-}
+use crate::sphere::{Mass, SOLID_BALL, Sphere};
 
 /// Where spheres are and how they move: what a step changes.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Motion {
     /// Centres \[m\].
     pub position: Vec<DVec3>,
@@ -184,6 +21,7 @@ pub(crate) struct Motion {
 
 /// How spheres are turned, and how they turn. Both arrays are empty while no sphere was ever turned.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Spin {
     /// From the coordinate system of each sphere to the world's, of length 1.
     pub orientation: Vec<DQuat>,
@@ -266,6 +104,7 @@ impl Spin {
 
 /// What spheres are: what a step reads.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Properties {
     /// Ascending.
     pub id: Vec<SphereId>,
@@ -315,6 +154,7 @@ impl Properties {
 
 /// All spheres of a world, one array per quantity, in ascending order of id.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spheres {
     pub(crate) properties: Properties,
     pub(crate) motion: Motion,

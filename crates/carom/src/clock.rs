@@ -2,6 +2,7 @@ use crate::sum::Sum;
 
 /// The time of a world: a sum of step lengths that does not drift, however many there are.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Clock(Sum);
 
 impl Clock {

@@ -9,6 +9,7 @@ use crate::validate;
 
 /// Form of a collider in its own frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Shape {
     /// A sphere about the origin.
@@ -50,6 +51,7 @@ pub enum Shape {
 /// assert_eq!(open, Sides::from_array([false, false, false, true, false, false]));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sides {
     /// Towards -x.
     pub left: bool,
@@ -85,6 +87,7 @@ impl Sides {
 
 /// Where a collider is and how it is turned: `x_world = position + rotation x_local`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
     /// Origin of the local frame \[m\].
     pub position: DVec3,
@@ -135,6 +138,7 @@ impl Pose {
 /// # Ok::<(), carom::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Collider {
     /// Form in the local frame.

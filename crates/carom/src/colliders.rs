@@ -88,3 +88,26 @@ impl Colliders {
         self.forget_trees();
     }
 }
+
+/// Colliders as they are written: surfaces and trees follow from them.
+#[cfg(feature = "serde")]
+mod written {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::{Colliders, Numbered};
+
+    impl Serialize for Colliders {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            self.list.serialize(serializer)
+        }
+    }
+
+    impl<'de> Deserialize<'de> for Colliders {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            let list = Numbered::deserialize(deserializer)?;
+            let mut colliders = Self { list, ..Self::default() };
+            colliders.place_all();
+            Ok(colliders)
+        }
+    }
+}

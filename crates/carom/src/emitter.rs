@@ -4,11 +4,12 @@ use std::collections::VecDeque;
 
 use glam::{DQuat, DVec3};
 
-use crate::bodies::{Sphere, Spheres};
+use crate::bodies::Spheres;
 use crate::error::InvalidValue;
 use crate::id::SphereId;
 use crate::numbered::Numbered;
 use crate::settings::nearest_image;
+use crate::sphere::Sphere;
 use crate::validate;
 
 /// A sphere is due when its time is at most this much after the start of a frame \[s\], so that
@@ -41,6 +42,7 @@ const MAX_PER_FRAME: f64 = 1e6;
 /// # Ok::<(), carom::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Emitter {
     /// What is emitted, in the emitter's frame: `position` \[m\] is an offset from the emitter's
@@ -130,6 +132,7 @@ impl Emitter {
 
 /// An emitter and what it has done so far.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct EmitterState {
     pub emitter: Emitter,
     /// When it entered the world, and so emits first \[s\].

@@ -18,6 +18,7 @@ use crate::validate;
 /// assert_eq!(ball.friction.sliding, Some(0.2));
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Friction {
     /// Coulomb's coefficient, >= 0: the tangential force is at most this part of the normal force.
@@ -81,6 +82,7 @@ impl Friction {
 
 /// Friction of a contact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct ContactFriction {
     pub sliding: f64,
     pub rolling: f64,

@@ -7,6 +7,7 @@ macro_rules! id {
     ($(#[$about:meta])* $name:ident, $things:literal) => {
         $(#[$about])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         pub struct $name(pub(crate) u64);
 
         impl $name {

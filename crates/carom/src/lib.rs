@@ -49,6 +49,7 @@ pub mod respond;
 mod rotation;
 mod rule;
 mod settings;
+mod sphere;
 mod state;
 mod step;
 mod sum;
@@ -60,7 +61,7 @@ mod world;
 
 pub use glam::{DQuat, DVec3};
 
-pub use bodies::{Mass, SOLID_BALL, Sphere, Spheres, THIN_SHELL, volume};
+pub use bodies::Spheres;
 pub use collider::{Collider, Pose, Shape, Sides};
 pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
@@ -78,6 +79,7 @@ pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,
     WindBack, Zones,
 };
+pub use sphere::{Mass, SOLID_BALL, Sphere, THIN_SHELL, volume};
 pub use work::StopRequest;
 pub use world::World;
 pub use world::snapshot::Snapshot;

@@ -2,6 +2,7 @@
 
 /// Things that keep the number they were given, in the order in which they came.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Numbered<T> {
     /// Ascending by number.
     items: Vec<(u64, T)>,
@@ -43,6 +44,13 @@ impl<T> Numbered<T> {
 
     pub fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.items.iter_mut().map(|(_, item)| item)
+    }
+
+    /// Things made of these, with the same numbers.
+    #[cfg(feature = "serde")]
+    pub fn try_map<U, E>(&self, make: impl Fn(&T) -> Result<U, E>) -> Result<Numbered<U>, E> {
+        let made = |(number, item)| Ok((number, make(item)?));
+        Ok(Numbered { items: self.iter().map(made).collect::<Result<_, E>>()?, next: self.next })
     }
 
     fn place(&self, number: u64) -> Option<usize> {

@@ -101,6 +101,7 @@ pub struct ContactAccount {
 /// The work of a step, counted by stage: integers that depend on the world alone, not on the machine
 /// or on the number of threads.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct StageCounts {
     /// Predict: how often the next events of a sphere were predicted, under the rule `exact`.

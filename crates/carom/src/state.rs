@@ -21,8 +21,10 @@ use crate::system::System;
 
 /// Everything a world's future depends on.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct State {
     pub settings: Settings,
+    #[cfg_attr(feature = "serde", serde(with = "crate::forces::shipped"))]
     pub forces: Numbered<Arc<dyn Force>>,
     /// Shared by worlds that were copied, until one changes its own.
     pub colliders: Arc<Colliders>,

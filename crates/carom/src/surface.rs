@@ -8,6 +8,7 @@ use crate::id::ColliderId;
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Surface {
     pub form: Form,
     pub collider: ColliderId,
@@ -19,6 +20,7 @@ pub(crate) struct Surface {
 
 /// How a surface moves: it turns about `origin`, which moves itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct SurfaceMotion {
     /// Now \[m\].
     pub origin: DVec3,
@@ -76,6 +78,7 @@ impl Surface {
 
 /// What a surface is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Role {
     /// Spheres bounce off it.
     Deflects,
@@ -87,6 +90,7 @@ pub(crate) enum Role {
 
 /// Geometry of a surface, in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Form {
     Sphere { center: DVec3, radius: f64 },
     Rectangle(Rectangle),
@@ -96,6 +100,7 @@ pub(crate) enum Form {
 
 /// A solid box in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct SolidBox {
     pub center: DVec3,
     /// Directions of its edges, orthonormal.
@@ -106,6 +111,7 @@ pub(crate) struct SolidBox {
 
 /// A one-sided rectangle in the world. The three axes are orthonormal.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Rectangle {
     pub center: DVec3,
     /// Direction of the first pair of edges.

@@ -13,8 +13,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use carom::{Bisect, Contact, DQuat, StopRequest, Zones};
 use carom::{Collider, DVec3, Error, Exact, Gravity, Pose, Rule, Settings, Shape, Sphere, World};
-use carom::{DQuat, StopRequest, Zones};
 use common::{G, Numbers, vec};
 
 const RADIUS: f64 = 0.5;
@@ -165,9 +165,8 @@ fn frames_do_not_matter_to_balls_in_a_box() {
 }
 
 /// Balls that fall on each other in a box, all at once.
-fn pile(count: u32, exact: Exact) -> World {
+fn pile(count: u32, rule: impl Into<Rule>) -> World {
     let mut world = patient_world(vec(0.0, -G, 0.0));
-    let rule = Rule::Exact(exact);
     world.set_settings(Settings::default().with_rule(rule)).unwrap();
     add_box(&mut world, 8.0, 0.5);
     for n in 0..count {
@@ -182,24 +181,30 @@ fn pile(count: u32, exact: Exact) -> World {
 
 #[test]
 fn a_stop_request_ends_a_long_frame_soon_and_leaves_the_world_as_it_was() {
-    let is_stopping = Arc::new(AtomicBool::new(false));
-    let mut world = pile(196, Exact::default().with_max_impacts(u32::MAX).with_zones(Zones::Never));
-    world.set_stop_request(Some(StopRequest::from(is_stopping.clone())));
-    let before = world.state_hash();
-    let stopper = std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_millis(300));
-        is_stopping.store(true, Ordering::Relaxed);
-        Instant::now()
-    });
-    // Minutes of work.
-    let error = world.step(60.0).unwrap_err();
-    let took = stopper.join().unwrap().elapsed();
-    assert!(matches!(error, Error::Stopped { time: 0.0 }), "{error}");
-    // Far more than the milliseconds it is to take, for machines that are busy.
-    assert!(took < Duration::from_secs(2), "{took:?}");
-    assert_eq!(world.state_hash(), before);
-    world.set_stop_request(None);
-    world.step(FRAME).unwrap();
+    // A frame of minutes by each of them.
+    let exact = Exact::default().with_max_impacts(u32::MAX).with_zones(Zones::Never);
+    let bisect = Bisect::default().with_max_impacts(u32::MAX);
+    let contact = Contact::default().with_sub_steps(u32::MAX);
+    for rule in [Rule::from(exact), bisect.into(), contact.into()] {
+        let is_stopping = Arc::new(AtomicBool::new(false));
+        let mut world = pile(196, rule);
+        world.set_stop_request(Some(StopRequest::from(is_stopping.clone())));
+        let before = world.state_hash();
+        let stopper = std::thread::spawn(move || {
+            std::thread::sleep(Duration::from_millis(300));
+            is_stopping.store(true, Ordering::Relaxed);
+            Instant::now()
+        });
+        let error = world.step(60.0).unwrap_err();
+        let took = stopper.join().unwrap().elapsed();
+        assert!(matches!(error, Error::Stopped { time: 0.0 }), "{error}");
+        // Far more than the milliseconds it is to take, for machines that are busy.
+        assert!(took < Duration::from_secs(2), "{rule:?}: {took:?}");
+        assert_eq!(world.state_hash(), before, "{rule:?}");
+        world.set_stop_request(None);
+        world.set_settings(Settings::default()).unwrap();
+        world.step(FRAME).unwrap();
+    }
 }
 
 #[test]

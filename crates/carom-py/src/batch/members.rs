@@ -1,7 +1,7 @@
 //! The worlds of a batch.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::time::Instant;
 
 use carom::{StepReport, World};
 use rayon::prelude::*;
@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::quantity::Quantity;
 use crate::setting;
 use crate::snapshot::Snapshot;
-use crate::stop::{PATIENCE, Watch};
+use crate::stop::Watch;
 use crate::threads::Pool;
 use crate::written::{self, Written};
 
@@ -114,34 +114,27 @@ impl Members {
         [vec![self.len()], quantity.shape(self.spheres)].concat()
     }
 
-    /// Takes frames of `dt` \[s\], or of each world's own length, in every world, for a while; tells whether
-    /// all were taken by then. A world that refuses a frame stays as it was before that.
-    pub fn step(&mut self, dt: Option<f64>, progress: &mut [Progress]) -> bool {
-        let (watch, end) = (Watch::begin(), Instant::now() + PATIENCE);
+    /// Takes frames of `dt` \[s\], or of each world's own length, in every world. A world that refuses a frame
+    /// stays as it was before that; a signal whose handler raises an exception stops all of them.
+    pub fn step(&mut self, dt: Option<f64>, progress: &mut [Progress]) {
+        let watch = Watch::begin();
+        let request = watch.request();
         let step = |(member, progress): (&mut Member, &mut Progress)| {
+            member.now.world.set_stop_request(Some(request.clone()));
             let length = member.now.frame_time(dt);
             while progress.left > 0 {
                 progress.left -= 1;
                 if let Err(error) = member.now.take_frame(length, &watch) {
                     *progress = Progress { left: 0, refused: Some(error.into()) };
-                } else if progress.left > 0 && Instant::now() > end {
-                    return false;
                 }
             }
-            true
         };
         let share = (SPHERES_PER_TASK / self.spheres.max(1)).max(1);
-        // Handlers of signals run in the thread that has called, if it steps.
-        let request = self.pool.is_none().then(|| watch.request());
-        for member in &mut self.members {
-            member.now.world.set_stop_request(request.clone());
-        }
         let members = &mut self.members;
         match &self.pool {
-            None => members.iter_mut().zip(progress).map(step).fold(true, |all, one| all & one),
-            Some(pool) => pool.install(|| {
-                let members = members.par_iter_mut().zip(progress).with_min_len(share);
-                members.map(step).reduce(|| true, |all, one| all & one)
+            None => members.iter_mut().zip(progress).for_each(step),
+            Some(pool) => pool.watch(&watch, || {
+                members.par_iter_mut().zip(progress).with_min_len(share).for_each(step);
             }),
         }
     }
@@ -163,6 +156,33 @@ impl Members {
     /// The state of a world.
     pub fn snapshot(&self, world: usize) -> Option<Snapshot> {
         self.members.get(world).map(|member| member.now.snapshot())
+    }
+
+    /// The states that worlds start from, each once, and which of them is that of each world.
+    pub fn starts(&self) -> (Vec<Snapshot>, Vec<usize>) {
+        let mut starts = Vec::new();
+        let mut places = BTreeMap::new();
+        let place = |member: &Member| {
+            *places.entry(Arc::as_ptr(&member.start)).or_insert_with(|| {
+                starts.push(Snapshot::clone(&member.start));
+                starts.len() - 1
+            })
+        };
+        let of_worlds = self.members.iter().map(place).collect();
+        (starts, of_worlds)
+    }
+
+    /// Puts a world into another state, and leaves where it starts from.
+    ///
+    /// # Errors
+    /// Those of [`Self::restore`].
+    pub fn go_on_from(&mut self, world: usize, snapshot: &Snapshot) -> Result<(), Failure> {
+        let start = self.members.get(world).map(|member| Arc::clone(&member.start));
+        self.restore(world, snapshot)?;
+        if let Some((member, start)) = self.members.get_mut(world).zip(start) {
+            member.start = start;
+        }
+        Ok(())
     }
 
     /// Puts a world into another state, from which it starts from now on.

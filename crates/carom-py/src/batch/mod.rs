@@ -146,15 +146,11 @@ impl BatchEngine {
         let mut guard = self.lock(py)?;
         let Inner { members, arrays } = &mut *guard;
         let mut progress = vec![Progress { left: frames, refused: None }; members.len()];
-        let mut handled = Ok(());
-        while handled.is_ok() && !py.detach(|| members.step(dt, &mut progress)) {
-            let is_stopped = progress.iter().any(Progress::is_stopped);
-            handled = if is_stopped { Err(stop::raised()) } else { stop::check(py).map_err(Some) };
-        }
+        py.detach(|| members.step(dt, &mut progress));
         arrays.write_motion(py, members);
         drop(guard);
-        if let Err(raised) = handled {
-            return Err(raised.unwrap_or_else(|| PyKeyboardInterrupt::new_err(())));
+        if progress.iter().any(Progress::is_stopped) {
+            return Err(stop::raised().unwrap_or_else(|| PyKeyboardInterrupt::new_err(())));
         }
         let refused = progress.into_iter().map(|it| it.refused).enumerate();
         Ok(refused.filter_map(|(world, failure)| Some((world, failure?.into()))).collect())
@@ -180,6 +176,18 @@ impl BatchEngine {
     #[pyo3(name = "_restore")]
     fn restore(&self, py: Python<'_>, world: usize, snapshot: &Snapshot) -> PyResult<()> {
         self.change(py, |members| members.restore(world, snapshot))
+    }
+
+    /// The states that worlds start from, each once, and which of them is that of each world.
+    #[pyo3(name = "_starts")]
+    fn starts(&self, py: Python<'_>) -> PyResult<(Vec<Snapshot>, Vec<usize>)> {
+        Ok(self.lock(py)?.members.starts())
+    }
+
+    /// Puts one world into another state, and leaves where it starts from.
+    #[pyo3(name = "_go_on_from")]
+    fn go_on_from(&self, py: Python<'_>, world: usize, snapshot: &Snapshot) -> PyResult<()> {
+        self.change(py, |members| members.go_on_from(world, snapshot))
     }
 
     /// The number of worlds.

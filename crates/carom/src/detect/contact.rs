@@ -4,6 +4,7 @@ use super::{ContactState, Separation};
 
 /// Two bodies, by index. Pairs of spheres sort before spheres at surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Bodies {
     /// Spheres 1 and 2, the smaller index first.
     Pair(u32, u32),

@@ -6,6 +6,7 @@ use crate::surface::{Form, SolidBox, Surface};
 
 /// Axis-aligned bounds \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Bounds {
     pub min: DVec3,
     pub max: DVec3,

@@ -6,6 +6,7 @@ use crate::validate;
 
 /// The same force on every sphere, whatever its mass: `F = force`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ConstantForce {
     /// Force \[N\].
     pub force: DVec3,

@@ -6,6 +6,7 @@ use crate::validate;
 
 /// Viscous drag, against the velocity and proportional to it: `F = -k v`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ViscousDrag {
     /// Drag coefficient k \[kg/s\], >= 0.
     pub coefficient: f64,

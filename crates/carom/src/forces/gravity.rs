@@ -6,6 +6,7 @@ use crate::validate;
 
 /// Uniform gravity, the same acceleration for every sphere: `F = m g`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Gravity {
     /// Acceleration g \[m/s²\].
     pub acceleration: DVec3,

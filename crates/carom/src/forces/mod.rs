@@ -3,7 +3,10 @@
 mod constant;
 mod drag;
 mod gravity;
+#[cfg(feature = "serde")]
+pub(crate) mod shipped;
 
+use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -55,7 +58,7 @@ use crate::numbered::Numbered;
 /// assert!((world.total_energy() - 0.5).abs() < 1e-3);
 /// # Ok::<(), carom::Error>(())
 /// ```
-pub trait Force: Debug + Send + Sync {
+pub trait Force: Any + Debug + Send + Sync {
     /// Force \[N\] on a sphere in this state, at this time \[s\] of the world's clock.
     fn on(&self, sphere: &SphereState, time: f64) -> DVec3;
 

@@ -17,6 +17,7 @@ use crate::report::{StepReport, TriggerContact};
 use crate::respond;
 use crate::settings::{Bisect, WindBack};
 use crate::system::System;
+use crate::work::Work;
 
 /// What every part of the rule reads: the world, and the frame that it takes.
 #[derive(Clone, Copy)]
@@ -27,6 +28,9 @@ struct Frame<'a> {
     /// States at the beginning.
     start: &'a Motion,
 }
+
+/// Work of a piece of an island's way, with the search for its end, for each member.
+const UNITS_PER_MEMBER: u64 = 500;
 
 /// Working memory of the rule, kept from step to step only to spare its allocation.
 #[derive(Debug, Clone, Default)]
@@ -58,7 +62,8 @@ struct Buffers {
     search: Search,
 }
 
-/// Advances all spheres by one frame (`docs/physics/bisect-and-discrete.md`).
+/// Advances all spheres by one frame (`docs/physics/bisect-and-discrete.md`). Tells whether the frame came
+/// to its end, or a request stopped it.
 ///
 /// Spheres that intersect at the end of the frame form islands, and each island goes through the
 /// frame again by [`settle`]. Where an island then meets a sphere outside, the two join and go
@@ -70,7 +75,8 @@ pub(crate) fn step(
     interval: Interval,
     scratch: &mut Scratch,
     report: &mut StepReport,
-) {
+    work: &Work,
+) -> bool {
     let Scratch { contacts, islands, buffers } = scratch;
     let frame = Frame { system: *system, parameters, interval, start: motion };
     let everyone = 0..system.spheres.id.len() as u32;
@@ -86,7 +92,10 @@ pub(crate) fn step(
     islands.join(contacts);
     while islands.any_unsettled() {
         for island in islands.unsettled() {
-            settle(&frame, island, buffers);
+            settle(&frame, island, buffers, work);
+        }
+        if work.is_stopped() {
+            return false;
         }
         renew_contacts(&frame, islands, buffers, contacts);
         islands.join(contacts);
@@ -98,6 +107,7 @@ pub(crate) fn step(
     let colliding = contacts.iter().filter(|contact| contact.state == ContactState::Colliding);
     report.impacts.extend(respond::sequentially(colliding, system, &mut buffers.end, interval.h));
     std::mem::swap(motion, &mut buffers.end);
+    true
 }
 
 /// Takes an island through the frame: finds the first contact, advances the island to it, answers
@@ -105,7 +115,7 @@ pub(crate) fn step(
 ///
 /// The states of its spheres at the end of the frame, before the answer to contacts that begin
 /// there, are left in `buffers.end`.
-fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers) {
+fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers, work: &Work) {
     let Frame { system, parameters, interval, start } = frame;
     for &i in &island.members {
         buffers.current.copy(start, i as usize);
@@ -114,6 +124,10 @@ fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers) {
     let mut idle_pieces = 0;
     buffers.meetings.clear();
     loop {
+        if !work.spend(UNITS_PER_MEMBER * island.members.len() as u64) {
+            island.settled = true;
+            return;
+        }
         let rest = interval.after(elapsed);
         let Buffers { end, current, late_contacts, search, .. } = buffers;
         advance(frame, current, end, island.members.iter().copied(), rest);

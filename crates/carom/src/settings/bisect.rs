@@ -4,6 +4,7 @@ use crate::validate;
 
 /// Parameters of the rule `bisect`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Bisect {
     /// The scheme that moves spheres over a frame, and over the pieces into which contacts cut it.
@@ -70,6 +71,7 @@ impl Bisect {
 ///
 /// The choice is between two errors of the integrator's order; without forces they agree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum WindBack {
     /// Those that take part in a contact of the same group. The others take the frame in one
     /// piece, undisturbed by impacts elsewhere, and the work is proportional to the contacts.

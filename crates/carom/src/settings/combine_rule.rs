@@ -7,6 +7,7 @@
 /// assert_eq!(CombineRule::Minimum.combine(0.5, 0.8), 0.5);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum CombineRule {
     /// `e1 e2`: with a sphere of 1, the collider's value governs.

@@ -3,6 +3,7 @@ use crate::validate;
 
 /// Parameters of the rule `contact`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Contact {
     /// Sub-steps of a frame, at least 1. Overlaps fall with the square of their length.

@@ -2,6 +2,7 @@ use super::Integrator;
 
 /// Parameters of the rule `discrete`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Discrete {
     /// The scheme that moves spheres over a frame.

@@ -4,6 +4,7 @@ use crate::validate;
 
 /// Parameters of the rule `exact`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Exact {
     /// How impacts at one instant in one group of touching bodies are answered.

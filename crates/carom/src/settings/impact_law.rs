@@ -29,6 +29,7 @@ use std::fmt::{self, Display};
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ImpactLaw {
     /// Pair after pair, in the order of the contacts, until no contact closes. The result depends

@@ -1,5 +1,6 @@
 /// How positions and velocities advance by a time step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Integrator {
     /// Velocity first, then position with the new velocity. First order, symplectic.

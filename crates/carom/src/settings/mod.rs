@@ -44,6 +44,7 @@ use crate::validate;
 /// # Ok::<(), carom::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Settings {
     /// The step rule, with its parameters.

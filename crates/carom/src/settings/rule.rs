@@ -24,6 +24,7 @@ use super::{Bisect, Contact, Discrete, Exact};
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Rule {
     /// The course's rule: move every sphere by the frame, then answer what overlaps at its end.

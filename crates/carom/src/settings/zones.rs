@@ -25,6 +25,7 @@
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Zones {
     /// Spheres whose contacts take more work than [`Exact::zone_budget`](crate::Exact::zone_budget) are

@@ -7,11 +7,11 @@ use crate::interval::Interval;
 use crate::report::StepReport;
 use crate::state::State;
 
-/// Takes a step in which `advance` moves the spheres over the frame. If that fails, the spheres are
-/// where they were.
+/// Takes a step in which `advance` moves the spheres over the frame, and tells whether to its end. If that
+/// fails, the spheres are where they were.
 pub(super) fn step(
     attempt: &mut Attempt,
-    advance: impl FnOnce(&mut State, Interval, &mut Scratch, &mut StepReport),
+    advance: impl FnOnce(&mut State, Interval, &mut Scratch, &mut StepReport) -> bool,
 ) -> Result<(), Error> {
     let frame = Interval { time: attempt.start, h: attempt.length };
     attempt.state.check_emitters(frame.time)?;
@@ -19,8 +19,9 @@ pub(super) fn step(
         attempt.scratch.start.copy_all(&attempt.state.spheres.motion);
         attempt.emit(frame.time + emitter::DUE_TOLERANCE);
         let Attempt { state, scratch, report, .. } = attempt;
-        advance(state, frame, scratch, report);
-        let checked = state.check_finite();
+        let is_done = advance(state, frame, scratch, report);
+        let stopped = Error::Stopped { time: frame.time };
+        let checked = if is_done { state.check_finite() } else { Err(stopped) };
         if checked.is_err() {
             std::mem::swap(&mut state.spheres.motion, &mut scratch.start);
         }

@@ -57,14 +57,18 @@ pub(crate) fn step(
                 let scratch = &mut scratch.discrete;
                 discrete::step(&system, parameters, motion, frame, scratch, report);
                 motion.spin.advance(frame.h);
+                true
             })
         }
         Rule::Bisect(parameters) => {
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
                 let (system, motion) = state.split();
                 let scratch = &mut scratch.bisect;
-                bisect::step(&system, parameters, motion, frame, scratch, report);
+                let work = Work::new(stop_request);
+                let is_done =
+                    bisect::step(&system, parameters, motion, frame, scratch, report, &work);
                 motion.spin.advance(frame.h);
+                is_done
             })
         }
         Rule::Exact(parameters) => by_event::step(attempt, parameters, until),
@@ -80,8 +84,8 @@ pub(crate) fn step(
                 let (system, motion, solver) = state.split_with_solver();
                 let memory = (solver, &mut scratch.contact);
                 parallel::among_threads(system.spheres.id.len(), || {
-                    contact::step(&system, parameters, motion, frame, memory, report);
-                });
+                    contact::step(&system, parameters, motion, frame, memory, report, stop_request)
+                })
             })?;
             attempt.report_triggers();
             Ok(())

@@ -2,12 +2,14 @@
 
 mod measures;
 pub(crate) mod snapshot;
+#[cfg(feature = "serde")]
+mod written;
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::bodies::{Sphere, Spheres};
+use crate::bodies::Spheres;
 use crate::collider::{Collider, Pose};
 use crate::emitter::{Emitter, EmitterState};
 use crate::error::{Error, Subject};
@@ -16,6 +18,7 @@ use crate::id::{ColliderId, EmitterId, ForceId, SphereId};
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
 use crate::settings::Settings;
+use crate::sphere::Sphere;
 use crate::state::State;
 use crate::step::{self, Scratch, Until};
 use crate::validate;

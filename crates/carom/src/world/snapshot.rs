@@ -1,9 +1,13 @@
 //! The state of a world as a value: to return to, and to compare by.
 
 use super::World;
-use crate::bodies::Sphere;
+#[cfg(feature = "serde")]
+use crate::forces::shipped;
 use crate::hash::{self, StateHash};
+#[cfg(feature = "serde")]
+use crate::id::ForceId;
 use crate::id::SphereId;
+use crate::sphere::Sphere;
 use crate::state::State;
 
 /// The state of a world at one moment, to return to.
@@ -23,7 +27,14 @@ use crate::state::State;
 /// assert_eq!(world.time(), 1.0);
 /// # Ok::<(), carom::Error>(())
 /// ```
+///
+/// With the feature `serde` it can be serialized, in any format that keeps every bit of a number: the
+/// world that is restored from it goes on as the world that it was taken of. What is kept between frames
+/// differs from version to version of this crate, so the same version has to read it. A force that is not
+/// one of this crate's is refused ([`Self::foreign_force`]). What is read is not checked: read only
+/// what you trust.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot(State);
 
 impl Snapshot {
@@ -36,6 +47,14 @@ impl Snapshot {
     pub fn sphere(&self, id: SphereId) -> Option<Sphere> {
         let spheres = &self.0.spheres;
         spheres.index_of(id).map(|index| spheres.get(index))
+    }
+}
+
+#[cfg(feature = "serde")]
+impl Snapshot {
+    /// The first force that cannot be serialized, for it is not one of this crate's.
+    pub fn foreign_force(&self) -> Option<ForceId> {
+        shipped::first_foreign(&self.0.forces).map(ForceId)
     }
 }
 

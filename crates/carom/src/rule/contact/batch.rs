@@ -16,6 +16,7 @@ const APART: u32 = 2;
 /// Contacts of pairs of spheres, 1 and 2, by run of slots. Lanes without a pair hold a sphere twice,
 /// with an effective mass of zero.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C, align(32))]
 pub(super) struct PairBatch {
     /// Slots of spheres 1, from the start of the run.
@@ -35,6 +36,7 @@ pub(super) struct PairBatch {
 
 /// How the pairs of a batch come to touch: what no sweep reads, kept apart for sweeps to stream less memory.
 #[derive(Debug, Clone, Copy, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C, align(32))]
 pub(super) struct ApproachBatch {
     /// The normal impulses of the sub-step before \[N s\].
@@ -45,6 +47,7 @@ pub(super) struct ApproachBatch {
 
 /// A batch in which an impact was found.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Hit {
     pub batch: u32,
     /// Speeds of approach \[m/s\]; 0 where there is no impact.
@@ -53,6 +56,7 @@ pub(super) struct Hit {
 
 /// Friction of the contacts of a batch.
 #[derive(Debug, Clone, Copy, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C, align(32))]
 pub(super) struct FrictionBatch {
     /// Tangential impulses \[N s\].
@@ -67,6 +71,7 @@ pub(super) struct FrictionBatch {
 
 /// Rolling and spinning friction of the contacts of a batch.
 #[derive(Debug, Clone, Copy, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C, align(32))]
 pub(super) struct RollingBatch {
     /// Angular impulses on sphere 2, against which 1 feels the opposite \[N m s\].
@@ -83,6 +88,7 @@ pub(super) struct RollingBatch {
 
 /// What a contact keeps from search to search.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Impulses {
     /// \[N s\]
     pub normal: f64,
@@ -122,6 +128,7 @@ pub(super) struct Pair {
 
 /// The pairs of a run of slots, in batches.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Batches {
     pub pairs: Vec<PairBatch>,
     /// As many.
@@ -314,6 +321,7 @@ impl PairBatch {
 
 /// What occurs in the contacts of a world.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct ContactKinds {
     /// There is friction of any kind.
     pub friction: bool,

@@ -2,6 +2,7 @@
 
 /// What a slab keeps of the descent \[N s\], of pairs and then of surfaces; empty otherwise.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Descent {
     /// The normal impulses before the sweeps.
     pub before: Vec<f64>,

@@ -7,6 +7,7 @@ use super::slots::GONE;
 
 /// A contact of a sphere that sleeps.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Dormant {
     /// By slot.
     pub sphere: u32,
@@ -21,6 +22,7 @@ pub(super) struct Dormant {
 
 /// What a sphere touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) enum Partner {
     /// A sphere that sleeps, too, by slot.
     Sphere(u32),

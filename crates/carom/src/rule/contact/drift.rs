@@ -5,6 +5,7 @@ use glam::DVec3;
 
 /// The common motion since the last search for neighbours, at the mean velocity of then.
 #[derive(Debug, Clone, Copy, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Drift {
     /// \[m/s\]
     pub velocity: DVec3,

@@ -2,6 +2,7 @@
 
 /// What a stage finds in a slab, to be put together in the order of slabs.
 #[derive(Debug, Clone, Copy, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Found {
     /// A sum \[J\].
     pub energy: f64,

@@ -10,6 +10,7 @@ const SURFACE: u32 = 1 << 31;
 
 /// Impulses by the slots that spheres have before the search.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Kept {
     /// Sphere and partner of each contact, in no order.
     bodies: Vec<[u32; 2]>,

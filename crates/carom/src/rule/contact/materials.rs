@@ -13,6 +13,7 @@ const MOST: usize = 64;
 
 /// What two bodies in contact have of restitution and friction.
 #[derive(Debug, Clone, Copy, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct ContactMaterial {
     pub restitution: f64,
     pub friction: ContactFriction,
@@ -27,6 +28,7 @@ impl ContactMaterial {
 
 /// The material of each sphere, and what each two of them have in contact.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Materials {
     /// By index; empty where there are too many.
     of_sphere: Vec<u8>,

@@ -56,6 +56,10 @@ use crate::interval::Interval;
 use crate::report::StepReport;
 use crate::settings::Contact;
 use crate::system::System;
+use crate::work::{StopRequest, Work};
+
+/// Work of a sub-step, for each sphere.
+const UNITS_PER_SPHERE: u64 = 16;
 
 /// A frame of `h` \[s\] in which all spheres sleep; one that spins where it lies goes on with that.
 pub(crate) fn rest(solver: &Solver, motion: &mut Motion, h: f64, report: &mut StepReport) {
@@ -65,7 +69,7 @@ pub(crate) fn rest(solver: &Solver, motion: &mut Motion, h: f64, report: &mut St
     }
 }
 
-/// Advances all spheres by one frame.
+/// Advances all spheres by one frame. Tells whether it came to its end, or a request stopped it.
 pub(crate) fn step(
     system: &System,
     parameters: Contact,
@@ -73,12 +77,18 @@ pub(crate) fn step(
     frame: Interval,
     (solver, scratch): (&mut Solver, &mut Scratch),
     report: &mut StepReport,
-) {
+    stop_request: Option<&StopRequest>,
+) -> bool {
+    let work = Work::new(stop_request);
     frame::begin(system, motion, solver);
     for number in 0..parameters.sub_steps {
+        if !work.spend(UNITS_PER_SPHERE * solver.slots.len() as u64) {
+            return false;
+        }
         sub_step(system, parameters, (frame, number), (solver, scratch), report);
     }
     frame::end(system, motion, frame.h, solver, report);
+    true
 }
 
 /// Advances all spheres by one sub-step, the first one of a frame: for a rule that looks at them after

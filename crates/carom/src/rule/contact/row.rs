@@ -8,6 +8,7 @@ use crate::real::Vector;
 
 /// A vector and one number more, in one piece of memory that a vector of the processor holds.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(align(32))]
 pub(super) struct Row(pub [f64; 4]);
 

@@ -19,6 +19,7 @@ const MOST: usize = 200;
 
 /// The contacts of a run of slots.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Slab {
     pub start: usize,
     pub end: usize,
@@ -52,6 +53,7 @@ pub(super) fn count(spheres: usize) -> usize {
 
 /// All slabs, and the contacts that fit into none.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Slabs {
     pub list: Vec<Slab>,
     /// Contacts of spheres of slabs that are not neighbours.

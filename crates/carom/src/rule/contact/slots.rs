@@ -10,6 +10,7 @@ use crate::system::System;
 
 /// Spheres by slot: neighbours in space are neighbours in memory.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Slots {
     /// Which sphere is in each slot.
     pub id: Vec<SphereId>,

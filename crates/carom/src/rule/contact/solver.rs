@@ -15,6 +15,7 @@ use super::surfaces::Place;
 /// Spheres in their order of memory, their neighbours, and the impulses of their contacts: part of a
 /// snapshot, but not of the state hash.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Solver {
     pub(super) slots: Slots,
     pub(super) slabs: Slabs,
@@ -56,6 +57,7 @@ pub(crate) struct Solver {
 
 /// What a bounce does to the way of a sphere in a sub-step.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Bounce {
     pub slot: u32,
     /// How far the sphere is from where its last velocity takes it in the whole sub-step \[m\].

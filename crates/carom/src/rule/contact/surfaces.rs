@@ -29,6 +29,7 @@ pub(super) fn places_after(surfaces: &[Surface], h: f64, places: &mut Vec<Place>
 
 /// A contact of a surface, which is body 1, and a sphere, which is body 2.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct SurfaceContact {
     /// Slot of the sphere, from the start of the run.
     pub slot: u32,

@@ -16,6 +16,7 @@ const MOST_HALVINGS: u64 = 16;
 
 /// What the groups of a tick have spent, in units of work.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Budget {
     /// The number of the tick.
     tick: f64,

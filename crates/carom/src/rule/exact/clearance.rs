@@ -10,6 +10,7 @@ use crate::surface::Form;
 /// Where the centre of a sphere may be and touch no surface at rest of its neighbour region, but those
 /// that hold it.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Clearance(Bounds);
 
 /// A surface that a sphere may meet.

@@ -10,6 +10,7 @@ pub(super) const UNITS_PER_FLIGHT: u64 = 32;
 
 /// Work in the frame, by slot, in flights.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct FrameWork {
     /// Generation of each sphere's flight at the start of the frame.
     generations_before: Vec<u32>,

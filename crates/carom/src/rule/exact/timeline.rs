@@ -21,6 +21,7 @@ const MANY: usize = 20_000;
 /// Only the flights are state. Neighbours and schedule follow from them: they decide how fast the next
 /// event is found, never what it is.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Timeline {
     pub(super) parameters: Exact,
     pub(super) flights: Flights,

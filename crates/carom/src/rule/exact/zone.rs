@@ -31,6 +31,7 @@ const MOST_TICK_HALVINGS: u32 = 6;
 
 /// The spheres that are stepped, all zones of a world together. Between ticks they fly straight.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Zone {
     /// Their places in the arrays of the world, ascending.
     pub index: Vec<u32>,
@@ -44,6 +45,7 @@ pub(crate) struct Zone {
     /// Spheres that joined since the last tick, with the velocity that they have then \[m/s\].
     waiting: Vec<(SphereId, DVec3)>,
     solver: Solver,
+    #[cfg_attr(feature = "serde", serde(skip))]
     scratch: Scratch,
     surfaces: Vec<Surface>,
     /// The last tick, and the next one, on the world's clock \[s\]; the next one is infinite while all

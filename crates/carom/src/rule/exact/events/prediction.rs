@@ -4,6 +4,7 @@ use crate::rule::exact::neighbours::MAX_SPHERES;
 
 /// An event, in 16 bytes, for each sphere keeps two.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Event {
     /// On the world's clock \[s\].
     pub time: f64,
@@ -30,6 +31,7 @@ impl Event {
 
 /// The first event of a sphere, and what comes next if the first does not happen.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct NextEvents {
     pub first: Event,
     pub second: Event,
@@ -75,6 +77,7 @@ pub(crate) enum EventTarget {
 /// An [`EventTarget`] in four bytes: the slot of a sphere, a surface's number with the highest bit set
 /// (there is no memory for so many surfaces that it was set before), or one of the numbers below.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct PackedTarget(u32);
 
 impl PackedTarget {
@@ -121,6 +124,7 @@ pub(crate) enum UpcomingEvent {
 
 /// The next events of a sphere, and when it leaves its neighbour region.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Prediction {
     pub events: NextEvents,
     /// On the world's clock \[s\].

@@ -25,6 +25,7 @@ const MAX_VOID_RATIO: usize = 2;
 
 /// An event of a sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Entry {
     /// On the world's clock \[s\].
     pub time: f64,
@@ -51,6 +52,7 @@ impl PartialOrd for Entry {
 
 /// Events in the order of time.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct EventQueue {
     /// Events of the buckets before `next_bucket`, the first one last.
     current: Vec<Entry>,

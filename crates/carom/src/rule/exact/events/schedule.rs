@@ -9,6 +9,7 @@ use super::queue::{Entry, EventQueue};
 ///
 /// It follows from the flights: the queue decides how fast the next event is found, never what it is.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Schedule {
     /// By slot.
     predictions: Vec<Prediction>,

@@ -1,6 +1,7 @@
 //! Motion of a sphere in flight along one axis.
 
 /// Velocity \[m/s\], acceleration of everything but drag \[m/s²\] and rate of drag \[1/s\].
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct AxisMotion {
     pub velocity: f64,
     pub acceleration: f64,

@@ -10,6 +10,7 @@ use crate::flight::Flight;
 /// Only an event of its own writes it, so where the sphere is follows from this alone, however many
 /// frames have passed since.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C, align(64))]
 pub(crate) struct Body {
     /// Centre at `time` \[m\]. In a periodic box it counts on across the faces.

@@ -7,6 +7,7 @@ use crate::detect::contact::Bodies;
 /// Spheres held together by persistent contacts. Their forces hold until `renewal` or until an event
 /// of one of the spheres.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Cluster {
     /// By slot, in the order of their indices. The first one bears the event of renewal.
     pub members: Vec<u32>,
@@ -45,6 +46,7 @@ impl Cluster {
 
 /// All clusters, by number; numbers are used again.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Clusters {
     clusters: Vec<Cluster>,
     free: Vec<u32>,

@@ -15,6 +15,7 @@ const SAME_AXIS: f64 = 1e-14;
 
 /// How one sphere turns since some time: its angular velocity changes steadily.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Rotation {
     orientation: DQuat,
     /// \[rad/s\]

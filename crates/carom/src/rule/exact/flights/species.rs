@@ -14,6 +14,7 @@ const MAX_LEVELS: usize = 24;
 
 /// Constants of the flight and of the impacts of equal spheres.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Species {
     /// \[m\]
     pub radius: f64,

@@ -14,6 +14,7 @@ use crate::system::System;
 
 /// The flights of all spheres, and the clusters that persistent contacts make of them.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Flights {
     /// By slot: in the order of places, so that neighbours share memory.
     pub bodies: Vec<Body>,

@@ -6,6 +6,7 @@ use super::paged_lists::PagedLists;
 
 /// Spheres by cell, as they are seen from the box about the origin.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) enum Cells {
     /// As a rule, at most three are in a cell.
     Sparse(PagedLists<Neighbour, 3>),

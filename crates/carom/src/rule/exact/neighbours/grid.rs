@@ -17,6 +17,7 @@ const MAX_CELLS: f64 = 65_000.0;
 /// Cells of equal size. The outermost ones of an open axis reach to infinity; a periodic axis closes
 /// on itself: beyond its ends are ghosts, which are copies of the cells at the other end.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Grid {
     /// Corner of cell (0, 0, 0) \[m\].
     origin: DVec3,
@@ -89,6 +90,7 @@ impl Block<'_> {
 
 /// A [`Block`] along one axis.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Run {
     first: u16,
     len: u16,
@@ -101,6 +103,7 @@ impl Run {
 
 /// A side of a cell: downward or upward along an axis.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Side {
     axis: usize,
     step: i16,

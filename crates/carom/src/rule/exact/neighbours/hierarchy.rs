@@ -21,6 +21,7 @@ use crate::rule::exact::periodic;
 
 /// The regions of all spheres, and which spheres and surfaces are near them.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Neighbours {
     /// From the largest spheres to the smallest.
     levels: Vec<Level>,
@@ -36,6 +37,7 @@ pub(crate) struct Neighbours {
 
 /// A cell, and the side of it where spheres are new, if it is one.
 #[derive(Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Arrival {
     cell: [u16; 3],
     side: Option<Side>,

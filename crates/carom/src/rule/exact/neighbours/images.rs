@@ -11,6 +11,7 @@ use crate::rule::exact::periodic;
 
 /// How images of spheres are distinguished from others.
 #[derive(Debug, Clone, Copy, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Images {
     /// There are none: all axes are open.
     #[default]
@@ -23,6 +24,7 @@ pub(crate) enum Images {
 
 /// A periodic box, with what the kernels read of it.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct PeriodicBox {
     /// Edges \[m\]; infinite along an open axis.
     pub period: DVec3,

@@ -10,6 +10,7 @@ use super::surfaces::NearSurfaces;
 
 /// The spheres of one size class, by cell.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Level {
     pub grid: Grid,
     /// Half the edges of their neighbour regions \[m\].

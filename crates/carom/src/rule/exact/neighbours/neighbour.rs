@@ -38,6 +38,7 @@ pub(crate) const MAX_SPHERES: usize = 1 << SLOT_BITS;
 
 /// A neighbour of a sphere: its slot, and which of its images it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Neighbour(u32);
 
 impl Neighbour {

@@ -17,10 +17,13 @@ use crate::real::Vector;
 
 /// Lists by slot, and the memory that brings them up to date.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct NeighbourLists {
     pub lists: buffer::NeighbourLists,
     /// Neighbours of the sphere at work, before and after.
+    #[cfg_attr(feature = "serde", serde(skip))]
     before: NeighbourBuffer,
+    #[cfg_attr(feature = "serde", serde(skip))]
     after: NeighbourBuffer,
 }
 

@@ -15,6 +15,7 @@ struct Page<T, const SIZE: usize> {
 
 /// Four bits of length, and the number of a page; 0 is none, for there a list begins.
 #[derive(Debug, Clone, Copy, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Link(u32);
 
 const LEN_BITS: u32 = 4;
@@ -284,6 +285,35 @@ mod tests {
             assert_eq!(members, found);
             plain[list].sort_unstable();
             assert_eq!(found, plain[list]);
+        }
+    }
+}
+
+/// Lists as they are written: links, and the members of all pages one after another.
+#[cfg(feature = "serde")]
+mod written {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+    use super::{Link, Page, PagedLists};
+
+    impl<T: Serialize, const SIZE: usize> Serialize for PagedLists<T, SIZE> {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            let links: Vec<Link> = self.pages.iter().map(|page| page.link).collect();
+            let members: Vec<&T> = self.pages.iter().flat_map(|page| &page.members).collect();
+            (links, members, &self.spare).serialize(serializer)
+        }
+    }
+
+    impl<'de, T: Copy + Deserialize<'de>, const SIZE: usize> Deserialize<'de> for PagedLists<T, SIZE> {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            let (links, members, spare): (Vec<Link>, Vec<T>, _) =
+                Deserialize::deserialize(deserializer)?;
+            let page = |(members, link): (&[T], Link)| {
+                Ok(Page { members: members.try_into().map_err(de::Error::custom)?, link })
+            };
+            let pages: Vec<_> =
+                members.chunks_exact(SIZE).zip(links).map(page).collect::<Result<_, D::Error>>()?;
+            Ok(Self { pages, spare })
         }
     }
 }

@@ -13,6 +13,7 @@ pub(super) const LEAD: f64 = 0.5;
 
 /// Where a sphere is until it crosses into another region.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Region {
     /// In the box \[m\].
     pub center: DVec3,

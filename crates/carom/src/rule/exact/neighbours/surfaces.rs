@@ -13,6 +13,7 @@ const SLACK: f64 = 1.0 + 1e-6;
 
 /// Surfaces at rest near each cell.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct NearSurfaces {
     /// Those of cell `c` are `surfaces[starts[c] .. starts[c + 1]]`; empty if there are none at all.
     starts: Vec<u32>,
@@ -21,6 +22,7 @@ pub(super) struct NearSurfaces {
 
 /// A surface, or its image in the periodic box.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct NearSurface {
     pub surface: u32,
     /// Boxes between the surface and the image.

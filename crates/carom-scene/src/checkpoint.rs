@@ -1,0 +1,120 @@
+//! Checkpoints: worlds as bytes, to go on from on another day or in another process.
+
+use carom::{ForceId, Snapshot};
+use thiserror::Error;
+use xxhash_rust::xxh3::xxh3_64;
+
+use crate::palette::Palette;
+use crate::scene::Scene;
+
+/// What the bytes of a checkpoint begin with.
+const MAGIC: &[u8; 8] = b"carom\x1a\r\n";
+/// The version of Carom, and of the layout of states within it: another layout is another number.
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "/1");
+
+/// A world at one moment, with what is known of it besides.
+///
+/// ```
+/// use carom::World;
+/// use carom_scene::{Checkpoint, Library, Palette};
+///
+/// let (scene, _) = Library::new().find("tutorial1", &[])?;
+/// let mut world = scene.world()?;
+/// world.step(0.5)?;
+/// let palette = Palette::new(&scene)?;
+/// let bytes = Checkpoint { snapshot: world.snapshot(), scene, palette }.to_bytes()?;
+///
+/// let mut other = World::default();
+/// other.restore(&Checkpoint::from_bytes(&bytes)?.snapshot);
+/// assert_eq!(other.step(0.5)?.impacts, world.step(0.5)?.impacts);
+/// assert_eq!(other.state_hash(), world.state_hash());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Checkpoint {
+    /// All that the future depends on.
+    pub snapshot: Snapshot,
+    /// What the world was made of, or what is known of it.
+    pub scene: Scene,
+    /// The colours of the world.
+    pub palette: Palette,
+}
+
+/// Why a checkpoint has no bytes, or bytes are no checkpoint.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum CheckpointError {
+    /// A force that is not one of Carom's is code, which has no bytes.
+    #[error("force {0} is code, which has no bytes")]
+    ForeignForce(ForceId),
+    /// The bytes do not begin as those of a checkpoint do.
+    #[error("these bytes are no snapshot of Carom")]
+    NoCheckpoint,
+    /// The bytes were written by another version of Carom, which keeps other things between frames.
+    #[error(
+        "this snapshot is of Carom {found}, and only the same version reads it: this is {VERSION}"
+    )]
+    OtherVersion {
+        /// The version that wrote the bytes, and its layout.
+        found: String,
+    },
+    /// Some bytes are missing, or others than were written.
+    #[error("this snapshot is damaged: bytes are missing, or others than were written")]
+    Damaged,
+}
+
+impl Checkpoint {
+    /// The checkpoint as bytes: [`Self::bytes_of`] its parts.
+    ///
+    /// # Errors
+    /// Those of [`Self::bytes_of`].
+    pub fn to_bytes(&self) -> Result<Vec<u8>, CheckpointError> {
+        Self::bytes_of(&self.snapshot, &self.scene, &self.palette)
+    }
+
+    /// A checkpoint of these parts as bytes, the same ones on every platform. The world that is restored from
+    /// them goes on as the world of the snapshot, bit for bit.
+    ///
+    /// The same version of Carom reads them with [`Self::from_bytes`]. They hold a checksum, which notices
+    /// damage, but not what was made to mislead: read only bytes that you trust.
+    ///
+    /// # Errors
+    /// [`CheckpointError::ForeignForce`] for a force that is not one of Carom's.
+    pub fn bytes_of(
+        snapshot: &Snapshot,
+        scene: &Scene,
+        palette: &Palette,
+    ) -> Result<Vec<u8>, CheckpointError> {
+        if let Some(force) = snapshot.foreign_force() {
+            return Err(CheckpointError::ForeignForce(force));
+        }
+        let mut bytes = MAGIC.to_vec();
+        let parts = (VERSION, snapshot, scene.to_toml(), palette);
+        postcard::to_io(&parts, &mut bytes).map_err(|_| CheckpointError::Damaged)?;
+        bytes.extend(xxh3_64(&bytes).to_le_bytes());
+        Ok(bytes)
+    }
+
+    /// The checkpoint that [`Self::to_bytes`] made these bytes of.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] for bytes that are no checkpoint, of another version, or damaged.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, CheckpointError> {
+        let parts = bytes.strip_prefix(MAGIC).ok_or(CheckpointError::NoCheckpoint)?;
+        let damaged = |_| CheckpointError::Damaged;
+        let (version, _): (&str, _) = postcard::take_from_bytes(parts).map_err(damaged)?;
+        if version != VERSION {
+            let found = version.escape_debug().to_string();
+            return Err(CheckpointError::OtherVersion { found });
+        }
+        let (written, checksum) = bytes.split_last_chunk().ok_or(CheckpointError::Damaged)?;
+        if xxh3_64(written) != u64::from_le_bytes(*checksum) {
+            return Err(CheckpointError::Damaged);
+        }
+        let (_, snapshot, scene, palette): (&str, Snapshot, String, Palette) =
+            postcard::from_bytes(parts).map_err(damaged)?;
+        let scene = Scene::from_toml(&scene, "snapshot").map_err(|_| CheckpointError::Damaged)?;
+        let palette = palette.in_colors_of(&scene);
+        Ok(Self { snapshot, scene, palette })
+    }
+}

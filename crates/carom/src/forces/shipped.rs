@@ -1,0 +1,59 @@
+//! The forces of this crate in writing. A force of another crate is code, which has no written form.
+
+use std::any::Any;
+use std::sync::Arc;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer, ser};
+
+use super::{ConstantForce, Force, Gravity, ViscousDrag};
+use crate::numbered::Numbered;
+
+/// A force of this crate.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+enum Shipped {
+    Constant(ConstantForce),
+    Drag(ViscousDrag),
+    Gravity(Gravity),
+}
+
+impl Shipped {
+    fn of(force: &dyn Force) -> Option<Self> {
+        let force: &dyn Any = force;
+        let constant = force.downcast_ref().copied().map(Self::Constant);
+        let drag = || force.downcast_ref().copied().map(Self::Drag);
+        let gravity = || force.downcast_ref().copied().map(Self::Gravity);
+        constant.or_else(drag).or_else(gravity)
+    }
+
+    fn into_force(self) -> Arc<dyn Force> {
+        match self {
+            Self::Constant(force) => Arc::new(force),
+            Self::Drag(force) => Arc::new(force),
+            Self::Gravity(force) => Arc::new(force),
+        }
+    }
+}
+
+/// The number of the first force that is of another crate.
+pub(crate) fn first_foreign(forces: &Numbered<Arc<dyn Force>>) -> Option<u64> {
+    let foreign =
+        |(number, force): (u64, &Arc<dyn Force>)| Shipped::of(&**force).is_none().then_some(number);
+    forces.iter().find_map(foreign)
+}
+
+pub(crate) fn serialize<S: Serializer>(
+    forces: &Numbered<Arc<dyn Force>>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    let shipped = |force: &Arc<dyn Force>| {
+        Shipped::of(&**force).ok_or_else(|| ser::Error::custom("a force of another crate"))
+    };
+    forces.try_map(shipped)?.serialize(serializer)
+}
+
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Numbered<Arc<dyn Force>>, D::Error> {
+    let forces = Numbered::<Shipped>::deserialize(deserializer)?;
+    forces.try_map(|force| Ok(force.into_force()))
+}
