@@ -1,6 +1,6 @@
 """The compiled part of the package; its interface is that of the package, not this one."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import Self, TypeAlias, final
 

@@ -67,11 +67,11 @@ class Functions:
 
     def step(self, world: World, dt: float | None, frames: int) -> None:
         """Takes frames; if one is refused, the world is as it was before the call."""
-        count = _count("frames", frames)
+        number = count("frames", frames)
         with self._lock:
             before = world.snapshot()
             try:
-                self._go(world, dt, count, lambda frame: None)
+                self._go(world, dt, number, lambda frame: None)
             except BaseException:
                 world.restore(before)
                 raise
@@ -86,7 +86,7 @@ class Functions:
         is_single: bool,
     ) -> Trajectory:
         """Takes frames, and records states and impacts as `World.run` does."""
-        count, rhythm = _count("frames", frames), _count("every", every)
+        number, rhythm = count("frames", frames), count("every", every)
         if rhythm == 0:
             raise CaromError("every: must be at least 1, not 0", "every")
         with self._lock:
@@ -101,7 +101,7 @@ class Functions:
 
             stopped = None
             try:
-                self._go(world, dt, count, look)
+                self._go(world, dt, number, look)
             except KeyboardInterrupt as error:
                 stopped = error
             except BaseException:
@@ -186,15 +186,15 @@ def _among(
     return kept
 
 
-def _count(name: str, given: object) -> int:
+def count(name: str, given: object) -> int:
     """A count, as the engine reads it."""
     if isinstance(given, bool) or not hasattr(given, "__index__"):
         kind = type(given).__name__
         raise TypeError(f"{name}: must be a whole number, not {kind}")
-    count = as_index(given)
-    if not 0 <= count < 2**64:
-        raise CaromError(f"{name}: must be in [0, 2^64), not {count}", name)
-    return count
+    number = as_index(given)
+    if not 0 <= number < 2**64:
+        raise CaromError(f"{name}: must be in [0, 2^64), not {number}", name)
+    return number
 
 
 def _joined(states: list[RunRecord], impacts: list[NDArray[np.void]]) -> Trajectory:

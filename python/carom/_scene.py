@@ -20,6 +20,7 @@ from carom import _pictures as pictures
 from carom._carom import canonical_toml, read_scene, read_scene_file
 from carom._film import Film, filmed
 from carom._points import Points
+from carom._recording import Out
 from carom._text import fields_of, toml_of, toml_value
 from carom._trajectory import Recorded, Trajectory
 from carom._world import World
@@ -174,11 +175,18 @@ class Scene(parts.Part):
         dt: float | None = None,
         every: int = 1,
         quantities: Recorded | Sequence[Recorded] | None = None,
-        dtype: DTypeLike = np.float64,
+        dtype: DTypeLike | None = None,
+        out: Out | None = None,
     ) -> Trajectory:
         """Runs the scene from its start, and records what happens: see `World.run`."""
         return self.world().run(
-            seconds, frames=frames, dt=dt, every=every, quantities=quantities, dtype=dtype
+            seconds,
+            frames=frames,
+            dt=dt,
+            every=every,
+            quantities=quantities,
+            dtype=dtype,
+            out=out,
         )
 
     # Pictures

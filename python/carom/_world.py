@@ -18,6 +18,7 @@ from carom._carom import Engine, Snapshot
 from carom._contact_account import ContactAccount
 from carom._functions import ForceFunction, Functions
 from carom._points import Points
+from carom._recording import Out, run_into
 from carom._stage_counts import StageCounts
 from carom._strict import Strict
 from carom._text import read_part, read_parts, toml_of, toml_value
@@ -161,7 +162,8 @@ class World(Strict, Engine):
         dt: float | None = None,
         every: int = 1,
         quantities: Recorded | Sequence[Recorded] | None = None,
-        dtype: DTypeLike = np.float64,
+        dtype: DTypeLike | None = None,
+        out: Out | None = None,
     ) -> Trajectory:
         """Runs on, and records what happens.
 
@@ -176,7 +178,10 @@ class World(Strict, Engine):
             every: States are recorded after every so many frames, and at the beginning.
             quantities: What is recorded of each state; unless given, positions, velocities and,
                 where spheres may turn, orientations and angular velocities.
-            dtype: Of what is recorded; ``"float32"`` takes half the memory.
+            dtype: Of what is recorded; float64 unless given, ``"float32"`` takes half the memory.
+            out: Arrays to record into, by name, instead of quantities and dtype: a row for each
+                state, float64 or float32. With those of ``numpy.lib.format.open_memmap`` a run may
+                be larger than memory. Spheres must neither come nor go.
 
         Raises:
             CaromError: For a number that makes no sense.
@@ -192,7 +197,11 @@ class World(Strict, Engine):
             frames = self._count_frames(seconds, dt)
         elif seconds is not None:
             raise TypeError("seconds and frames: give one of them")
-        kind = np.dtype(dtype)
+        if out is not None:
+            if quantities is not None or dtype is not None:
+                raise TypeError("out: goes without quantities and dtype, for it says both")
+            return run_into(self, out, frames, dt, every)
+        kind = np.dtype(np.float64 if dtype is None else dtype)
         if kind not in (np.float64, np.float32):
             raise CaromError(f"dtype: must be float64 or float32, not {kind}", "dtype")
         one = [quantities] if isinstance(quantities, str) else quantities

@@ -1,7 +1,6 @@
 """A copy of a world goes on as the world would have; what begins as it is now keeps its colours."""
 
 import copy
-import pickle
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -27,9 +27,7 @@ def of_bytes(world: carom.World) -> carom.World:
 
 @pytest.mark.parametrize("make", [again, of_bytes])
 @pytest.mark.parametrize("rule", ["exact", "contact", "bisect", "discrete"])
-def test_a_world_goes_on_bit_for_bit(
-    rule: str, make: Callable[[carom.World], carom.World]
-) -> None:
+def test_a_world_goes_on_bit_for_bit(rule: str, make: Callable[[carom.World], carom.World]) -> None:
     # In the middle of flights, and with emitters at work.
     world = carom.load("simtest1", {"simulation.rule": rule}).world()
     world.step(dt=0.0137, frames=150)
@@ -80,6 +78,8 @@ def test_a_snapshot_is_pickled_and_copied() -> None:
 
 
 class Named(carom.World):
+    """A world with more to it."""
+
     names: list[str]
 
 

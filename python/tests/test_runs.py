@@ -6,8 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command import carom_command
+from interrupts import ctrl_c
+from numpy.lib.format import open_memmap
 
 import carom
+from carom import _recording
+from carom._recording import Out
 
 
 @pytest.mark.parametrize("name", ["simtest1", "simtest4", "tutorial4"])
@@ -158,3 +162,66 @@ def test_a_file_of_something_else_is_no_trajectory(tmp_path: Path) -> None:
             carom.Trajectory.load(path)
     with pytest.raises(FileNotFoundError):
         carom.Trajectory.load(tmp_path / "none.npz")
+
+
+def test_a_run_is_recorded_into_arrays_of_a_file(tmp_path: Path) -> None:
+    world, other = (carom.load("gas").world() for _ in range(2))
+    shape = (7, len(world), 3)
+    positions = open_memmap(tmp_path / "positions.npy", "w+", "f4", shape)
+    velocities = np.empty(shape)
+    out: Out = {"positions": positions, "velocities": velocities}
+    run = world.run(frames=65, every=10, out=out)
+    whole = other.run(frames=65, every=10)
+    assert world.state_hash == other.state_hash
+    assert (run.time == whole.time).all() and (run.impacts == whole.impacts).all()
+    assert (velocities == whole.velocities).all()
+    positions.flush()
+    assert (np.load(tmp_path / "positions.npy") == whole.positions.astype("f4")).all()
+    assert run.velocities.base is velocities or run.velocities is velocities
+
+
+def test_many_blocks_are_one_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    world = carom.load("cradle").world()
+    whole = carom.load("cradle").run(frames=20, every=3)
+    monkeypatch.setattr(_recording, "_BLOCK_BYTES", 1)
+    positions = np.empty_like(whole.positions)
+    run = world.run(frames=20, every=3, out={"positions": positions})
+    assert (positions == whole.positions).all()
+    assert (run.impacts == whole.impacts).all() and (run.time == whole.time).all()
+
+
+@pytest.mark.parametrize(
+    ("out", "words"),
+    [
+        ({}, "out: must have arrays"),
+        ({"radii": np.empty((3, 5))}, "must be of positions"),
+        ({"positions": np.empty((2, 5, 3))}, r"must have the shape \(3, 5, 3\), not \(2, 5, 3\)"),
+        ({"positions": np.empty((3, 5, 3), int)}, "float64 or float32"),
+    ],
+)
+def test_arrays_into_which_a_run_does_not_fit(out: Out, words: str) -> None:
+    world = carom.load("tutorial1").world()
+    before = world.state_hash
+    with pytest.raises(carom.CaromError, match=words):
+        world.run(frames=2, out=out)
+    with pytest.raises(TypeError, match="goes without quantities"):
+        world.run(frames=2, out=out, dtype="float32")
+    assert world.state_hash == before
+
+
+def test_spheres_that_come_have_no_place_in_arrays() -> None:
+    world = carom.load("simtest1").world()
+    before = world.state_hash
+    with pytest.raises(carom.CaromError, match="came or went"):
+        world.run(frames=200, out={"positions": np.empty((201, len(world), 3))})
+    assert world.state_hash == before
+
+
+def test_ctrl_c_leaves_what_was_recorded_in_the_arrays() -> None:
+    world = carom.load("gas").world()
+    positions = np.full((100_001, len(world), 3), np.nan, "f4")
+    with pytest.raises(KeyboardInterrupt) as stop, ctrl_c(after=0.3):
+        world.run(frames=100_000, dt=1e-3, out={"positions": positions})
+    run = stop.value.trajectory  # type: ignore[attr-defined]
+    assert 1 < len(run) < 100_000 and run.time[-1] == world.time
+    assert not np.isnan(positions[: len(run)]).any() and np.isnan(positions[len(run) :]).all()

@@ -1,0 +1,100 @@
+"""Runs that are recorded into arrays that are there already."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom._functions import count
+from carom._tables import IMPACT
+from carom._trajectory import Recorded, Trajectory
+from carom.errors import CaromError
+
+if TYPE_CHECKING:
+    from carom._world import World
+
+Out = Mapping[Recorded, NDArray[np.floating]]
+"""Arrays by what is recorded into them."""
+
+_WIDTHS: dict[Recorded, int] = {
+    "positions": 3,
+    "velocities": 3,
+    "orientations": 4,
+    "angular_velocities": 3,
+}
+
+_BLOCK_BYTES = 32 * 2**20
+"""States are copied in blocks of so much: enough to cost nothing, and no matter beside them."""
+
+
+def run_into(world: World, out: Out, frames: int, dt: float | None, every: int) -> Trajectory:
+    """Takes frames, and records them as `World.run` does, into arrays with a row for each state."""
+    frames, every = count("frames", frames), count("every", every)
+    if every == 0:
+        raise CaromError("every: must be at least 1, not 0", "every")
+    rows = frames // every + 1
+    _check(out, rows, len(world))
+    size = sum(array[0].nbytes for array in out.values())
+    block = every * max(1, _BLOCK_BYTES // max(size, 1))
+    before, ids, names = world.snapshot(), world.ids.copy(), list(out)
+    time = np.empty(rows)
+    impacts = [np.empty(0, IMPACT)]
+    row, stopped = 0, None
+    for begin in range(0, max(frames, 1), block):
+        length = min(block, frames - begin)
+        try:
+            piece = world.run(frames=length, dt=dt, every=every, quantities=names)
+        except KeyboardInterrupt as error:
+            stopped = error
+            piece = error.trajectory  # type: ignore[attr-defined]
+        except BaseException:
+            world.restore(before)
+            raise
+        if not np.array_equal(piece.ids, ids):
+            world.restore(before)
+            problem = "spheres came or went, and the arrays have no place for that"
+            raise CaromError(f"out: {problem}", "out")
+        # It begins with the state that the one before ended with.
+        first = 1 if begin else 0
+        end = row + len(piece) - first
+        time[row:end] = piece.time[first:]
+        for name, array in out.items():
+            array[row:end] = getattr(piece, name)[first:]
+        impacts.append(piece.impacts)
+        row = end
+        if stopped is not None:
+            break
+    trajectory = Trajectory(
+        time=time[:row],
+        ids=ids,
+        radii=world.radii.copy(),
+        masses=world.masses.copy(),
+        impacts=np.concatenate(impacts),
+        **{name: array[:row] for name, array in out.items()},  # type: ignore[arg-type]
+    )
+    if stopped is not None:
+        stopped.trajectory = trajectory  # type: ignore[attr-defined]
+        raise stopped
+    return trajectory
+
+
+def _check(out: Out, rows: int, spheres: int) -> None:
+    """Refuses arrays into which the states do not fit."""
+    if not out:
+        raise CaromError(f"out: must have arrays for some of {', '.join(_WIDTHS)}", "out")
+    for name, array in out.items():
+        field = f"out[{name!r}]"
+        if name not in _WIDTHS:
+            raise CaromError(f"out: must be of {', '.join(_WIDTHS)}, not {name!r}", "out")
+        if not isinstance(array, np.ndarray):
+            raise TypeError(f"{field}: must be a NumPy array, not {type(array).__name__}")
+        shape = (rows, spheres, _WIDTHS[name])
+        if array.shape != shape:
+            raise CaromError(f"{field}: must have the shape {shape}, not {array.shape}", field)
+        if array.dtype not in (np.float64, np.float32):
+            raise CaromError(f"{field}: must be of float64 or float32, not {array.dtype}", field)
+        if not array.flags.writeable:
+            raise CaromError(f"{field}: cannot be written to", field)
