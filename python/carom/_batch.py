@@ -34,7 +34,7 @@ def _restored(
 
 
 class Batch(Strict, BatchEngine):
-    """Worlds with the same number of spheres that step together, on all cores.
+    """Worlds that step together, on all cores.
 
     Each world is, to the bit, what it would be alone, however many there are and on however many
     threads. Arrays have a row for each world: ``positions``, ``velocities``, ``angular_velocities``
@@ -43,6 +43,10 @@ class Batch(Strict, BatchEngine):
     ``spinning_frictions`` and ``tangential_restitutions`` (n, spheres). They are kept as those of a
     `World` are: made at the first read, written anew by every step, read without copying. To set
     one, assign to it or write into it: ``batch.velocities = 0``, ``batch.velocities[3] = 0``.
+
+    A row has places for as many spheres as there are in the world with the most (``counts``, and
+    ``ids``); in the others, what is left is NaN. When spheres come or go so that this is another
+    number, the attribute is a new array.
 
     A batch can be copied and pickled; the copy goes on by itself, bit for bit.
 
@@ -54,8 +58,7 @@ class Batch(Strict, BatchEngine):
         threads: How many threads step them; one for each processor unless given.
 
     Raises:
-        CaromError: For values that make no sense, worlds with different numbers of spheres, and
-            scenes with emitters, whose spheres come and go.
+        CaromError: For values that make no sense.
 
     >>> import carom
     >>> drops = carom.Batch("tutorial1", 3, changes={"spheres.0.position.1": [5.0, 6.0, 7.0]})
@@ -95,7 +98,10 @@ class Batch(Strict, BatchEngine):
         return _restored, (type(self), self._threads, starts, of_worlds, now), dict(self.__dict__)
 
     def __repr__(self) -> str:
-        return f"<carom.Batch of {len(self)} worlds, {self.radii.shape[1]} spheres each>"
+        counts = self.counts
+        least, most = counts.min(), counts.max()
+        told = f"{most} spheres each" if least == most else f"{least} to {most} spheres each"
+        return f"<carom.Batch of {len(self)} worlds, {told}>"
 
     def step(self, *, dt: float | None = None, frames: int = 1) -> None:
         """Advances every world by ``frames`` frames of ``dt`` [s], or of its scene's own length.
@@ -143,8 +149,7 @@ class Batch(Strict, BatchEngine):
         `world`, change it, and put it back.
 
         Raises:
-            CaromError: If it has another number of spheres than the others, emitters, or functions
-                among its forces.
+            CaromError: If it has functions among its forces.
         """
         if not isinstance(world, World):
             raise TypeError(f"world: must be a carom.World, not {type(world).__name__}")

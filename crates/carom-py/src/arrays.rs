@@ -86,7 +86,7 @@ impl Quantities {
     }
 
     /// Has NumPy refuse to write to the arrays from now on.
-    fn freeze(&self, py: Python<'_>) -> PyResult<()> {
+    pub fn freeze(&self, py: Python<'_>) -> PyResult<()> {
         self.0.iter().flatten().try_for_each(|shown| freeze(shown.view.bind(py)))
     }
 }

@@ -43,7 +43,8 @@ impl Written {
         self.quantity.row(&self.values, row)
     }
 
-    fn place(&self, row: &str) -> String {
+    /// The array, and a row of it, as Python writes them.
+    pub fn place(&self, row: &str) -> String {
         format!("{}[{row}]", self.quantity.name())
     }
 }

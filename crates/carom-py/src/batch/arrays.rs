@@ -1,5 +1,6 @@
 //! Arrays of all worlds of a batch, as NumPy sees them.
 
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 
 use super::members::Members;
@@ -7,9 +8,14 @@ use crate::arrays::Quantities;
 use crate::quantity::Quantity;
 use crate::written::Written;
 
-/// The arrays that a script has read. Worlds of a batch keep their spheres, so each stays the same.
+/// The arrays that a script has read, with a row for each world that has places for as many spheres as there are
+/// in the world with the most. When that is another number, others are made at the next read.
 #[derive(Debug, Default)]
-pub struct BatchArrays(Quantities);
+pub struct BatchArrays {
+    /// Spheres for which there are places.
+    most: usize,
+    quantities: Quantities,
+}
 
 impl BatchArrays {
     /// The array of a quantity, with the values of now.
@@ -19,13 +25,17 @@ impl BatchArrays {
         quantity: Quantity,
         members: &Members,
     ) -> PyResult<Py<PyAny>> {
+        self.follow(py, members)?;
         let shape = members.shape_of(quantity);
-        self.0.get(py, quantity, shape, |values| write(quantity, members, values))
+        self.quantities.get(py, quantity, shape, |values| write(quantity, members, values))
     }
 
     /// Writes what a frame changes into the arrays that are there.
     pub fn write_motion(&mut self, py: Python<'_>, members: &Members) {
-        self.write(py, members, &Quantity::MOTION);
+        // Where spheres come and go, so does everything else.
+        let is_same = members.worlds().all(|world| world.emitters().len() == 0);
+        let changed: &[Quantity] = if is_same { &Quantity::MOTION } else { &Quantity::ALL };
+        self.write(py, members, changed);
     }
 
     /// Writes everything into the arrays that are there.
@@ -33,22 +43,48 @@ impl BatchArrays {
         self.write(py, members, &Quantity::ALL);
     }
 
-    /// What a script has written into them; rows are those of all worlds, one world after another.
+    /// What a script has written into them; rows are the places of all worlds, one world after another.
     pub fn written(&self, py: Python<'_>, members: &Members) -> Vec<Written> {
-        self.0.written(py, |quantity, values| write(quantity, members, values))
+        self.quantities.written(py, |quantity, values| write(quantity, members, values))
     }
 
     fn write(&mut self, py: Python<'_>, members: &Members, quantities: &[Quantity]) {
-        self.0.write(py, quantities, |quantity, values| write(quantity, members, values));
+        // An array that could not be frozen is let go of all the same.
+        let _ = self.follow(py, members);
+        let write = |quantity, values: &mut [f64]| write(quantity, members, values);
+        self.quantities.write(py, quantities, write);
+    }
+
+    /// Lets go of the arrays if they have places for another number of spheres.
+    fn follow(&mut self, py: Python<'_>, members: &Members) -> PyResult<()> {
+        let most = members.most_spheres();
+        if self.most == most {
+            return Ok(());
+        }
+        let old = std::mem::replace(self, Self { most, ..Self::default() });
+        old.quantities.freeze(py)
     }
 }
 
-/// Writes a quantity of all worlds, one after another.
-fn write(quantity: Quantity, members: &Members, mut values: &mut [f64]) {
-    for world in members.worlds() {
-        let length = quantity.shape(world.spheres().len()).iter().product();
-        let Some((own, rest)) = values.split_at_mut_checked(length) else { return };
-        quantity.write(world.spheres(), own);
-        values = rest;
+/// The ids of all worlds, one after another; -1 where there is no sphere.
+pub fn ids<'py>(py: Python<'py>, members: &Members) -> PyResult<Bound<'py, PyAny>> {
+    let most = members.most_spheres();
+    let mut all = vec![-1_i64; members.len() * most];
+    for (world, own) in members.worlds().zip(all.chunks_exact_mut(most.max(1))) {
+        let ids = world.spheres().ids();
+        own.iter_mut().zip(ids).for_each(|(place, id)| *place = id.number() as i64);
+    }
+    Ok(PyArray1::from_vec(py, all).reshape([members.len(), most])?.into_any())
+}
+
+/// Writes a quantity of all worlds, one after another; nan where there is no sphere.
+fn write(quantity: Quantity, members: &Members, values: &mut [f64]) {
+    let width = quantity.width();
+    let places = (width * members.most_spheres()).max(1);
+    for (world, own) in members.worlds().zip(values.chunks_exact_mut(places)) {
+        let spheres = world.spheres();
+        let (own, rest) = own.split_at_mut(width * spheres.len());
+        quantity.write(spheres, own);
+        rest.fill(f64::NAN);
     }
 }

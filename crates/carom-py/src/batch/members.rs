@@ -19,12 +19,10 @@ use crate::written::{self, Written};
 /// Spheres that a thread steps before it takes more work: below it, to share costs more.
 const SPHERES_PER_TASK: usize = 64;
 
-/// Worlds with the same number of spheres. No result depends on how many threads there are.
+/// Worlds that step together. No result depends on how many threads there are.
 #[derive(Debug)]
 pub struct Members {
     members: Vec<Member>,
-    /// Spheres in each.
-    spheres: usize,
     /// None where one thread does everything.
     pool: Option<Pool>,
 }
@@ -55,8 +53,7 @@ impl Members {
     /// Worlds that start in these states: one state for all `count`, or one for each.
     ///
     /// # Errors
-    /// [`Failure`] for no worlds, for worlds with emitters, and for other numbers of spheres than in
-    /// the first one.
+    /// [`Failure`] for no worlds, and for more than there is memory for.
     pub fn new(starts: Vec<Snapshot>, count: usize, pool: Option<Pool>) -> Result<Self, Failure> {
         if count == 0 || ![1, count].contains(&starts.len()) {
             return Err(Failure::value("n", format_args!("must be at least 1, not {count}")));
@@ -69,26 +66,7 @@ impl Members {
         starts.try_reserve_exact(count).map_err(no_room)?;
         starts.resize(count, last);
         members.extend(starts.into_iter().map(Member::new));
-        let spheres = members[0].world().spheres().len();
-        let members = Self { members, spheres, pool };
-        for (number, member) in members.members.iter().enumerate() {
-            members.check(number, member.world())?;
-        }
-        Ok(members)
-    }
-
-    /// Refuses a world that does not fit among the others.
-    fn check(&self, number: usize, world: &World) -> Result<(), Failure> {
-        let (own, others) = (world.spheres().len(), self.spheres);
-        if own != others {
-            let problem = format_args!("world {number} has {own} spheres, the first has {others}");
-            return Err(Failure::value("scene", problem));
-        }
-        if world.emitters().len() > 0 {
-            let problem = "has emitters; the worlds of a batch keep their spheres";
-            return Err(Failure::value("scene", problem));
-        }
-        Ok(())
+        Ok(Self { members, pool })
     }
 
     pub fn len(&self) -> usize {
@@ -109,9 +87,14 @@ impl Members {
         self.members[0].now.frame_time(None)
     }
 
+    /// How many spheres there are in the world with the most.
+    pub fn most_spheres(&self) -> usize {
+        self.worlds().map(|world| world.spheres().len()).max().unwrap_or(0)
+    }
+
     /// The shape of an array of all worlds.
     pub fn shape_of(&self, quantity: Quantity) -> Vec<usize> {
-        [vec![self.len()], quantity.shape(self.spheres)].concat()
+        [vec![self.len()], quantity.shape(self.most_spheres())].concat()
     }
 
     /// Takes frames of `dt` \[s\], or of each world's own length, in every world. A world that refuses a frame
@@ -129,7 +112,7 @@ impl Members {
                 }
             }
         };
-        let share = (SPHERES_PER_TASK / self.spheres.max(1)).max(1);
+        let share = (SPHERES_PER_TASK / self.most_spheres().max(1)).max(1);
         let members = &mut self.members;
         match &self.pool {
             None => members.iter_mut().zip(progress).for_each(step),
@@ -188,10 +171,9 @@ impl Members {
     /// Puts a world into another state, from which it starts from now on.
     ///
     /// # Errors
-    /// [`Failure`] if that does not fit among the others, or there is no such world.
+    /// [`Failure`] if there is no such world.
     pub fn restore(&mut self, world: usize, snapshot: &Snapshot) -> Result<(), Failure> {
         let member = Member::new(Arc::new(snapshot.clone()));
-        self.check(world, member.world())?;
         let count = self.len();
         let place = self.members.get_mut(world).ok_or_else(|| {
             Failure::value("index", format_args!("must be below {count}, not {world}"))
@@ -200,23 +182,33 @@ impl Members {
         Ok(())
     }
 
-    /// Sets a quantity of all spheres of all worlds; if a value is refused, none is set.
+    /// Sets a quantity of all spheres of all worlds; if a value is refused, none is set. `values` have places
+    /// for as many spheres in each world as there are in the one with the most.
     ///
     /// # Errors
     /// [`Failure`] for a number that makes no sense.
     pub fn set(&mut self, quantity: Quantity, values: &[f64]) -> Result<(), Failure> {
-        let row = quantity.shape(self.spheres).iter().product::<usize>().max(1);
-        if let Some(place) = values.iter().position(|&value| !quantity.may_be(value)) {
-            let (number, own) = (place / row, place / row * row);
+        let places = (quantity.width() * self.most_spheres()).max(1);
+        let own_of = |world: &World, number: usize| {
+            let first = number * places;
+            &values[first..first + quantity.width() * world.spheres().len()]
+        };
+        // What no world takes is found before any is changed.
+        let may_be = |own: &[f64]| own.iter().all(|&value| quantity.may_be(value));
+        let is_wrong = |&number: &usize| !may_be(own_of(self.members[number].world(), number));
+        if let Some(number) = (0..self.len()).find(is_wrong) {
             let world = &mut self.members[number].now.world;
-            return setting::set_all(world, quantity, &values[own..own + row]);
+            let own = own_of(world, number);
+            return setting::set_all(world, quantity, own);
         }
         let mut before = Vec::new();
-        for (member, own) in self.members.iter_mut().zip(values.chunks_exact(row)) {
+        for number in 0..self.len() {
+            let world = &mut self.members[number].now.world;
             if quantity.is_bounded() {
-                before.push(member.world().snapshot());
+                before.push(world.snapshot());
             }
-            if let Err(failure) = setting::set_all(&mut member.now.world, quantity, own) {
+            let own = own_of(world, number);
+            if let Err(failure) = setting::set_all(world, quantity, own) {
                 let both = self.members.iter_mut().zip(&before);
                 both.for_each(|(member, before)| member.now.world.restore(before));
                 return Err(failure);
@@ -233,20 +225,30 @@ impl Members {
     /// # Errors
     /// [`Failure`] that names the array, the world and the row.
     pub fn take_over(&mut self, written: &[Written]) -> Result<(), Failure> {
-        let spheres = self.spheres;
-        let of_all = |row: usize| format!("{}, {}", row / spheres, row % spheres);
-        written.iter().try_for_each(|written| written.check(of_all))?;
+        let most = self.most_spheres();
+        let of_all = |row: usize| format!("{}, {}", row / most, row % most);
+        let spheres_in = |number: usize| self.members[number].world().spheres().len();
+        for written in written {
+            let is_empty = |row: &&usize| *row % most >= spheres_in(*row / most);
+            if let Some(&row) = written.rows.iter().find(is_empty) {
+                let spheres = spheres_in(row / most);
+                let problem = format_args!("this world has {spheres} spheres");
+                return Err(Failure::value(&written.place(&of_all(row)), problem));
+            }
+            written.check(of_all)?;
+        }
         let is_safe = !written.iter().any(|written| written.quantity.is_bounded());
         let mut before = Vec::new();
         let first_rows =
-            written.iter().flat_map(|it| it.rows.chunk_by(|&a, &b| a / spheres == b / spheres));
-        let mut numbers: Vec<usize> = first_rows.map(|rows| rows[0] / spheres).collect();
+            written.iter().flat_map(|it| it.rows.chunk_by(|&a, &b| a / most == b / most));
+        let mut numbers: Vec<usize> = first_rows.map(|rows| rows[0] / most).collect();
         numbers.sort_unstable();
         numbers.dedup();
         for number in numbers {
-            let of_world = |it: &Written| it.of_world(number * spheres, spheres);
-            let own: Vec<Written> = written.iter().filter_map(of_world).collect();
             let world = &mut self.members[number].now.world;
+            let spheres = world.spheres().len();
+            let of_world = |it: &Written| it.of_world(number * most, spheres);
+            let own: Vec<Written> = written.iter().filter_map(of_world).collect();
             if !is_safe {
                 before.push((number, world.snapshot()));
             }

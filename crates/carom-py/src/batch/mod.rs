@@ -8,7 +8,7 @@ mod members;
 
 use std::sync::{Mutex, MutexGuard};
 
-use carom::StepReport;
+use carom::{StepReport, World};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
@@ -206,6 +206,20 @@ impl BatchEngine {
     fn times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let guard = self.lock(py)?;
         Ok(PyArray1::from_iter(py, guard.members.worlds().map(|world| world.time())))
+    }
+
+    /// Ids of the spheres of each world, ascending, shape (n, s), int64; -1 where there is no sphere. A copy.
+    #[getter]
+    fn ids<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        arrays::ids(py, &self.lock(py)?.members)
+    }
+
+    /// How many spheres each world has, shape (n,), int64. A copy.
+    #[getter]
+    fn counts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let guard = self.lock(py)?;
+        let count = |world: &World| world.spheres().len() as i64;
+        Ok(PyArray1::from_iter(py, guard.members.worlds().map(count)))
     }
 
     /// State hash of each world as a number, shape (n,), uint64: `int(world.state_hash, 16)` of the
