@@ -44,6 +44,8 @@ Usage: cargo xtask COMMAND
             use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
   schema    write scenes/scene.schema.json anew from the scene types
+  soak      a day of simulated time of several scenes: pinned states, hour by hour, and flat memory
+            (an hour; `soak --hours H` for another time)
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
             pictures and of the interface, `bench web` the JavaScript package against the native
             engine";
@@ -68,6 +70,8 @@ fn main() -> ExitCode {
         ["lint"] => test::lint(),
         ["documents"] => commands::check_plain(),
         ["schema"] => schema::write(),
+        ["soak"] => test::soak("24"),
+        ["soak", "--hours", hours] => test::soak(hours),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "web"] => js_package::bench(),
         ["bench", "pictures"] => {

@@ -62,6 +62,15 @@ pub fn long_tests() -> Outcome {
     cargo(&[&["run", "--release"], &PLAIN[..], &["--", "verify", "--full"]].concat())
 }
 
+/// Runs scenes for so many hours of simulated time, optimised.
+pub fn soak(hours: &str) -> Outcome {
+    if !hours.parse::<u32>().is_ok_and(|hours| hours > 0) {
+        return Err(format!("--hours takes a whole number of hours, not {hours:?}"));
+    }
+    let soak = ["carom-scene", "--test", "soak", "--", "--ignored", "--nocapture"];
+    cargo_with(&[&OPTIMISED[..], &soak].concat(), &[("SOAK_HOURS", hours)])
+}
+
 /// Checks what needs no build: formats, words, names in documents, the order of modules.
 pub fn lint() -> Outcome {
     cargo(&["fmt", "--all", "--check"])?;
