@@ -31,8 +31,8 @@ const SLACK_BYTES: f64 = 1e6;
 fn scene(name: &str, more: &str) -> Scene {
     let file = BUILT_IN_FILES.iter().find(|file| file.0.strip_suffix(".toml") == Some(name));
     let text = file.map_or(String::new(), |file| file.1.to_owned()) + "\n" + more;
-    // By the rule that bounces without end are made for, unless its own is for heaps.
-    let rule: &[&str] = if name == "pour" { &[] } else { &["simulation.rule=exact"] };
+    // Bounces without end are for `exact`; the course's scenes stay under the course's rule.
+    let rule: &[&str] = if name == "tutorial4" { &["simulation.rule=exact"] } else { &[] };
     let rule: Vec<_> = rule.iter().map(|it| it.parse().unwrap()).collect();
     Scene::from_toml_with(&text, name, &rule).unwrap()
 }
