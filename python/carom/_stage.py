@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from carom._world import World
 
 
+_OUTLIERS = 2
+"""How many of the positions a camera leaves out on either side of each axis [%]."""
+
+
 class Stage:
     """The states of a trajectory, each drawn as it was recorded, in the surroundings of a scene.
 
@@ -51,13 +55,23 @@ class Stage:
         self._colors = _colors(run, start.ids, told.spheres)
         # What the camera and the light are fitted to: the scene, as in all pictures of it.
         has_spheres = len(start) > 0 or len(told.emitters) > 0
-        self._painter = pictures._painter(start if has_spheres else self._world(0), view)
+        self._painter = pictures._painter(start if has_spheres else self._outlined(), view)
         self.size = (int(view.size[0]), int(view.size[1]))
         self.name = scene.name
 
     def png(self, index: int) -> bytes:
         """A recorded state as a PNG file."""
         return self._painter.png(self._world(index))
+
+    def _outlined(self) -> World:
+        """A world with spheres at two corners of the space where those of the run are."""
+        world = self._empty.world()
+        positions = self.run.positions[~np.isnan(self.run.positions[:, :, 0])]
+        if len(positions):
+            # But for the few that have flown off.
+            corners = np.percentile(positions, [_OUTLIERS, 100 - _OUTLIERS], axis=0)
+            world.add_spheres(corners, float(self.run.radii.max()))
+        return world
 
     def _world(self, index: int) -> World:
         """A world in a recorded state."""

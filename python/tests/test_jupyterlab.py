@@ -153,3 +153,12 @@ def test_a_page_opened_anew_goes_on_where_it_was(lab: Laboratory) -> None:
     until(lambda: lab.python("viewer._scene_now is not None"), "its scene")
     assert time_of(lab) == 1.5
     assert lab.python("viewer.scene.colliders[0].restitution") == 0.75
+
+
+def test_a_viewer_that_plays_is_not_held_back_by_what_it_tells(lab: Laboratory) -> None:
+    lab.run("viewer.seek(0); told = []; viewer.observe(lambda it: told.append(it.new), 'time')")
+    lab.run("viewer.play()")
+    until(lambda: time_of(lab) > 1.0, "a second")
+    lab.run("viewer.pause()")
+    times = [time for time in lab.python("told") if time > 0]
+    assert len(times) > 2 and times == sorted(times)

@@ -17,6 +17,7 @@ from nbconvert import HTMLExporter
 import carom
 from carom import _built as built
 from carom import _pictures as pictures
+from carom._stage import Stage
 from carom._still import Still
 from carom.notebook import AnimatedTrajectory, Viewer
 
@@ -217,6 +218,18 @@ def test_a_player_draws_the_states_that_were_recorded() -> None:
     world.step(frames=125)
     view = pictures.View.of((640, 360), "scene", "good", stamp=True)
     assert picture == pictures._painter(scene.world(), view).png(world)
+
+
+def test_a_player_without_a_scene_looks_at_where_the_spheres_go() -> None:
+    # The first of them come after a while.
+    run = carom.load("simtest1").run(seconds=2.5)
+    stage = Stage(run, None, pictures.View.of((160, 90), "scene", "good", stamp=False))
+    empty = stage._painter.paint(stage._empty.world()).astype(int)
+    seen = (
+        abs(stage._painter.paint(stage._world(len(run) - 1)).astype(int) - empty).max(axis=2) > 30
+    )
+    # Four spheres, as large as they can be in the picture without filling it.
+    assert 0.005 < seen.mean() < 0.5
 
 
 def test_a_player_hears_of_no_state_that_is_not_there() -> None:

@@ -7,12 +7,15 @@ use carom_scene::scene::Scene;
 use carom_session::PastChange;
 use carom_view::App;
 
+/// A scene, and what was changed in it.
+type Edited = (Arc<Scene>, Arc<Vec<PastChange>>);
+
 /// Counts scenes and changes as they are looked at.
 #[derive(Default)]
 pub struct Version {
     number: Cell<u32>,
     /// What was there at the last look. Held, so that no other takes its place in memory.
-    seen: RefCell<Option<(Arc<Scene>, Arc<Vec<PastChange>>)>>,
+    seen: RefCell<Option<Edited>>,
 }
 
 impl Version {

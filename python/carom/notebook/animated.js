@@ -1,6 +1,6 @@
 // A recorded run in the output of a notebook, tied to `carom.notebook.AnimatedTrajectory`.
 
-/** States that are kept drawn; all of a short run. */
+/** Most pictures that are kept. */
 const KEPT = 600;
 
 /**
@@ -33,18 +33,20 @@ function nearest(times, time) {
 class Pictures {
   /**
    * @param {Model} model
-   * @param {(index: number, picture: ImageBitmap) => void} show gets each that was wanted
+   * @param {(index: number, picture: ImageBitmap) => void} draw
    */
-  constructor(model, show) {
+  constructor(model, draw) {
     this.model = model;
-    this.show = show;
-    /** @type {Map<number, ImageBitmap>} */
-    this.drawn = new Map();
+    this.draw = draw;
+    /** PNG files: as pixels they would fill the memory. */
+    this.files = new Map([[0, new Blob([model.get("_picture")], { type: "image/png" })]]);
     /** What Python is at work on. */
     this.waiting = /** @type {number | null} */ (null);
     this.wanted = 0;
+    /** Of pictures being decoded, and of the one shown: none is followed by an older one. */
+    this.turns = { last: 0, shown: 0 };
     this.take = (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
-      this.keep(message.state, buffers[0]).catch(console.error);
+      this.keep(message.state, buffers[0]);
     };
     model.on("msg:custom", this.take);
   }
@@ -56,9 +58,9 @@ class Pictures {
    */
   want(index) {
     this.wanted = index;
-    const picture = this.drawn.get(index);
-    if (picture) {
-      this.show(index, picture);
+    const file = this.files.get(index);
+    if (file) {
+      this.show(index, file).catch(console.error);
     } else if (this.waiting === null) {
       this.waiting = index;
       this.model.send({ state: index });
@@ -69,18 +71,31 @@ class Pictures {
    * @param {number} index
    * @param {DataView} content
    */
-  async keep(index, content) {
+  keep(index, content) {
     const bytes = /** @type {BlobPart} */ (/** @type {unknown} */ (content));
-    const picture = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+    const file = new Blob([bytes], { type: "image/png" });
+    this.files.set(index, file);
+    const [oldest] = this.files.keys();
+    if (this.files.size > KEPT) this.files.delete(oldest);
+    // Another view of the same run may have asked for it.
+    if (this.waiting !== index) return;
     this.waiting = null;
-    this.drawn.set(index, picture);
-    const [oldest] = this.drawn.keys();
-    if (this.drawn.size > KEPT) {
-      this.drawn.get(oldest)?.close();
-      this.drawn.delete(oldest);
-    }
-    this.show(index, picture);
+    this.show(index, file).catch(console.error);
     if (this.wanted !== index) this.want(this.wanted);
+  }
+
+  /**
+   * @param {number} index
+   * @param {Blob} file
+   */
+  async show(index, file) {
+    const turn = ++this.turns.last;
+    const picture = await createImageBitmap(file);
+    if (turn > this.turns.shown) {
+      this.turns.shown = turn;
+      this.draw(index, picture);
+    }
+    picture.close();
   }
 
   end() {
@@ -123,6 +138,8 @@ export default {
     let beat = 0;
     /** By the clock of the browser [ms], and of the run [s]. */
     let since = { now: 0, time: 0 };
+    /** Whether the beat sets the time, and not a hand or Python. */
+    let isBeat = false;
 
     const show = () => {
       const index = nearest(times, model.get("time"));
@@ -138,8 +155,10 @@ export default {
     const advance = (/** @type {number} */ now) => {
       const time = since.time + (model.get("speed") * (now - since.now)) / 1000;
       beat = requestAnimationFrame(advance);
+      isBeat = true;
       if (time >= last) tell({ time: last, playing: false });
       else tell({ time: times[nearest(times, time)] });
+      isBeat = false;
     };
     const setBeat = () => {
       const playing = model.get("playing");
@@ -152,21 +171,13 @@ export default {
       beat = requestAnimationFrame(advance);
     };
     const obeyTime = () => {
-      const time = model.get("time");
-      // What Python or a hand has set, and not the beat itself.
-      const due = since.time + (model.get("speed") * (performance.now() - since.now)) / 1000;
-      const slack = 0.5 + model.get("speed") * 0.5;
-      if (model.get("playing") && Math.abs(time - due) > slack) {
-        since = { now: performance.now(), time };
-      }
+      if (!isBeat) since = { now: performance.now(), time: model.get("time") };
       show();
     };
 
     button.addEventListener("click", () => tell({ playing: !model.get("playing") }));
     slider.addEventListener("input", () => {
-      const time = times[Number(slider.value)];
-      since = { now: performance.now(), time };
-      tell({ time });
+      tell({ time: times[Number(slider.value)] });
     });
     model.on("change:time", obeyTime);
     model.on("change:playing change:speed", setBeat);

@@ -4,8 +4,8 @@
 /** Time between two looks at the interface [ms]. */
 const PAUSE = 100;
 
-/** How long Python may take to hand over the interface [ms]: it may still be at work on a cell. */
-const PATIENCE = 60_000;
+/** After so long, a viewer says what it waits for [ms]. */
+const PATIENCE = 3000;
 
 /** No scene file of more characters goes to Python: servers close connections over such messages. */
 const LARGEST_SCENE = 6e6;
@@ -27,46 +27,50 @@ const HEIGHTS = ["240px", "2000px"];
  * @property {WebAssembly.Module} module
  */
 
+/** Says that the model is gone that was to bring the interface. */
+class Gone extends Error {
+  name = "Gone";
+}
+
 /**
  * The interface, compiled once for all viewers of the document.
  *
  * @param {Model} model
+ * @param {AbortSignal} end of the model
  * @returns {Promise<Interface>}
  */
-function sharedInterface(model) {
+async function sharedInterface(model, end) {
   const shared = /** @type {Record<string, Promise<Interface>>} */ (
     /** @type {any} */ (globalThis)["caromInterfaces"] ??= {}
   );
   const version = model.get("_version");
-  shared[version] ??= received(model).catch((error) => {
-    // The next viewer may have more luck.
-    delete shared[version];
-    throw error;
-  });
-  return shared[version];
+  for (;;) {
+    const coming = (shared[version] ??= received(model, end));
+    try {
+      return await coming;
+    } catch (error) {
+      if (shared[version] === coming) delete shared[version];
+      if (end.aborted || !(error instanceof Error) || error.name !== "Gone") throw error;
+      // Another viewer asked for it, and went: now this one does.
+    }
+  }
 }
 
 /**
- * Has Python hand over the interface.
+ * Has Python hand over the interface, as soon as it is at work on no cell.
  *
  * @param {Model} model
+ * @param {AbortSignal} end
  * @returns {Promise<Interface>}
  */
-async function received(model) {
+async function received(model, end) {
   const [script, module] = await new Promise((resolve, reject) => {
-    const patience = setTimeout(() => {
-      stop();
-      reject(new Error("Python does not answer: is its kernel running?"));
-    }, PATIENCE);
     const take = (/** @type {any} */ message, /** @type {DataView[]} */ buffers) => {
       if (message.kind !== "interface") return;
-      stop();
+      model.off("msg:custom", take);
       resolve(buffers);
     };
-    const stop = () => {
-      clearTimeout(patience);
-      model.off("msg:custom", take);
-    };
+    end.addEventListener("abort", () => reject(new Gone()));
     model.on("msg:custom", take);
     model.send({ kind: "interface" });
   });
@@ -119,6 +123,7 @@ class Viewer {
     /** From this picture on, the interface shows what Python told it to. */
     this.obeyed = 0;
     this.hasBegun = false;
+    this.gone = new AbortController();
     this.obey = () => this.followTraits();
     this.listen = (/** @type {any} */ message) => this.follow(message);
   }
@@ -139,17 +144,25 @@ class Viewer {
     const picture = model.get("_picture");
     if (picture) this.picture.src = URL.createObjectURL(new Blob([picture], { type: "image/png" }));
     this.say("Loading the viewer");
+    const patience = setTimeout(() => {
+      this.say("The viewer waits for Python, which is at work on a cell, or is not running.");
+    }, PATIENCE);
     try {
       model.set("_ready", false);
       model.save_changes();
-      const { script, module } = await sharedInterface(model);
+      const { script, module } = await sharedInterface(model, this.gone.signal);
+      clearTimeout(patience);
       this.page = await script.start(this.canvas, module, model.get("link"), {
         link: (/** @type {string} */ link) => this.tell("link", link),
         end: (/** @type {string} */ text) => this.fail(text),
       });
     } catch (error) {
-      console.error(error);
-      this.fail(error instanceof Error ? error.message : String(error));
+      clearTimeout(patience);
+      if (!this.gone.signal.aborted) this.fail(error);
+      return;
+    }
+    if (this.gone.signal.aborted) {
+      this.page.end();
       return;
     }
     model.on("change:time change:playing change:picked", this.obey);
@@ -162,6 +175,7 @@ class Viewer {
 
   /** Ends the interface, with its model. */
   end() {
+    this.gone.abort();
     clearInterval(this.timer);
     this.model.off("change:time change:playing change:picked", this.obey);
     this.model.off("msg:custom", this.listen);
@@ -184,11 +198,12 @@ class Viewer {
   /**
    * Says why there is no interface (any more).
    *
-   * @param {string} text
+   * @param {unknown} error
    */
-  fail(text) {
+  fail(error) {
+    console.error(error);
     clearInterval(this.timer);
-    this.say(text);
+    this.say(error instanceof Error ? error.message : String(error));
     this.element.classList.add("carom-trouble");
   }
 
@@ -250,11 +265,12 @@ class Viewer {
     const now = status?.watching;
     if (!now || now.seeking || status.pictures < this.obeyed) return;
     const { time, playing, picked } = now;
-    if (time !== told.time) model.set("time", time);
-    if (playing !== told.playing) model.set("playing", playing);
-    if (picked !== told.picked) model.set("picked", picked);
     const isOther = status.version !== told.version || (!playing && time !== told.at);
+    // Before the traits: those that are as told are not followed.
     Object.assign(told, { time, playing, picked });
+    for (const [name, value] of Object.entries({ time, playing, picked })) {
+      if (model.get(name) !== value) model.set(name, value);
+    }
     if (isOther) {
       const scene = page.scene();
       model.set("_scene_now", scene === undefined || scene.length > LARGEST_SCENE ? "" : scene);
