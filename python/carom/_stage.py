@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -10,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom import _pictures as pictures
-from carom._parts import Sphere
 from carom._points import Points
 from carom._trajectory import Trajectory
 from carom.errors import CaromError
@@ -27,8 +25,9 @@ _OUTLIERS = 2
 class Stage:
     """The states of a trajectory, each drawn as it was recorded, in the surroundings of a scene.
 
-    Colours are those of the spheres with the same ids at the beginning of the scene; what came
-    later has the scene's own. Colliders are where they are by their velocities at that time.
+    Colours and finishes are those of the spheres with the same ids at the beginning of the scene.
+    What came later looks as its emitters have it, where they agree. Colliders are where they are by
+    their velocities at that time.
     """
 
     def __init__(self, run: Trajectory, scene: Scene | World | None, view: pictures.View) -> None:
@@ -52,7 +51,7 @@ class Stage:
         start = scene.world()
         told = start.to_scene()
         self._empty = replace(told, spheres=(), emitters=())
-        self._colors = _colors(run, start.ids, told.spheres)
+        self._colors, self._finishes = _looks(run, start.ids, told)
         # What the camera and the light are fitted to: the scene, as in all pictures of it.
         has_spheres = len(start) > 0 or len(told.emitters) > 0
         self._painter = pictures._painter(start if has_spheres else self._outlined(), view)
@@ -89,18 +88,29 @@ class Stage:
                 masses=run.masses[there],
                 orientations=None if turned is None else turned[index, there],
                 colors=self._colors[there],
+                finishes=self._finishes[there].tolist(),
             )
             world.add_spheres(spheres)
         return world
 
 
-def _colors(
-    run: Trajectory, ids: NDArray[np.uint64], spheres: Sequence[Sphere]
-) -> NDArray[np.float64]:
-    """Colours of the spheres of a run, shape (n, 3); nan for those without one of their own."""
-    colors = np.full((len(run.ids), 3), np.nan)
+def _looks(
+    run: Trajectory, ids: NDArray[np.uint64], scene: Scene
+) -> tuple[NDArray[np.float64], NDArray[np.object_]]:
+    """Colours of the spheres of a run, shape (n, 3), nan for those without, and finishes."""
+    count = len(run.ids)
+    colors, finishes = np.full((count, 3), np.nan), np.full(count, "satin", object)
+    emitted = {(emitter.sphere.color, emitter.sphere.finish) for emitter in scene.emitters}
+    if len(emitted) == 1:
+        [(color, finish)] = emitted
+        finishes[:] = finish
+        if color is not None:
+            colors[:] = color
+    spheres = scene.spheres
     assert isinstance(spheres, Points)
-    if spheres._colors is not None:
-        _, own, theirs = np.intersect1d(run.ids, ids, return_indices=True)
-        colors[own] = spheres._colors[theirs]
-    return colors
+    _, own, theirs = np.intersect1d(run.ids, ids, return_indices=True)
+    colors[own] = np.nan if spheres._colors is None else spheres._colors[theirs]
+    finishes[own] = "satin"
+    if spheres._finishes is not None:
+        finishes[own] = np.array(spheres._finishes, object)[theirs]
+    return colors, finishes

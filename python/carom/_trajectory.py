@@ -142,7 +142,7 @@ class Trajectory:
         It needs the extra `carom[notebook]`; without it, it is a picture that says how to get it.
 
         Args:
-            scene: What was run: colliders, colours and camera come from there.
+            scene: What was run, as it was at the time 0: colliders, looks and camera come from it.
             size: Width and height [pixels].
             camera: Where to look from: see `carom.Viewpoint`.
 
