@@ -342,6 +342,19 @@ class Scene(parts.Part):
         return pictures.notebook_picture(self)
 
 
+def scene_of(scene: Scene | World) -> Scene:
+    """A scene, or the one that begins as a world is now.
+
+    Raises:
+        TypeError: For what is neither.
+    """
+    if isinstance(scene, World):
+        return scene.to_scene()
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: must be a Scene or a World, not {type(scene).__name__}")
+    return scene
+
+
 def _nearest_frame(seconds: float, frame_time: float) -> int:
     """The number of the frame nearest to a time."""
     if not isinstance(seconds, (int, float, np.number)):

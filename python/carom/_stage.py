@@ -37,18 +37,14 @@ class Stage:
             CaromError: If positions were not recorded, or nothing at all.
             GraphicsError: If nothing can be drawn here.
         """
-        from carom._scene import Scene
+        from carom._scene import Scene, scene_of
 
         if run._recorded("positions") is None:
             raise CaromError("quantities: a run without positions cannot be shown", "quantities")
         if not len(run):
             raise CaromError("run: it has no states", "run")
-        if scene is None:
-            scene = Scene(name="run")
-        elif not isinstance(scene, Scene):
-            scene = scene.to_scene()
         self.run = run
-        start = scene.world()
+        start = (Scene(name="run") if scene is None else scene_of(scene)).world()
         told = start.to_scene()
         self._empty = replace(told, spheres=(), emitters=())
         self._colors, self._finishes = _looks(run, start.ids, told)
@@ -56,7 +52,6 @@ class Stage:
         has_spheres = len(start) > 0 or len(told.emitters) > 0
         self._painter = pictures._painter(start if has_spheres else self._outlined(), view)
         self.size = (int(view.size[0]), int(view.size[1]))
-        self.name = scene.name
 
     def png(self, index: int) -> bytes:
         """A recorded state as a PNG file."""

@@ -104,6 +104,10 @@ def test_what_makes_no_sense_is_refused_by_its_name(viewer: Viewer) -> None:
         viewer.set_sphere(0, colour=1)
     with pytest.raises(carom.CaromError, match="height: must be in"):
         carom.load("simtest1").show(height=10)
+    with pytest.raises(TypeError, match="scene: must be a Scene or a World, not str"):
+        carom.load("simtest1").run(seconds=0.1).show("simtest1")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="scene: must be a Scene or a World, not int"):
+        viewer.scene = 1  # type: ignore[assignment]
     with pytest.raises(TypeError, match="height: must be a whole number"):
         carom.load("simtest1").show(height="tall")  # type: ignore[arg-type]
 

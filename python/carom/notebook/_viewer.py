@@ -13,7 +13,7 @@ import traitlets
 from carom import _parts as parts
 from carom import _pictures as pictures
 from carom._built import built_interface
-from carom._scene import Scene
+from carom._scene import Scene, scene_of
 from carom._text import toml_value
 from carom._world import World
 from carom.errors import CaromError
@@ -75,7 +75,7 @@ class Viewer(Shown):
             GraphicsError: If this build of carom has no viewer for notebooks.
         """
         self._interface = built_interface()
-        self._given = scene if isinstance(scene, Scene) else scene.to_scene()
+        self._given = scene_of(scene)
         # In the order in which they were made, until there is an interface that takes them.
         self._waiting: list[dict[str, str]] = []
         super().__init__(
@@ -107,7 +107,7 @@ class Viewer(Shown):
 
     @scene.setter
     def scene(self, scene: Scene | World) -> None:
-        self._given = scene if isinstance(scene, Scene) else scene.to_scene()
+        self._given = scene_of(scene)
         link = _link(self._given)
         self._scene_now, self.picked, self.link = None, None, link
         self.time = 0.0
