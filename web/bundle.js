@@ -24,7 +24,7 @@ const SCENES = fileURLToPath(new URL("../scenes/", import.meta.url));
 const PICTURE = fileURLToPath(new URL("../docs/pictures/tutorial4.png", import.meta.url));
 
 /** The oldest with all that module and page use: reference types, TransformStream, box sizes. */
-const BROWSERS = ["chrome96", "firefox102", "safari15.4"];
+export const BROWSERS = ["chrome96", "firefox102", "safari15.4"];
 
 /**
  * @param {string} moduleFolder

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -25,6 +25,10 @@ from carom._text import fields_of, toml_of, toml_value
 from carom._trajectory import Recorded, Trajectory
 from carom._world import World
 from carom.errors import CaromError
+
+if TYPE_CHECKING:
+    from carom._still import Still
+    from carom.notebook import Viewer
 
 NO_CHANGES: Mapping[str, Any] = MappingProxyType({})
 
@@ -310,6 +314,23 @@ class Scene(parts.Part):
         view = pictures.View.of(size, camera, quality, stamp=stamp)
         return filmed(toml_of(self), seconds, frame_rate, view)
 
+    def show(self, *, height: int = 480) -> Viewer | Still:
+        """The viewer of the page, for the output of a notebook: see `carom.notebook.Viewer`.
+
+        It needs the extra `carom[notebook]`; without it, the scene is a picture that says how to
+        get it. A window, in a notebook or elsewhere, is what `view` opens.
+
+        Args:
+            height: Of the viewer [pixels].
+
+        Raises:
+            CaromError: For a height that makes no sense, or a scene that is too large.
+            SceneError: If the scene makes no sense.
+        """
+        from carom._still import show
+
+        return show(self, height)
+
     def view(self) -> subprocess.Popen[bytes]:
         """Opens the scene in a window, in a process of its own, and does not wait.
 
@@ -327,6 +348,19 @@ class Scene(parts.Part):
     def _repr_png_(self) -> bytes | None:
         """The scene in a notebook."""
         return pictures.notebook_picture(self)
+
+
+def scene_of(scene: Scene | World) -> Scene:
+    """A scene, or the one that begins as a world is now.
+
+    Raises:
+        TypeError: For what is neither.
+    """
+    if isinstance(scene, World):
+        return scene.to_scene()
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: must be a Scene or a World, not {type(scene).__name__}")
+    return scene
 
 
 def _nearest_frame(seconds: float, frame_time: float) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import zipfile
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -16,6 +17,12 @@ from carom.errors import CaromError
 if TYPE_CHECKING:
     import pandas
     import xarray
+
+    from carom._pictures import Viewpoint
+    from carom._scene import Scene
+    from carom._still import Still
+    from carom._world import World
+    from carom.notebook import AnimatedTrajectory
 
 _PARTS = ("x", "y", "z", "w")
 """Of a quaternion; those of a vector are the first three."""
@@ -122,6 +129,30 @@ class Trajectory:
             return np.ones((len(self.time), len(self.ids)), dtype=bool)
         there: NDArray[np.bool_] = ~np.isnan(recorded[0][:, :, 0])
         return there
+
+    def show(
+        self,
+        scene: Scene | World | None = None,
+        *,
+        size: Sequence[int] = (640, 360),
+        camera: Viewpoint = "scene",
+    ) -> AnimatedTrajectory | Still:
+        """A player of the recorded states: see `carom.notebook.AnimatedTrajectory`.
+
+        It needs the extra `carom[notebook]`; without it, it is a picture that says how to get it.
+
+        Args:
+            scene: What was run, as it was at the time 0: colliders, looks and camera come from it.
+            size: Width and height [pixels].
+            camera: Where to look from: see `carom.Viewpoint`.
+
+        Raises:
+            CaromError: If no positions were recorded, or for an argument that makes no sense.
+            GraphicsError: If nothing can be drawn here.
+        """
+        from carom._still import show_trajectory
+
+        return show_trajectory(self, scene, size, camera)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes an .npz file, which `load` reads: to the bit what this is.

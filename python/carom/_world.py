@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from typing_extensions import Never, TypeIs
 
     from carom._scene import Scene
+    from carom._still import Still
+    from carom.notebook import Viewer
 
 
 _FORCES = (parts.ConstantForce, parts.Gravity, parts.ViscousDrag)
@@ -613,6 +615,15 @@ class World(Strict, Engine):
         view = pictures.View.of(size, camera, quality, stamp=stamp)
         file = None if path is None else pictures.checked_path(path, ".png")
         return pictures.picture(self, file, view)
+
+    def show(self, *, height: int = 480) -> Viewer | Still:
+        """The viewer of the page, at the world of now, for notebooks: see `Scene.show`.
+
+        What happens in it leaves this world as it is: `carom.notebook.Viewer.world` makes another.
+        """
+        from carom._still import show
+
+        return show(self, height)
 
     def _repr_png_(self) -> bytes | None:
         """The world of now in a notebook."""

@@ -10,7 +10,7 @@ import carom
 ROOT = Path(__file__).parents[2]
 FILES = [ROOT / "README.md", ROOT / "python/README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
-NEEDED = ["gymnasium", "pandas", "xarray"]
+NEEDED = ["anywidget", "gymnasium", "pandas", "xarray"]
 """What a block needs where it speaks of it, besides carom; without it the block is left out."""
 
 

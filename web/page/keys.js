@@ -15,12 +15,12 @@ const SCROLLING = new Set([
 /**
  * Keeps keys that are meant for the interface from scrolling the page, or one that embeds it.
  *
- * @param {HTMLCanvasElement} canvas
+ * @param {...EventTarget} ours elements that hand keys to the interface
  */
-export function keepKeysFromScrolling(canvas) {
+export function keepKeysFromScrolling(...ours) {
   addEventListener("keydown", (event) => {
     const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey;
-    const isOurs = event.target === canvas || event.target === document.body;
+    const isOurs = event.target !== null && ours.includes(event.target);
     if (isPlain && isOurs && SCROLLING.has(event.key)) {
       event.preventDefault();
     }

@@ -2,36 +2,27 @@
 
 import init, { Page } from "carom-web";
 
-import { address, onAddressChange } from "./address.js";
+import { address, onAddressChange, showFragment } from "./address.js";
 import { watchForTheEnd } from "./end.js";
 import { fetchModule } from "./fetch_module.js";
-import { canDraw } from "./graphics.js";
 import { keepKeysFromScrolling } from "./keys.js";
 import { offerMirror } from "./mirror.js";
 import { loading } from "./loading.js";
 import { keepForOffline } from "./offline.js";
 import { checkPixelSize } from "./pixel_size.js";
+import { checkBrowser } from "./requirements.js";
 import { services } from "./services.js";
-import { Trouble, inWords } from "./trouble.js";
+import { inWords } from "./trouble.js";
 
 const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById("carom"));
 
 async function start() {
-  if (typeof WebAssembly !== "object") {
-    throw new Trouble(
-      "Carom needs WebAssembly, which this browser does not have or has switched off.",
-    );
-  }
-  if (!(await canDraw())) {
-    throw new Trouble(
-      "Carom draws with WebGPU or WebGL 2, and this browser offers neither. " +
-        "A newer browser, or hardware acceleration switched on in its settings, may help.",
-    );
-  }
+  await checkBrowser();
   await init({ module_or_path: await fetchModule(loading.show) });
   await checkPixelSize(canvas);
-  keepKeysFromScrolling(canvas);
-  const page = await Page.start(canvas, services, address());
+  keepKeysFromScrolling(canvas, document.body);
+  const own = { ...services, showFragment, isEmbedded: () => false };
+  const page = await Page.start(canvas, own, address());
   onAddressChange((fragment) => page.openFragment(fragment));
   watchForTheEnd(canvas, loading.fail);
   // For scripts and the curious: `carom.status()` in the console.

@@ -40,6 +40,7 @@ Usage: cargo xtask COMMAND
             tests it in a browser; `web --package` makes the package alone, `web --test-package`
             tests it in Node.js
   python    make the wheel of the Python package; `python --test` also installs and tests it
+  notebook  put the viewer for notebooks into the Python package, for `pip install .`
   lint      the checks that need no build: format, words, links and names in documents, modules that
             use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
@@ -67,6 +68,7 @@ fn main() -> ExitCode {
         ["web", "--test-package"] => js_package::test(),
         ["python"] => python::build().map(drop),
         ["python", "--test"] => python::test(),
+        ["notebook"] => web::build_for_notebooks(),
         ["lint"] => test::lint(),
         ["documents"] => commands::check_plain(),
         ["schema"] => schema::write(),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::shell::{Outcome, finish, root, target_folder};
-use crate::{native_hashes, setup};
+use crate::{native_hashes, setup, web};
 
 /// Builds the wheel, and says where it is.
 pub fn build() -> Outcome<PathBuf> {
@@ -18,6 +18,8 @@ pub fn build() -> Outcome<PathBuf> {
 /// Builds the wheel, installs it into a clean environment, and runs every check of it: format,
 /// lints, tests, examples in documentation, types, stubs, the reference.
 pub fn test() -> Outcome {
+    // Notebooks are shown in it.
+    setup::browser()?;
     let environment = Environment::new("python/test")?;
     let wheel = wheel(&environment)?;
     environment.pip(&["install", "--requirement", REQUIREMENTS])?;
@@ -56,6 +58,7 @@ pub fn test() -> Outcome {
         "carom",
         "carom._carom",
         "carom.gym",
+        "carom.notebook",
         "--docformat",
         "google",
         "--no-show-source",
@@ -67,8 +70,9 @@ pub fn test() -> Outcome {
 /// Versions of all that the package is built and tested with.
 const REQUIREMENTS: &str = "python/requirements-test.txt";
 
-/// Builds the wheel as `pip install .` does. Returns the file.
+/// Builds the wheel as `pip install .` does, with the viewer for notebooks. Returns the file.
 fn wheel(environment: &Environment) -> Outcome<PathBuf> {
+    web::build_for_notebooks()?;
     let wheels = environment.folder.join("wheels");
     let folder = wheels.to_string_lossy();
     environment.pip(&["wheel", ".", "--no-deps", "--wheel-dir", &folder])?;

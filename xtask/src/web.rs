@@ -16,12 +16,23 @@ const BUDGET: u64 = 4_000_000;
 
 /// Makes the page in `web/dist`, and says how large it is.
 pub fn build() -> Outcome {
+    build_module()?;
+    node(&["bundle.js", "module", "dist"], &[])?;
+    check_size(&folder().join("dist"))
+}
+
+/// Puts the interface for notebooks into the Python package, whose wheel takes it along.
+pub fn build_for_notebooks() -> Outcome {
+    build_module()?;
+    node(&["notebook.js", "module", "../python/carom/notebook/built"], &[])
+}
+
+/// Makes the module in `web/module`.
+fn build_module() -> Outcome {
     setup::page()?;
     npm_packages()?;
     let module = wasm::build("carom-web")?;
-    bind(&module, &folder().join("module"), &["--remove-name-section"])?;
-    node(&["bundle.js", "module", "dist"], &[])?;
-    check_size(&folder().join("dist"))
+    bind(&module, &folder().join("module"), &["--remove-name-section"])
 }
 
 /// Makes the page, and serves it on this machine.
@@ -61,7 +72,10 @@ pub fn sizes() -> Outcome {
 pub fn test() -> Outcome {
     build()?;
     setup::browser()?;
-    node(&["node_modules/prettier/bin/prettier.cjs", "--check", "."], &[])?;
+    let prettier = "node_modules/prettier/bin/prettier.cjs";
+    let of_notebooks = "../python/carom/notebook/*.{js,css}";
+    // The settings of this folder, for those outside of it as well.
+    node(&[prettier, "--check", "--config", "package.json", ".", of_notebooks], &[])?;
     node(&["node_modules/typescript/bin/tsc", "--project", "."], &[])?;
     // What a run gives outside of browsers.
     cargo(&["build", "--release", "--package", "carom-cli", "--no-default-features", "--quiet"])?;

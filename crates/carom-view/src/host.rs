@@ -66,6 +66,11 @@ pub trait Host {
         None
     }
 
+    /// Whether it is a part of some document, with little room: panels are closed at first.
+    fn is_embedded(&self) -> bool {
+        false
+    }
+
     /// Whether it is pointed with something as coarse as a finger.
     fn has_coarse_pointer(&self) -> bool {
         false

@@ -2,13 +2,16 @@
 //!
 //! The page's script makes a `Page` on a canvas and gives it what only a page has: downloads,
 //! films, the tilt of the device, the address bar (`services.rs` lists it). What the page shows can
-//! be read back as data (`Page::status`, `Page::widgets`).
+//! be read back as data (`Page::status`, `Page::widgets`), and scripts say what to do
+//! (`commands.rs`).
 
 #![cfg(target_arch = "wasm32")]
 
+mod commands;
 mod page_host;
 mod services;
 mod status;
+mod version;
 mod widgets;
 
 use std::cell::{OnceCell, RefCell};
@@ -28,6 +31,7 @@ use web_sys::HtmlCanvasElement;
 use crate::page_host::PageHost;
 use crate::services::Services;
 use crate::status::Status;
+use crate::version::Version;
 use crate::widgets::Widgets;
 
 /// The interface in a canvas of a page.
@@ -38,8 +42,10 @@ pub struct Page {
     graphics: &'static str,
     /// Names of all scenes that can be chosen, once a script has read them.
     scenes: OnceCell<Vec<String>>,
+    /// Of the scene that is watched, as scripts know it.
+    version: Version,
     /// Keeps the interface going.
-    _runner: WebRunner,
+    runner: WebRunner,
 }
 
 /// What is there once the graphics device is.
@@ -77,7 +83,8 @@ impl Page {
         let started = started.borrow_mut().take();
         let Started { app, context, graphics } =
             started.ok_or_else(|| JsError::new("the interface did not start"))?;
-        Ok(Self { app, context, graphics, scenes: OnceCell::new(), _runner: runner })
+        let (scenes, version) = (OnceCell::new(), Version::default());
+        Ok(Self { app, context, graphics, scenes, version, runner })
     }
 
     /// Shows the run that the part of an address after `#` tells; says so where it cannot be shown.
@@ -95,7 +102,8 @@ impl Page {
         let Ok(app) = self.app.try_borrow() else { return JsValue::UNDEFINED };
         // A page has no folders: what can be chosen stays the same.
         let scenes = self.scenes.get_or_init(|| status::scenes(&app));
-        let status = Status::of(&app, scenes, &self.context, self.graphics);
+        let version = self.version.of(&app);
+        let status = Status::of(&app, scenes, version, &self.context, self.graphics);
         parsed(serde_json::to_string(&status))
     }
 

@@ -66,6 +66,9 @@ impl Host for PageHost {
     }
 
     fn page(&self) -> String {
+        if self.services.is_embedded() {
+            return LOCAL_PAGE.to_owned();
+        }
         let address = web_sys::window().and_then(|window| window.location().href().ok());
         let address = address.unwrap_or_else(|| LOCAL_PAGE.to_owned());
         address.split('#').next().unwrap_or_default().to_owned()
@@ -77,6 +80,10 @@ impl Host for PageHost {
 
     fn show_link(&mut self, link: &Link) {
         self.services.show_fragment(&link.to_fragment());
+    }
+
+    fn is_embedded(&self) -> bool {
+        self.services.is_embedded()
     }
 
     fn trouble(&mut self) -> Option<String> {

@@ -22,6 +22,8 @@ export interface Services {
     showFragment(fragment: string): void;
     /** What went wrong since the last call, for people. */
     trouble(): string | null;
+    /** Whether the canvas is a part of some other document, and no link leads there. */
+    isEmbedded(): boolean;
 }
 
 /** A film in the making. */
@@ -67,6 +69,9 @@ extern "C" {
 
     #[wasm_bindgen(method)]
     pub fn trouble(this: &Services) -> Option<String>;
+
+    #[wasm_bindgen(method, js_name = isEmbedded)]
+    pub fn is_embedded(this: &Services) -> bool;
 
     /// A film in the making.
     #[wasm_bindgen(typescript_type = "FilmService")]

@@ -1,5 +1,6 @@
 //! What is shown, as plain data: for scripts of the page and for tests.
 
+use carom::SphereId;
 use carom_view::App;
 use egui::Context;
 use serde::Serialize;
@@ -26,6 +27,8 @@ pub struct Status<'a> {
     cpu_seconds: Option<f32>,
     /// The scene that is watched.
     watching: Option<Watching>,
+    /// Another number whenever another scene is watched, or something is changed in it by hand.
+    version: u32,
     /// The maze that is played.
     maze: Option<Maze>,
 }
@@ -48,6 +51,8 @@ struct Watching {
     speed: f64,
     spheres: usize,
     impacts: u64,
+    /// Id of the sphere that is followed; it may have gone.
+    picked: Option<u64>,
     /// Of all spheres \[J\].
     energy: f64,
     /// Of all surfaces.
@@ -75,7 +80,13 @@ struct Maze {
 
 impl<'a> Status<'a> {
     /// Of an interface.
-    pub fn of(app: &App, scenes: &'a [String], context: &Context, graphics: &'static str) -> Self {
+    pub fn of(
+        app: &App,
+        scenes: &'a [String],
+        version: u32,
+        context: &Context,
+        graphics: &'static str,
+    ) -> Self {
         let maze = app.maze().map(|screen| {
             let game = screen.game();
             Maze {
@@ -100,6 +111,7 @@ impl<'a> Status<'a> {
                 speed: view.playback.speed,
                 spheres: view.spheres.ids.len(),
                 impacts: view.now.impacts,
+                picked: view.picked.map(SphereId::number),
                 energy: view.now.total_energy(),
                 restitutions: view.setup.colliders.iter().map(|it| it.1.restitution).collect(),
                 state_hash: view.playback.state_hash.map(|hash| hash.to_string()),
@@ -120,6 +132,7 @@ impl<'a> Status<'a> {
             pictures: context.cumulative_frame_nr(),
             cpu_seconds: app.cpu_seconds(),
             watching,
+            version,
             maze,
         }
     }

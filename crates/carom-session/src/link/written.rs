@@ -27,16 +27,39 @@ pub fn to_toml(changes: &[PastChange]) -> String {
 
 /// Changes from TOML, or one line on what is wrong with them.
 pub fn from_toml(text: &str) -> Result<Vec<PastChange>, String> {
-    let document: Document = toml::from_str(text).map_err(|error| {
-        let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
-        let problem = error.message().lines().next().unwrap_or_default();
-        let problem = shortened(problem, LONGEST_PROBLEM);
-        format!("in line {line}, {problem}")
-    })?;
+    let document: Document = toml::from_str(text).map_err(|error| problem_in(text, &error))?;
     if !document.changes.is_sorted_by_key(|it| it.frame) {
         return Err("they are not in the order of their frames".to_owned());
     }
     Ok(document.changes.into_iter().map(PastChange::from).collect())
+}
+
+impl Edit {
+    /// An edit from TOML, as links write one: `change = { all-collider-restitutions = 0.5 }`.
+    ///
+    /// # Errors
+    /// One line on what is wrong with it.
+    pub fn from_toml(text: &str) -> Result<Self, String> {
+        let single: Single = toml::from_str(text).map_err(|error| problem_in(text, &error))?;
+        match single.change.into() {
+            Change::Edit(edit) => Ok(edit),
+            Change::FailedStep => Err("a failed step is no edit".to_owned()),
+        }
+    }
+}
+
+/// One line on what is wrong with a text.
+fn problem_in(text: &str, error: &toml::de::Error) -> String {
+    let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
+    let problem = error.message().lines().next().unwrap_or_default();
+    format!("in line {line}, {}", shortened(problem, LONGEST_PROBLEM))
+}
+
+/// A change of no particular time.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Single {
+    change: Written,
 }
 
 #[derive(Serialize, Deserialize)]

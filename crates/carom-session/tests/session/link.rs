@@ -466,3 +466,22 @@ fn a_broken_file_in_a_link_is_told_with_its_line() {
     let error = copied(&link).open().unwrap_err().to_string();
     assert!(error.starts_with("scene file:4: spheres[0].radius: must be"), "{error}");
 }
+
+#[test]
+fn an_edit_alone_is_written_as_in_links() {
+    let edit = Edit::from_toml("change = { all-collider-restitutions = 0.25 }").unwrap();
+    assert_eq!(edit, Edit::AllColliderRestitutions(0.25));
+    let text = "change = { sphere = { sphere = 3, changes = { velocity = [0.0, 5.0, 0.0] } } }";
+    let change = SphereChange { velocity: Some(DVec3::new(0.0, 5.0, 0.0)), ..Default::default() };
+    let edit = Edit::from_toml(text).unwrap();
+    assert_eq!(edit, Edit::Sphere(SphereId::from_number(3), Box::new(change)));
+}
+
+#[test]
+fn what_is_no_edit_is_refused_in_a_line_that_says_why() {
+    let refused = |text: &str| Edit::from_toml(text).unwrap_err();
+    assert!(refused("change = { explode = 1 }").contains("explode"));
+    assert!(refused("change = { all-collider-restitutions = \"high\" }").contains("line 1"));
+    assert_eq!(refused("change = \"failed-step\""), "a failed step is no edit");
+    assert!(refused("").contains("change"));
+}

@@ -21,7 +21,7 @@ use crate::chooser::{Chooser, Chosen};
 use crate::exports::Exports;
 use crate::help;
 use crate::host::{Host, Inbox, ReadFile};
-use crate::kept::Kept;
+use crate::kept::{Kept, Panels};
 use crate::layout::suit_fingers;
 use crate::link_dialog::LinkDialog;
 use crate::maze_screen::{MazeScreen, Wish};
@@ -98,6 +98,10 @@ impl App {
     pub fn new(host: &CreationContext, setup: Setup) -> Result<Self, String> {
         let state = host.wgpu_render_state.clone();
         let state = state.ok_or("the interface needs a host that draws with wgpu")?;
+        let mut kept = Kept::load(host.storage);
+        if setup.host.is_embedded() {
+            kept.layout.panels = Panels::NONE;
+        }
         let mut app = Self {
             context: host.egui_ctx.clone(),
             library: setup.library,
@@ -116,7 +120,7 @@ impl App {
             exports: Exports::default(),
             address: Address::default(),
             link: LinkDialog::default(),
-            kept: Kept::load(host.storage),
+            kept,
         };
         make_readable(&app.context);
         if app.host.has_coarse_pointer() {

@@ -1,0 +1,19 @@
+// What a browser must have; checked before it gets megabytes.
+
+import { canDraw } from "./graphics.js";
+import { Trouble } from "./trouble.js";
+
+/** Throws an error in words for people where the browser cannot run the module or draw. */
+export async function checkBrowser() {
+  if (typeof WebAssembly !== "object") {
+    throw new Trouble(
+      "Carom needs WebAssembly, which this browser does not have or has switched off.",
+    );
+  }
+  if (!(await canDraw())) {
+    throw new Trouble(
+      "Carom draws with WebGPU or WebGL 2, and this browser offers neither. " +
+        "A newer browser, or hardware acceleration switched on in its settings, may help.",
+    );
+  }
+}
