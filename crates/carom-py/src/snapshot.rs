@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use carom_scene::{Checkpoint, Palette, Scene};
+use carom_scene::{Checkpoint, CheckpointError, Palette, Scene};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -36,7 +36,11 @@ impl Snapshot {
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let written =
             py.detach(|| Checkpoint::bytes_of(&self.world, &self.described, &self.palette));
-        Ok(PyBytes::new(py, &written.map_err(|error| Failure::value("snapshot", error))?))
+        let written = written.map_err(|error| refused("snapshot", error))?;
+        PyBytes::new_with(py, written.len(), |bytes| {
+            bytes.copy_from_slice(&written);
+            Ok(())
+        })
     }
 
     /// The snapshot that `to_bytes` made these bytes of: a world that is restored from it goes on as the
@@ -45,12 +49,13 @@ impl Snapshot {
     /// A checksum notices damage, but not what was made to mislead: read only bytes that you trust.
     ///
     /// Raises:
+    ///     MemoryError: If there is not enough for the snapshot.
     ///     CaromError: For bytes that are no snapshot, of another version of Carom, or damaged.
     #[staticmethod]
     fn from_bytes(py: Python<'_>, data: &[u8]) -> PyResult<Self> {
         let read = py.detach(|| Checkpoint::from_bytes(data));
         let Checkpoint { snapshot, scene, palette } =
-            read.map_err(|error| Failure::value("data", error))?;
+            read.map_err(|error| refused("data", error))?;
         let time = snapshot.time();
         let (described, palette) = (Arc::new(scene), Arc::new(palette));
         Ok(Self { world: snapshot, described, palette, time })
@@ -65,5 +70,13 @@ impl Snapshot {
 
     fn __repr__(&self) -> String {
         format!("<carom.Snapshot at {} s>", self.time)
+    }
+}
+
+/// Why the bytes of `field` are refused, or there are none.
+fn refused(field: &str, error: CheckpointError) -> Failure {
+    match error {
+        CheckpointError::NoMemory => Failure::memory(error),
+        _ => Failure::value(field, error),
     }
 }

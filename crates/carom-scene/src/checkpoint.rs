@@ -1,5 +1,7 @@
 //! Checkpoints: worlds as bytes, to go on from on another day or in another process.
 
+use std::io::{self, Write};
+
 use carom::{ForceId, Snapshot};
 use thiserror::Error;
 use xxhash_rust::xxh3::xxh3_64;
@@ -58,6 +60,9 @@ pub enum CheckpointError {
         /// The version that wrote the bytes, and its layout.
         found: String,
     },
+    /// There is no memory for the bytes, or for what they say.
+    #[error("there is no memory for the snapshot")]
+    NoMemory,
     /// Some bytes are missing, or others than were written.
     #[error("this snapshot is damaged: bytes are missing, or others than were written")]
     Damaged,
@@ -79,7 +84,8 @@ impl Checkpoint {
     /// damage, but not what was made to mislead: read only bytes that you trust.
     ///
     /// # Errors
-    /// [`CheckpointError::ForeignForce`] for a force that is not one of Carom's.
+    /// [`CheckpointError::ForeignForce`] for a force that is not one of Carom's, and
+    /// [`CheckpointError::NoMemory`].
     pub fn bytes_of(
         snapshot: &Snapshot,
         scene: &Scene,
@@ -88,11 +94,12 @@ impl Checkpoint {
         if let Some(force) = snapshot.foreign_force() {
             return Err(CheckpointError::ForeignForce(force));
         }
-        let mut bytes = MAGIC.to_vec();
+        let mut bytes = Growing(MAGIC.to_vec());
         let parts = (VERSION, snapshot, scene.to_toml(), palette);
-        postcard::to_io(&parts, &mut bytes).map_err(|_| CheckpointError::Damaged)?;
-        bytes.extend(xxh3_64(&bytes).to_le_bytes());
-        Ok(bytes)
+        postcard::to_io(&parts, &mut bytes).map_err(|_| CheckpointError::NoMemory)?;
+        let checksum = xxh3_64(&bytes.0).to_le_bytes();
+        bytes.write_all(&checksum).map_err(|_| CheckpointError::NoMemory)?;
+        Ok(bytes.0)
     }
 
     /// The checkpoint that [`Self::to_bytes`] made these bytes of.
@@ -111,10 +118,28 @@ impl Checkpoint {
         if xxh3_64(written) != u64::from_le_bytes(*checksum) {
             return Err(CheckpointError::Damaged);
         }
+        // What they say takes as much memory as they do, or a little more.
+        let room = Vec::<u8>::new().try_reserve_exact(2 * bytes.len());
+        room.map_err(|_| CheckpointError::NoMemory)?;
         let (_, snapshot, scene, palette): (&str, Snapshot, String, Palette) =
             postcard::from_bytes(parts).map_err(damaged)?;
         let scene = Scene::from_toml(&scene, "snapshot").map_err(|_| CheckpointError::Damaged)?;
         let palette = palette.in_colors_of(&scene);
         Ok(Self { snapshot, scene, palette })
+    }
+}
+
+/// Bytes that grow as long as there is memory.
+struct Growing(Vec<u8>);
+
+impl Write for Growing {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.try_reserve(bytes.len()).map_err(|_| io::ErrorKind::OutOfMemory)?;
+        self.0.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }
