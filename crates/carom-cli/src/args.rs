@@ -76,6 +76,8 @@ pub enum Command {
     },
     /// Write a scene file to start from: balls fall into a box, with a comment on every part.
     New(New),
+    /// Make a scene file of a scene of Unity; lists what has no counterpart.
+    Import(Import),
     /// Check scene files; says what is wrong, and in which line.
     Check {
         /// Scene files; `-` is the standard input.
@@ -127,6 +129,32 @@ pub struct New {
     /// What the scene is called; the file is NAME.toml.
     pub name: PathBuf,
     /// Whether a file that is there is replaced.
+    #[command(flatten)]
+    pub replacing: Replacing,
+}
+
+/// Make scene files of scenes of Unity.
+#[derive(Debug, clap::Args)]
+pub struct Import {
+    /// A scene of Unity (.unity, saved as text), or a folder such as Assets: every scene in it.
+    pub path: PathBuf,
+    /// The scene file to write, without it the standard output; for a folder the folder to write into, without
+    /// it the current one.
+    #[arg(long, short, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// A file that says what the fields of other scripts than the course's mean.
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<PathBuf>,
+    /// Step rule; by default `discrete` where scripts move the spheres, as in the course, `exact` else.
+    #[arg(long, short, value_parser = RULES)]
+    pub rule: Option<String>,
+    /// Length of a frame in s; by default the fixed time step of the project, or 0.02.
+    #[arg(long, value_name = "S", value_parser = positive)]
+    pub frame_time: Option<f64>,
+    /// Time worth watching in s; 10 by default.
+    #[arg(long, value_name = "S", value_parser = positive)]
+    pub seconds: Option<f64>,
+    /// Whether files that are there are replaced.
     #[command(flatten)]
     pub replacing: Replacing,
 }

@@ -12,6 +12,7 @@ mod config;
 mod contact_totals;
 mod failure;
 mod gas;
+mod import;
 mod interruption;
 mod length;
 mod link;
@@ -71,6 +72,7 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
     match &command {
         Command::Scenes { json } => scenes::list(&library()?, *json),
         Command::New(new) => new::new(new),
+        Command::Import(it) => import::import(it),
         Command::Check { files } => scenes::check(files),
         Command::Show(show) => scenes::show(&library()?, show),
         Command::Run(run) => run::run(&library()?, run),

@@ -1,0 +1,87 @@
+//! Why a scene of Unity is not imported, and where in its files.
+
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use carom_scene::SceneError;
+use thiserror::Error;
+
+/// Why a scene is not imported.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ImportError {
+    /// A file or folder cannot be read.
+    #[error("cannot read {path}: {source}", path = .path.display())]
+    Unreadable {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A file says something that makes no sense.
+    #[error("{path}:{line}: {problem}", path = .path.display())]
+    Malformed {
+        /// Which file.
+        path: PathBuf,
+        /// Line in it, from 1.
+        line: usize,
+        /// What is wrong there.
+        problem: String,
+    },
+    /// The scene as a whole cannot be imported.
+    #[error("{path}: {problem}", path = .path.display())]
+    Refused {
+        /// Its file.
+        path: PathBuf,
+        /// Why.
+        problem: String,
+    },
+    /// What was read makes no scene that can run.
+    #[error("{path}: {source}", path = .path.display())]
+    Scene {
+        /// The file of the scene.
+        path: PathBuf,
+        /// What is wrong with the scene.
+        source: SceneError,
+    },
+}
+
+/// A line in a file.
+#[derive(Debug, Clone)]
+pub(crate) struct Place {
+    /// The file.
+    pub file: Rc<Path>,
+    /// Line in it, from 1.
+    pub line: usize,
+}
+
+impl Place {
+    /// The error that something is wrong at this place.
+    pub fn malformed(&self, problem: impl Into<String>) -> ImportError {
+        ImportError::Malformed {
+            path: self.file.to_path_buf(),
+            line: self.line,
+            problem: problem.into(),
+        }
+    }
+}
+
+/// Reads a text file of at most 64 MiB.
+pub(crate) fn read_text(path: &Path) -> Result<String, ImportError> {
+    const LARGEST: u64 = 64 << 20;
+    let unreadable = |source| ImportError::Unreadable { path: path.to_path_buf(), source };
+    let size = std::fs::metadata(path).map_err(unreadable)?.len();
+    if size > LARGEST {
+        let problem = "is larger than 64 MiB".to_owned();
+        return Err(ImportError::Refused { path: path.to_path_buf(), problem });
+    }
+    let bytes = std::fs::read(path).map_err(unreadable)?;
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
+        let place = Place { file: path.into(), line };
+        place.malformed(
+            "is no text: in Unity set Asset Serialization to Force Text, and save the scene anew",
+        )
+    })
+}

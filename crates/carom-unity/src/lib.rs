@@ -1,0 +1,39 @@
+//! Scenes of Unity to scenes of Carom.
+//!
+//! ```text
+//!  .unity, .prefab -> documents -> objects (instances of prefabs filled in) -> nodes (placed in the world)
+//!  .meta -> project (guid to file)                                               |
+//!  fields of scripts -> mapping -----------------------------------------------> Scene and omissions
+//! ```
+//!
+//! [`import`] reads one scene; a [`Project`] finds the files that it refers to. What has no counterpart is
+//! listed ([`Omission`]), broken files are refused with the line ([`ImportError`]).
+
+#![warn(clippy::unwrap_used)]
+
+mod build;
+mod class;
+mod document;
+mod error;
+mod graph;
+mod look;
+mod mapping;
+mod material;
+mod modification;
+mod parts;
+mod physics;
+mod pose;
+mod prefab;
+mod project;
+mod report;
+mod scene;
+mod script;
+mod shape;
+mod value;
+mod walls;
+
+pub use error::ImportError;
+pub use mapping::Mapping;
+pub use project::Project;
+pub use report::Omission;
+pub use scene::{Imported, Options, import};

@@ -1,0 +1,76 @@
+//! Cameras and lights.
+
+use carom_scene::scene::{Camera, Colors, Scene, Sun};
+
+use crate::document::Document;
+use crate::error::ImportError;
+use crate::graph::Node;
+use crate::pose::{mirrored, mirrored_rotation};
+use crate::report::{Omission, omit};
+use crate::value::Value;
+
+/// Takes a camera over, the first one or the main one.
+pub(crate) fn camera(
+    document: &Document,
+    node: &Node,
+    scene: &mut Scene,
+    report: &mut Vec<Omission>,
+) -> Result<bool, ImportError> {
+    let fields = &document.fields;
+    let number =
+        |name: &str, missing: f64| fields.get(name).map_or(Ok(missing), |value| value.number(name));
+    if scene.camera.is_some() && node.tag != "MainCamera" {
+        omit(report, &node.path, "Camera", "a scene has one camera");
+        return Ok(false);
+    }
+    if number("orthographic", 0.0)? != 0.0 {
+        omit(report, &node.path, "Camera", "is orthographic; it is drawn in perspective");
+    }
+    scene.camera = Some(Camera {
+        position: mirrored(node.pose.position),
+        rotation: mirrored_rotation(node.pose.rotation),
+        vertical_fov_degrees: number("field of view", 60.0)?,
+        near: number("near clip plane", 0.3)?,
+        far: number("far clip plane", 1000.0)?,
+    });
+    // A plain colour, not the sky.
+    if number("m_ClearFlags", 1.0)? == 2.0
+        && let Some(color) = fields.get("m_BackGroundColor")
+    {
+        let background = rgb(color)?;
+        scene.colors = Some(Colors { background: Some(background), ..Colors::default() });
+    }
+    Ok(true)
+}
+
+/// Takes a directional light over.
+pub(crate) fn light(
+    document: &Document,
+    node: &Node,
+    scene: &mut Scene,
+    report: &mut Vec<Omission>,
+) -> Result<bool, ImportError> {
+    let fields = &document.fields;
+    let number =
+        |name: &str, missing: f64| fields.get(name).map_or(Ok(missing), |value| value.number(name));
+    if number("m_Type", 1.0)? != 1.0 {
+        omit(report, &node.path, "Light", "only a directional light has a counterpart");
+        return Ok(false);
+    }
+    if scene.sun.is_some() {
+        omit(report, &node.path, "Light", "a scene has one directional light");
+        return Ok(false);
+    }
+    scene.sun = Some(Sun {
+        rotation: mirrored_rotation(node.pose.rotation),
+        color: fields.get("m_Color").map_or(Ok([1.0; 3]), rgb)?,
+        intensity: number("m_Intensity", 1.0)?,
+    });
+    Ok(true)
+}
+
+fn rgb(value: &Value) -> Result<[f64; 3], ImportError> {
+    // Beyond 1 are colours for displays of high dynamic range.
+    let color = value.numbers("the colour", ["r", "g", "b"])?;
+    Ok(color.map(|part| part.clamp(0.0, 1.0)))
+}
