@@ -16,6 +16,7 @@
 #![warn(clippy::unwrap_used)]
 
 mod bodies;
+mod budget;
 mod builtin;
 mod changed_file;
 mod check;
@@ -45,6 +46,7 @@ mod units;
 mod wording;
 mod world;
 
+pub use budget::Budget;
 pub use builtin::FILES as BUILT_IN_FILES;
 pub use changed_file::ChangedFile;
 pub use error::{Fault, SceneError};
