@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use carom_scene::Library;
+use carom_scene::{Budget, Library};
 use clap::{Parser, Subcommand};
 
 use crate::choice::{Changes, Choice, RULES};
@@ -26,6 +26,11 @@ pub struct Args {
     /// scenes last.
     #[arg(long, global = true, value_name = "DIR")]
     scenes: Vec<PathBuf>,
+    /// Most spheres that a scene file or a link may ask for; $CAROM_MAX_SPHERES, that of the
+    /// configuration file, or 2,000,000 for files and 200,000 for links, unless given.
+    #[arg(long, global = true, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=Budget::MOST.spheres))]
+    max_spheres: Option<u64>,
     /// What to do.
     #[cfg(not(feature = "view"))]
     #[command(subcommand)]
@@ -37,26 +42,51 @@ pub struct Args {
 }
 
 impl Args {
-    /// The folders with scenes, and what to do.
-    pub fn split(self) -> (Folders, Command) {
+    /// Where scenes come from, and what to do.
+    pub fn split(self) -> (Sources, Command) {
         #[cfg(not(feature = "view"))]
         let command = self.command;
         #[cfg(feature = "view")]
         let command = self.command.unwrap_or_else(|| Command::View(View::default()));
-        (Folders(self.scenes), command)
+        (Sources { folders: self.scenes, max_spheres: self.max_spheres }, command)
     }
 }
 
-/// Folders with scenes, as the command line names them.
-pub struct Folders(Vec<PathBuf>);
+/// Where scenes come from, and how many spheres they may ask for, as the command line says.
+pub struct Sources {
+    folders: Vec<PathBuf>,
+    max_spheres: Option<u64>,
+}
 
-impl Folders {
+impl Sources {
+    /// This budget, with as many spheres as the command line, the environment or a user's
+    /// configuration allows.
+    pub fn budget(&self, usual: Budget, config: &Config) -> Result<Budget, Failure> {
+        const VARIABLE: &str = "CAROM_MAX_SPHERES";
+        let from_environment = std::env::var(VARIABLE).ok().filter(|it| !it.is_empty());
+        let (most, source) = match (self.max_spheres, from_environment) {
+            (Some(most), _) => (Some(most), "--max-spheres"),
+            (None, Some(text)) => {
+                let most = text.parse().ok();
+                let wrong = || Failure::Usage(format!("${VARIABLE} is no number: {text}"));
+                (Some(most.ok_or_else(wrong)?), VARIABLE)
+            }
+            (None, None) => (config.max_spheres, "max_spheres of the configuration file"),
+        };
+        let spheres = most.unwrap_or(usual.spheres);
+        if !(1..=Budget::MOST.spheres).contains(&spheres) {
+            let most = Budget::MOST.spheres;
+            return Err(Failure::Usage(format!("{source} must be 1 to {most}, not {spheres}")));
+        }
+        Ok(Budget { spheres, ..usual })
+    }
+
     /// All scenes that can be found, those in the folders of a user's configuration, too.
     pub fn library(&self, config: &Config) -> Result<Library, Failure> {
-        let mut library = Library::new();
+        let mut library = Library::new().within(self.budget(Budget::FILE, config)?);
         let from_environment = std::env::var_os("CAROM_SCENES").unwrap_or_default();
         let from_environment = std::env::split_paths(&from_environment);
-        let folders = self.0.iter().cloned().chain(from_environment);
+        let folders = self.folders.iter().cloned().chain(from_environment);
         let folders = folders.chain(config.scenes.iter().cloned());
         for folder in folders.filter(|folder| !folder.as_os_str().is_empty()) {
             library.add_folder(&folder).map_err(|error| Failure::Usage(error.to_string()))?;
@@ -275,7 +305,8 @@ pub struct Bench {
     #[arg(long, value_name = "P", requires = "n", value_parser = positive)]
     pub packing_fraction: Option<f64>,
     /// Impacts in each run of a gas; two for each sphere, but 200,000 at least, unless given.
-    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "M")]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub impacts: Option<u64>,
     /// Runs of each measurement, whose median is taken.
     #[arg(long, value_name = "R", default_value_t = 3)]

@@ -1,6 +1,6 @@
 //! Which scene the command line chooses, and what is different in it.
 
-use carom_scene::{Library, Override, Scene, Source};
+use carom_scene::{Library, Override, Scene, SceneText, Source};
 
 use crate::failure::Failure;
 use crate::standard_input::{self, STANDARD};
@@ -60,7 +60,8 @@ impl Changes {
         let overrides = self.overrides(more)?;
         if scene == STANDARD {
             let text = standard_input::text()?;
-            let scene = Scene::from_toml_with(text, standard_input::NAME, &overrides)?;
+            let scene = SceneText::new(text, standard_input::NAME)?;
+            let scene = scene.within(library.budget()).scene(&overrides)?;
             return Ok((scene, Source::Registered));
         }
         Ok(library.find(scene, &overrides)?)

@@ -15,6 +15,8 @@ pub struct Config {
     pub scenes: Vec<PathBuf>,
     /// Address of the page that opens links.
     pub page: Option<String>,
+    /// Most spheres that a scene file or a link may ask for.
+    pub max_spheres: Option<u64>,
     /// Folder for pictures and films of the window.
     pub pictures: Option<PathBuf>,
 }

@@ -53,19 +53,17 @@ pub fn complain(line: &str) {
     writeln!(io::stderr(), "{}", legible(line)).ok();
 }
 
-/// A message as a terminal shows it: what files and links hold may be long, and must not steer the terminal.
-fn legible(message: &str) -> String {
-    message.lines().map(legible_line).collect::<Vec<_>>().join("\n")
-}
-
-fn legible_line(line: &str) -> String {
+/// A message in one line, as a terminal shows it: what files and links hold may be long, and must
+/// not steer the terminal.
+pub fn legible(message: &str) -> String {
     /// In characters.
     const LONGEST: usize = 4000;
+    let line = message.trim_end().lines().collect::<Vec<_>>().join(" ");
     let mut text = String::new();
     for character in line.chars().take(LONGEST) {
         match character {
             '\t' => text.push(character),
-            _ if character.is_control() => text.extend(character.escape_unicode()),
+            _ if steers(character) => text.extend(character.escape_unicode()),
             _ => text.push(character),
         }
     }
@@ -73,6 +71,14 @@ fn legible_line(line: &str) -> String {
         0 => text,
         left => format!("{text}... and {left} characters more"),
     }
+}
+
+/// Whether a character does something to what shows it: controls, and marks that turn the
+/// direction of the text after them (Unicode Standard Annex 9).
+pub fn steers(character: char) -> bool {
+    let turns = matches!(character,
+        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    turns || character.is_control() || matches!(character, '\u{2028}' | '\u{2029}')
 }
 
 impl From<SceneError> for Failure {
@@ -152,8 +158,9 @@ mod tests {
 
     #[test]
     fn what_would_steer_a_terminal_is_written_out_and_what_is_long_is_cut() {
-        assert_eq!(legible("a\u{1b}[31mb\u{9b}2J\nc"), "a\\u{1b}[31mb\\u{9b}2J\nc");
-        let long = legible(&("x".repeat(200_000) + "\nend"));
-        assert!(long.ends_with("x... and 196000 characters more\nend") && long.len() < 4100);
+        assert_eq!(legible("a\u{1b}[31mb\u{9b}2J\nc"), "a\\u{1b}[31mb\\u{9b}2J c");
+        assert_eq!(legible("a\u{202e}b"), "a\\u{202e}b");
+        let long = legible(&"x".repeat(200_000));
+        assert!(long.ends_with("x... and 196000 characters more") && long.len() < 4100);
     }
 }

@@ -37,7 +37,7 @@ mod zone_totals;
 
 use std::ffi::OsString;
 
-use carom_scene::{Library, Scene};
+use carom_scene::{Budget, Library, Scene};
 use clap::Parser;
 
 use args::{Args, Command};
@@ -47,11 +47,19 @@ use failure::Failure;
 /// Does what `arguments` say, the name of the program first, and returns with which code the
 /// program is to end. `registered` are scenes that are found by name besides those on the disk.
 pub fn main(arguments: impl IntoIterator<Item = OsString>, registered: Vec<Scene>) -> u8 {
-    let result = match Args::try_parse_from(arguments) {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let result = match Args::try_parse_from(&arguments) {
         Ok(args) => obey(args, registered),
         Err(refusal) => {
-            // If the output is gone, the text is lost.
-            refusal.print().ok();
+            let text = refusal.render().to_string();
+            let steers = |it: &OsString| it.to_string_lossy().contains(failure::steers);
+            if refusal.use_stderr() && arguments.iter().any(steers) {
+                // It may quote such an argument, which may come from a link.
+                text.lines().for_each(failure::complain);
+            } else {
+                // If the output is gone, the text is lost.
+                refusal.print().ok();
+            }
             return refusal.exit_code().try_into().unwrap_or(failure::USAGE);
         }
     };
@@ -62,10 +70,10 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, registered: Vec<Scene
 }
 
 fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
-    let (folders, command) = args.split();
+    let (sources, command) = args.split();
     let config = Config::load()?;
     let library = || -> Result<Library, Failure> {
-        let mut library = folders.library(&config)?;
+        let mut library = sources.library(&config)?;
         registered.into_iter().try_for_each(|scene| library.register(scene))?;
         Ok(library)
     };
@@ -73,9 +81,9 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
         Command::Scenes { json } => scenes::list(&library()?, *json),
         Command::New(new) => new::new(new),
         Command::Import(it) => import::import(it),
-        Command::Check { files } => scenes::check(files),
+        Command::Check { files } => scenes::check(files, sources.budget(Budget::FILE, &config)?),
         Command::Show(show) => scenes::show(&library()?, show),
-        Command::Run(run) => run::run(&library()?, run),
+        Command::Run(run) => run::run(&library()?, run, sources.budget(Budget::LINK, &config)?),
         Command::Link(link) => link::link(&library()?, link, &config),
         Command::Verify(verify) => verify::verify(verify),
         Command::Compare(compare) => compare::compare(&library()?, compare),

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use carom_scene::{Library, SceneText, Source};
+use carom_scene::{Budget, Library, SceneText, Source};
 use carom_session::{LOCAL_PAGE, LinkSource, Replay};
 
 use crate::choice::{Choice, RULES};
@@ -87,10 +87,11 @@ pub fn page(given: Option<&str>, config: &Config) -> Result<String, Failure> {
     Ok(page)
 }
 
-/// What a link leads to, at the beginning of its run, and how many frames of it to take.
-pub fn begin(link: &str) -> Result<(Replay, u64), Failure> {
+/// What a link leads to, at the beginning of its run, and how many frames of it to take. Its
+/// scene may ask for `budget`.
+pub fn begin(link: &str, budget: Budget) -> Result<(Replay, u64), Failure> {
     let link = read(link)?;
-    let scene = link.open()?;
+    let scene = link.open_within(budget)?;
     let (duration, h) = (scene.simulation.duration, scene.simulation.frame_time);
     let replay = Replay::of(&link, scene)?;
     let frames = match link.time() {

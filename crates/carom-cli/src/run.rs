@@ -9,7 +9,7 @@ use std::time::Duration;
 use carom::{StopRequest, World};
 use carom_scene::recording::{ImpactTable, LedgerTable, RecordingError, Trajectory};
 use carom_scene::scene::Rule;
-use carom_scene::{ChangedFile, Library, Source};
+use carom_scene::{Budget, ChangedFile, Library, Source};
 use carom_session::Replay;
 
 use crate::args::Run;
@@ -20,19 +20,20 @@ use crate::progress::Progress;
 use crate::standard_input::STANDARD;
 use crate::summary::{Observer, Summary};
 
-/// Runs a scene and prints what became of it; again and again, if its file is watched.
-pub fn run(library: &Library, args: &Run) -> Result<(), Failure> {
+/// Runs a scene and prints what became of it; again and again, if its file is watched. What a link
+/// leads to may ask for `links`.
+pub fn run(library: &Library, args: &Run, links: Budget) -> Result<(), Failure> {
     let series = args.out.as_deref().into_iter().flat_map(series);
     let tables = [&args.out, &args.impacts, &args.ledger].into_iter().flatten().cloned();
     let files: Vec<PathBuf> = tables.chain(series).collect();
     args.replacing.check(files.iter().map(PathBuf::as_path))?;
     let interrupted = interruption()?;
     if !args.watch {
-        return once(library, args, &interrupted);
+        return once(library, args, links, &interrupted);
     }
     let mut file = ChangedFile::new(&watched(library, args)?);
     loop {
-        match once(library, args, &interrupted) {
+        match once(library, args, links, &interrupted) {
             Err(failure @ (Failure::Interrupted | Failure::OutputClosed)) => return Err(failure),
             Err(failure) => _ = failure.report(),
             Ok(()) => {}
@@ -72,9 +73,14 @@ fn watched(library: &Library, args: &Run) -> Result<PathBuf, Failure> {
     }
 }
 
-fn once(library: &Library, args: &Run, interrupted: &Arc<AtomicBool>) -> Result<(), Failure> {
+fn once(
+    library: &Library,
+    args: &Run,
+    links: Budget,
+    interrupted: &Arc<AtomicBool>,
+) -> Result<(), Failure> {
     let (mut replay, frames) = match (&args.link, &args.scene) {
-        (Some(link), _) => link::begin(link)?,
+        (Some(link), _) => link::begin(link, links)?,
         // Without a link there is a scene: the command line demands it.
         (None, scene) => begin(library, scene.as_deref().unwrap_or_default(), args)?,
     };
@@ -104,6 +110,7 @@ fn once(library: &Library, args: &Run, interrupted: &Arc<AtomicBool>) -> Result<
     let finished = outputs.finish();
     result?;
     finished?;
+    check_energy(replay.world())?;
     let summary = Summary::new(&replay, observer);
     if is_standard(args.out.as_deref()) {
         summary.print(&mut io::stderr().lock(), args.json)?;
@@ -111,6 +118,17 @@ fn once(library: &Library, args: &Run, interrupted: &Arc<AtomicBool>) -> Result<
         summary.print(&mut io::stdout().lock(), args.json)?;
     }
     if interrupted.load(Ordering::Relaxed) { Err(Failure::Interrupted) } else { Ok(()) }
+}
+
+/// Refuses to sum up a run whose numbers have grown too large for a computer.
+fn check_energy(world: &World) -> Result<(), Failure> {
+    if world.total_energy().is_finite() {
+        return Ok(());
+    }
+    let time = world.time();
+    let problem =
+        format!("at {time} s, the energy is not finite: numbers of the scene are too large");
+    Err(Failure::Fault(problem))
 }
 
 /// A scene at its beginning, and how many frames of it to take.

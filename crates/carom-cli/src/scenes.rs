@@ -3,11 +3,11 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use carom_scene::{Entry, Fault, Library, Scene};
+use carom_scene::{Budget, Entry, Library, Scene, SceneText};
 use serde_json::json;
 
 use crate::args::Show;
-use crate::failure::{Failure, complain};
+use crate::failure::{Failure, complain, legible};
 use crate::standard_input::{self, STANDARD};
 
 /// Lists every scene found.
@@ -20,9 +20,10 @@ pub fn list(library: &Library, json: bool) -> Result<(), Failure> {
         return Ok(());
     }
     for Entry { name, source, scene } in &entries {
+        let (name, source) = (legible(name), legible(&source.to_string()));
         match scene {
             Ok(scene) => {
-                let title = if scene.title.is_empty() { name } else { &scene.title };
+                let title = if scene.title.is_empty() { &name } else { &scene.title };
                 writeln!(out, "{name:<12} {title}")?;
                 if !scene.description.is_empty() {
                     writeln!(out, "{:12} {}", "", scene.description)?;
@@ -30,7 +31,9 @@ pub fn list(library: &Library, json: bool) -> Result<(), Failure> {
                 let origin = if scene.origin.is_empty() { "" } else { " - " };
                 writeln!(out, "{:12} [{source}{origin}{}]", "", scene.origin)?;
             }
-            Err(error) => writeln!(out, "{name:<12} cannot be read: {error}")?,
+            Err(error) => {
+                writeln!(out, "{name:<12} cannot be read: {}", legible(&error.to_string()))?
+            }
         }
         writeln!(out)?;
     }
@@ -53,27 +56,31 @@ fn as_json(entry: &Entry) -> serde_json::Value {
 }
 
 /// Checks scene files; reports every broken one before the command fails.
-pub fn check(files: &[PathBuf]) -> Result<(), Failure> {
+pub fn check(files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let mut broken = 0;
     for file in files {
         let is_standard = file.as_os_str() == STANDARD;
         let name = if is_standard { standard_input::NAME.into() } else { file.to_string_lossy() };
-        let scene = if is_standard {
-            Scene::from_toml(standard_input::text()?, &name)
+        let text = if is_standard {
+            SceneText::new(standard_input::text()?, &name)
         } else {
-            Scene::from_file(file, &[])
+            SceneText::from_file_within(file, budget)
         };
-        match scene {
-            Ok(scene) => writeln!(out, "{name}: ok, \"{}\"", scene.name)?,
+        match text.and_then(|text| text.within(budget).scene(&[])) {
+            Ok(scene) => writeln!(out, "{}: ok, \"{}\"", legible(&name), scene.name)?,
             Err(error) => {
                 let faults = if is_standard {
-                    Scene::faults(standard_input::text()?, &name)
+                    Scene::faults(standard_input::text()?, &name, budget)
                 } else {
-                    Scene::faults_of_file(file).unwrap_or_default()
+                    Scene::faults_of_file(file, budget).unwrap_or_default()
                 };
                 // What a single fault says is the error itself.
-                complain(&if faults.len() > 1 { lines(&faults) } else { error.to_string() });
+                if faults.len() > 1 {
+                    faults.iter().for_each(|fault| complain(&fault.to_string()));
+                } else {
+                    complain(&error.to_string());
+                }
                 broken += 1;
             }
         }
@@ -82,11 +89,6 @@ pub fn check(files: &[PathBuf]) -> Result<(), Failure> {
         0 => Ok(()),
         _ => Err(Failure::Fault(format!("{broken} of {} scene files are broken", files.len()))),
     }
-}
-
-/// Each on a line of its own.
-fn lines(faults: &[Fault]) -> String {
-    faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// Prints a scene as TOML.

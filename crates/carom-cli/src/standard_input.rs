@@ -1,7 +1,9 @@
 //! What a command reads from the standard input, where `-` names it.
 
-use std::io;
+use std::io::{self, Read};
 use std::sync::OnceLock;
+
+use carom_scene::Budget;
 
 use crate::failure::Failure;
 
@@ -17,7 +19,12 @@ pub fn text() -> Result<&'static str, Failure> {
     if let Some(text) = TEXT.get() {
         return Ok(text);
     }
-    let text = io::read_to_string(io::stdin())
-        .map_err(|error| Failure::Fault(format!("cannot read the standard input: {error}")))?;
+    let most = Budget::FILE.bytes;
+    let mut text = String::new();
+    let read = io::stdin().lock().take(most + 1).read_to_string(&mut text);
+    read.map_err(|error| Failure::Fault(format!("cannot read the standard input: {error}")))?;
+    if text.len() as u64 > most {
+        return Err(Failure::Fault(format!("{NAME} is longer than {most} bytes")));
+    }
     Ok(TEXT.get_or_init(|| text))
 }

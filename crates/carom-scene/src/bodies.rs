@@ -3,13 +3,19 @@
 use carom::{Friction, Mass, Pose, Sides, World};
 
 use crate::error::{Problem, SceneError};
-use crate::requirement::check_positive;
+use crate::requirement::{check, check_positive};
 use crate::scene::values::{quaternion, vector};
 use crate::scene::{Collider, Emitter, Shape, Side, Sphere};
 
 /// Adds a sphere written at `path`.
 pub(crate) fn add_sphere(world: &mut World, sphere: &Sphere, path: &str) -> Result<(), Problem> {
     let sphere = self::sphere(sphere, path)?;
+    let energy = sphere.kilograms() * sphere.velocity.length_squared();
+    // What is not finite by itself, the physics names.
+    let is_finite = energy.is_finite() || !sphere.velocity.is_finite();
+    check(is_finite || !sphere.kilograms().is_finite(), &format!("{path}.velocity"), || {
+        "is too large: the kinetic energy is no number that a computer holds".into()
+    })?;
     world.add_sphere(sphere).map_err(|error| Problem::of_physics(path, error))?;
     Ok(())
 }

@@ -84,13 +84,15 @@ fn colors(scene: &Scene) -> Vec<(String, Color)> {
     colors
 }
 
-/// Refuses a touching distance that is no longer small against the smallest sphere.
+/// Refuses a touching distance that is none, or, where it is used, no longer small against the smallest sphere.
 fn check_tolerance(scene: &Scene) -> Result<(), Problem> {
     let spheres = scene.spheres.iter().chain(scene.generators.iter().filter_map(Generator::sphere));
     let spheres = spheres.chain(scene.emitters.iter().map(|emitter| &emitter.sphere));
     let radii = spheres.filter_map(|s| s.radius.or(s.diameter.map(|diameter| 0.5 * diameter)));
     let smallest = radii.filter(|radius| *radius > 0.0).fold(f64::INFINITY, f64::min);
     let tolerance = scene.simulation.bisect.tolerance;
+    // Another rule is one word away, so it has to make sense under each.
+    check_positive(tolerance, "simulation.bisect.tolerance")?;
     let is_used = scene.simulation.rule == Rule::Bisect;
     check(!is_used || tolerance <= 0.01 * smallest, "simulation.bisect.tolerance", || {
         format!("must be at most 1/100 of the smallest radius, {smallest}, not {tolerance}")

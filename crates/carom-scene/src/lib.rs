@@ -16,6 +16,7 @@
 #![warn(clippy::unwrap_used)]
 
 mod bodies;
+mod budget;
 mod builtin;
 mod changed_file;
 mod check;
@@ -47,6 +48,7 @@ mod units;
 mod wording;
 mod world;
 
+pub use budget::Budget;
 pub use builtin::FILES as BUILT_IN_FILES;
 pub use changed_file::ChangedFile;
 #[cfg(feature = "checkpoint")]

@@ -3,11 +3,13 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use crate::budget::Budget;
 use crate::builtin;
 use crate::error::{SceneError, nearest};
 use crate::load::Heading;
 use crate::overrides::Override;
 use crate::scene::Scene;
+use crate::text::SceneText;
 
 /// Where a scene comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -49,6 +51,8 @@ impl std::fmt::Display for Source {
 pub struct Library {
     registered: Vec<Scene>,
     folders: Vec<PathBuf>,
+    /// How much scenes may ask for.
+    budget: Budget,
 }
 
 /// A scene as it is listed: readable, or with what is wrong with it.
@@ -66,6 +70,20 @@ impl Library {
     /// The built-in scenes.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// This library, where scenes may ask for this; [`Budget::FILE`] unless given.
+    pub fn within(self, budget: Budget) -> Self {
+        Self { budget, ..self }
+    }
+
+    /// How much scenes may ask for.
+    pub fn budget(&self) -> Budget {
+        self.budget
+    }
+
+    fn read(&self, path: &Path, overrides: &[Override]) -> Result<Scene, SceneError> {
+        SceneText::from_file_within(path, self.budget)?.scene(overrides)
     }
 
     /// Adds the scene files (`*.toml`) of a folder.
@@ -114,7 +132,7 @@ impl Library {
         }
         for folder in &self.folders {
             for path in files_in(folder)? {
-                let scene = Scene::from_file(&path, &[]);
+                let scene = self.read(&path, &[]);
                 let name = heading_of(&path).name;
                 entries.push(Entry { name, source: Source::File(path), scene });
             }
@@ -140,7 +158,7 @@ impl Library {
     pub fn find(&self, name: &str, overrides: &[Override]) -> Result<(Scene, Source), SceneError> {
         if is_path(name) {
             let path = Path::new(name);
-            let scene = Scene::from_file(path, overrides)?;
+            let scene = self.read(path, overrides)?;
             return Ok((scene, Source::File(path.to_owned())));
         }
         let wanted = name.to_lowercase();
@@ -161,7 +179,7 @@ impl Library {
             for path in files_in(folder)? {
                 let own = heading_of(&path);
                 if is_wanted(&own) {
-                    return Ok((Scene::from_file(&path, overrides)?, Source::File(path)));
+                    return Ok((self.read(&path, overrides)?, Source::File(path)));
                 }
                 known.extend([own.name, own.title]);
             }
@@ -169,13 +187,14 @@ impl Library {
         for (file, text) in builtin::FILES {
             let own = Heading::of(text);
             if is_wanted(&own) {
-                return Ok((Scene::from_toml_with(text, file, overrides)?, Source::BuiltIn));
+                let text = SceneText::new(text, file)?.within(self.budget);
+                return Ok((text.scene(overrides)?, Source::BuiltIn));
             }
             known.extend([own.name, own.title]);
         }
         let file = PathBuf::from(format!("{name}.toml"));
         if !name.is_empty() && file.is_file() {
-            return Ok((Scene::from_file(&file, overrides)?, Source::File(file)));
+            return Ok((self.read(&file, overrides)?, Source::File(file)));
         }
         let beside = files_in(Path::new(".")).unwrap_or_default();
         let names = beside.iter().filter_map(|path| path.file_name()?.to_str());

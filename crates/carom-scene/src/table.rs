@@ -2,6 +2,7 @@
 
 use toml::{Table, Value};
 
+use crate::budget::Budget;
 use crate::error::{Problem, is_much_like, nearest};
 use crate::parameters;
 use crate::scene::{Scene, Simulation};
@@ -11,8 +12,8 @@ use crate::world;
 /// The field of a scene file that names the files it includes.
 pub(crate) const INCLUDE: &str = "include";
 
-/// A scene from its table, or the first problem with it.
-pub(crate) fn read(mut table: Table) -> Result<Scene, Problem> {
+/// A scene within this budget from its table, or the first problem with it.
+pub(crate) fn read(mut table: Table, budget: Budget) -> Result<Scene, Problem> {
     parameters::resolve(&mut table)?;
     let scene: Scene = serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
         let path = error.path().to_string();
@@ -32,7 +33,7 @@ pub(crate) fn read(mut table: Table) -> Result<Scene, Problem> {
         let problem = with_names(problem, &path, [parameters::TABLE, INCLUDE]);
         Problem::new(path, problem)
     })?;
-    world::build(&scene)?;
+    world::build(&scene, budget)?;
     Ok(scene)
 }
 

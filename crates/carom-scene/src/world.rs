@@ -3,6 +3,7 @@
 use carom::{Sides, World};
 
 use crate::bodies::{add_sphere, collider, emitter};
+use crate::budget::Budget;
 use crate::check::{check_numbers, check_texts};
 use crate::error::Problem;
 use crate::generate;
@@ -18,18 +19,18 @@ impl Scene {
     /// A description of the field that makes no sense. Scenes that were read from a file or text
     /// have been checked; only one that was put together in code can fail.
     pub fn world(&self) -> Result<World, crate::SceneError> {
-        build(self).map_err(|problem| problem.in_code(&self.name).into())
+        build(self, Budget::MOST).map_err(|problem| problem.in_code(&self.name).into())
     }
 }
 
-/// The world at the start of a scene, or the first problem with it.
-pub(crate) fn build(scene: &Scene) -> Result<World, Problem> {
+/// The world at the start of a scene within this budget, or the first problem with it.
+pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
     if scene.name.trim().is_empty() {
         return Err(Problem::new("name", "must not be empty"));
     }
     check_texts(scene)?;
     check_numbers(scene)?;
-    generate::check_total(scene)?;
+    budget.check(scene)?;
     let mut world =
         World::new(scene.settings()).map_err(|error| settings_problem(&scene.simulation, error))?;
     add_forces(&mut world, &scene.forces)?;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use carom_scene::{ChangedFile, Scene, SceneText};
+use carom_scene::{Budget, ChangedFile, Scene, SceneText};
 use tempfile::TempDir;
 
 /// Files of these names and texts in a folder of their own.
@@ -103,7 +103,7 @@ fn all_faults_of_all_files_are_told() {
     let floor = FLOOR.replace("half-space", "half-plane");
     let balls = BALLS.replace("radius = 0.5", "radius = -1").replace("name = 'own'", "nam = 'own'");
     let folder = folder(&[("floor.toml", &floor), ("scenes/balls.toml", &balls)]);
-    let faults = Scene::faults_of_file(&scene_in(&folder)).unwrap();
+    let faults = Scene::faults_of_file(&scene_in(&folder), Budget::FILE).unwrap();
     let told: Vec<_> = faults.iter().map(|it| (it.line.unwrap(), &*it.field)).collect();
     assert_eq!(
         told,

@@ -158,6 +158,22 @@ fn between_frames_balls_fly_on() {
 }
 
 /// The error that a table with these rows ends in.
+#[test]
+fn a_table_without_rows_or_with_half_a_line_is_no_recording() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.csv");
+    let (scene, _) = Library::new().find("tutorial1", &[]).unwrap();
+    let opened = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        Replay::open(&path, &scene).and_then(|mut replay| replay.next_frame())
+    };
+    let header = "t,ball,x,y,z,vx,vy,vz\n";
+    assert!(matches!(opened(header), Err(ReplayError::Empty { .. })));
+    let row = "1e0,0,1,2,3,4,5,6.25";
+    assert!(matches!(opened(&format!("{header}{row}")), Err(ReplayError::CutShort { .. })));
+    assert!(opened(&format!("{header}{row}\n")).unwrap().is_some());
+}
+
 fn refusal(header: &str, rows: &[&str]) -> ReplayError {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(FILE);

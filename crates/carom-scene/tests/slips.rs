@@ -1,9 +1,9 @@
 //! What newcomers write that is not quite a scene, and what they read then: one fault for one slip.
 
-use carom_scene::{Scene, SceneText};
+use carom_scene::{Budget, Scene, SceneText};
 
 fn told(text: &str) -> Vec<String> {
-    let faults = Scene::faults(&format!("name = 'x'\n{text}"), "x.toml");
+    let faults = Scene::faults(&format!("name = 'x'\n{text}"), "x.toml", Budget::FILE);
     faults.iter().map(ToString::to_string).collect()
 }
 

@@ -11,7 +11,6 @@ use std::borrow::Cow;
 use carom::{DQuat, DVec3, World};
 
 use self::count::check_count;
-pub(crate) use self::count::check_total;
 use self::place::Place;
 use crate::bodies::{add_sphere, sphere};
 use crate::error::Problem;

@@ -72,6 +72,10 @@ impl Format for CsvTable {
         Ok(())
     }
 
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.flush()
+    }
+
     fn finish(mut self: Box<Self>) -> io::Result<()> {
         // Without a frame there is nothing that could turn.
         self.begin(|| false)?;

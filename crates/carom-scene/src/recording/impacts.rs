@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use carom::{BodyPair, Impact};
 
 use super::csv_file::{csv_file, digits};
+use super::each_second::EachSecond;
 use super::error::{RecordingError, unwritable};
 
 /// Columns: time \[s\]; kind and number of body 1 (`sphere` or `collider`) and number of body 2, a
@@ -35,6 +36,7 @@ const HEADER: [&str; 15] = [
 pub struct ImpactTable {
     path: PathBuf,
     writer: csv::Writer<File>,
+    clock: EachSecond,
 }
 
 impl ImpactTable {
@@ -44,7 +46,7 @@ impl ImpactTable {
     /// For a place that cannot be written to.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
         let writer = csv_file(path, &HEADER).map_err(|source| unwritable(path, source))?;
-        Ok(Self { path: path.to_owned(), writer })
+        Ok(Self { path: path.to_owned(), writer, clock: EachSecond::new() })
     }
 
     /// Writes the impacts of a step that started at `start` \[s\].
@@ -53,7 +55,9 @@ impl ImpactTable {
     /// If the disk is full or gone.
     pub fn write(&mut self, start: f64, impacts: &[Impact]) -> Result<(), RecordingError> {
         let result = impacts.iter().try_for_each(|impact| self.write_row(start, impact));
-        result.map_err(|source| unwritable(&self.path, source))
+        let Self { path, writer, clock } = self;
+        let result = result.and_then(|()| clock.flush(|| writer.flush()));
+        result.map_err(|source| unwritable(path, source))
     }
 
     fn write_row(&mut self, start: f64, impact: &Impact) -> io::Result<()> {

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use carom::{LedgerEntry, StepReport};
 
 use super::csv_file::{csv_file, digits};
+use super::each_second::EachSecond;
 use super::error::{RecordingError, unwritable};
 use super::impacts::impact_fields;
 
@@ -50,6 +51,7 @@ const HEADER: [&str; 28] = [
 pub struct LedgerTable {
     path: PathBuf,
     writer: csv::Writer<File>,
+    clock: EachSecond,
     /// Groups of the steps written so far.
     groups: usize,
 }
@@ -61,7 +63,7 @@ impl LedgerTable {
     /// For a place that cannot be written to.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
         let writer = csv_file(path, &HEADER).map_err(|source| unwritable(path, source))?;
-        Ok(Self { path: path.to_owned(), writer, groups: 0 })
+        Ok(Self { path: path.to_owned(), writer, clock: EachSecond::new(), groups: 0 })
     }
 
     /// Writes the impacts of a step that started at `start` \[s\].
@@ -77,7 +79,8 @@ impl LedgerTable {
             written.map_err(|source| unwritable(&self.path, source))?;
         }
         self.groups += report.groups.len();
-        Ok(())
+        let Self { path, writer, clock, .. } = self;
+        clock.flush(|| writer.flush()).map_err(|source| unwritable(path, source))
     }
 
     /// Completes the file.

@@ -4,7 +4,9 @@
 
 mod csv_file;
 mod csv_table;
+mod each_second;
 mod error;
+mod failing_once;
 mod format;
 mod impacts;
 mod ledger;
@@ -25,6 +27,7 @@ pub use ledger::LedgerTable;
 pub use playback::Playback;
 pub use replay::{LineProblem, Replay, ReplayBall, ReplayError, ReplayFrame};
 
+use each_second::EachSecond;
 use error::unwritable;
 use format::Format;
 
@@ -50,6 +53,7 @@ use format::Format;
 pub struct Trajectory {
     path: PathBuf,
     format: Box<dyn Format>,
+    clock: EachSecond,
 }
 
 impl std::fmt::Debug for Trajectory {
@@ -72,13 +76,13 @@ impl Trajectory {
             _ => return Err(RecordingError::UnknownFormat { path: path.to_owned() }),
         };
         let format = format.map_err(|source| unwritable(path, source))?;
-        Ok(Self { path: path.to_owned(), format })
+        Ok(Self { path: path.to_owned(), format, clock: EachSecond::new() })
     }
 
     /// Writes CSV to `out`, which errors call `name`.
     pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Self {
         let format = Box::new(csv_table::CsvTable::new(Box::new(out)));
-        Self { path: PathBuf::from(name), format }
+        Self { path: PathBuf::from(name), format, clock: EachSecond::new() }
     }
 
     /// Writes the spheres as they are now, in order of their numbers.
@@ -86,15 +90,18 @@ impl Trajectory {
     /// # Errors
     /// If the disk is full or gone.
     pub fn write(&mut self, world: &World) -> Result<(), RecordingError> {
-        self.format.write(world).map_err(|source| unwritable(&self.path, source))
+        let Self { path, format, clock } = self;
+        let written = format.write(world).and_then(|()| clock.flush(|| format.flush()));
+        written.map_err(|source| unwritable(path, source))
     }
 
-    /// Completes the file. Until then it may not be readable.
+    /// Completes the file. Until then an archive is not readable; tables and series are, but for
+    /// their last second.
     ///
     /// # Errors
     /// If the disk is full or gone.
     pub fn finish(self) -> Result<(), RecordingError> {
-        let Self { path, format } = self;
+        let Self { path, format, .. } = self;
         format.finish().map_err(|source| unwritable(&path, source))
     }
 }

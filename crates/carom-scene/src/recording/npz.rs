@@ -14,6 +14,7 @@ use carom::World;
 use npyz::WriterBuilder;
 use zip::write::SimpleFileOptions;
 
+use super::failing_once::FailingOnce;
 use super::format::Format;
 use super::rotation::{angular_velocity, orientation};
 
@@ -109,13 +110,18 @@ impl Format for Npz {
         Ok(())
     }
 
+    fn flush(&mut self) -> io::Result<()> {
+        // Its columns lie in files without names until the end.
+        Ok(())
+    }
+
     fn finish(self: Box<Self>) -> io::Result<()> {
         let rows = self.rows();
         let Self {
             file, time, ball, position, velocity, rotation, frame_start, times, known, ..
         } = *self;
 
-        let mut zip = zip::ZipWriter::new(BufWriter::new(file));
+        let mut zip = zip::ZipWriter::new(FailingOnce::new(BufWriter::new(file)));
         for column in [time, position, velocity] {
             append(&mut zip, column, rows, f64::from_le_bytes)?;
         }

@@ -1,7 +1,7 @@
 //! Trajectories in CSV files, read again frame by frame.
 
 use std::fs::File;
-use std::io;
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use carom::{Boundary, DQuat, DVec3, World};
@@ -33,6 +33,18 @@ pub enum ReplayError {
         path: PathBuf,
         /// Its name.
         column: &'static str,
+    },
+    /// There is no frame in it.
+    #[error("{path}: the table has no rows, so there is nothing to play")]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Its last line has no end.
+    #[error("{path}: the last line is cut short; was the run stopped while it was written?")]
+    CutShort {
+        /// The file.
+        path: PathBuf,
     },
     /// A line makes no sense.
     #[error("{path}:{line}: {problem}")]
@@ -200,10 +212,15 @@ impl Replay {
     ///
     /// # Errors
     /// [`ReplayError::Unreadable`] and [`ReplayError::MissingColumn`] for what is no recording,
+    /// [`ReplayError::CutShort`] for one whose last line has no end,
     /// [`ReplayError::Scene`] for a scene that makes no sense.
     pub fn open(path: &Path, scene: &Scene) -> Result<Self, ReplayError> {
         let unreadable = |source| ReplayError::Unreadable { path: path.to_owned(), source };
-        let mut reader = csv::Reader::from_reader(File::open(path).map_err(unreadable)?);
+        let mut file = File::open(path).map_err(unreadable)?;
+        if !ends_with_a_line(&mut file).map_err(unreadable)? {
+            return Err(ReplayError::CutShort { path: path.to_owned() });
+        }
+        let mut reader = csv::Reader::from_reader(file);
         let header = reader.headers().map_err(|error| broken(path, error))?.clone();
         let missing = |column| ReplayError::MissingColumn { path: path.to_owned(), column };
         let columns = Columns::of(&header).map_err(missing)?;
@@ -230,11 +247,15 @@ impl Replay {
     ///
     /// # Errors
     /// [`ReplayError::Line`] for a line that makes no sense, or a ball that is not in the scene;
+    /// [`ReplayError::Empty`] where there is none at all;
     /// [`ReplayError::Unreadable`] if the disk is gone.
     pub fn next_frame(&mut self) -> Result<Option<ReplayFrame>, ReplayError> {
         if !self.has_begun {
             self.has_begun = true;
             self.next = self.read_row()?;
+            if self.next.is_none() {
+                return Err(ReplayError::Empty { path: self.path.clone() });
+            }
         }
         let Some(mut last) = self.next.take() else {
             return Ok(None);
@@ -281,6 +302,20 @@ impl Replay {
     fn line(&self, line: u64, problem: LineProblem) -> ReplayError {
         ReplayError::Line { path: self.path.clone(), line, problem }
     }
+}
+
+/// Whether a file that has anything ends with the end of a line: a number that is cut short is one
+/// all the same. Leaves it at its beginning. A pipe has no end to look at.
+fn ends_with_a_line(file: &mut File) -> io::Result<bool> {
+    let metadata = file.metadata()?;
+    if !metadata.is_file() || metadata.len() == 0 {
+        return Ok(true);
+    }
+    let mut last = [0];
+    file.seek(SeekFrom::End(-1))?;
+    file.read_exact(&mut last)?;
+    file.rewind()?;
+    Ok(last == *b"\n")
 }
 
 /// The row that a record stands for; its line is not known here.

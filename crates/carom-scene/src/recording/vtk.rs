@@ -40,8 +40,13 @@ impl Series {
         format!("{}/{frame:06}.vtp", self.folder())
     }
 
+    /// Writes the list of all frames up to now over the one before, which is whole until then.
     fn write_list(&self) -> io::Result<()> {
-        let mut list = BufWriter::new(File::create(&self.path)?);
+        // What is no file of its own, like a link or a device, stays what it is.
+        let replaces = self.path.symlink_metadata().is_ok_and(|it| it.is_file());
+        let target =
+            if replaces { self.path.with_extension("pvd.unfinished") } else { self.path.clone() };
+        let mut list = BufWriter::new(File::create(&target)?);
         writeln!(list, r#"<?xml version="1.0"?>"#)?;
         writeln!(list, r#"<VTKFile type="Collection" version="0.1">"#)?;
         writeln!(list, "  <Collection>")?;
@@ -51,7 +56,8 @@ impl Series {
             writeln!(list, r#"    <DataSet timestep="{time}" file="{file}"/>"#)?;
         }
         writeln!(list, "  </Collection>\n</VTKFile>")?;
-        list.flush()
+        list.flush()?;
+        if replaces { std::fs::rename(target, &self.path) } else { Ok(()) }
     }
 }
 
@@ -68,6 +74,10 @@ impl Format for Series {
             .map_err(|error| io::Error::new(error.kind(), format!("{name}: {error}")))?;
         self.times.push(world.time());
         Ok(())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.write_list()
     }
 
     fn finish(self: Box<Self>) -> io::Result<()> {

@@ -7,7 +7,8 @@ use toml::de::DeTable;
 use toml::{Table, Value};
 
 use super::source::of_syntax;
-use super::{SceneText, place_of};
+use super::{SceneText, include, place_of};
+use crate::budget::Budget;
 use crate::error::{Fault, Problem, SceneError};
 use crate::parameters;
 use crate::scene::Scene;
@@ -17,8 +18,8 @@ use crate::table::read;
 const MOST: usize = 20;
 
 impl Scene {
-    /// What is wrong with the text of a scene: see [`SceneText::faults`].
-    pub fn faults(text: &str, source_name: &str) -> Vec<Fault> {
+    /// What is wrong with the text of a scene, within this budget: see [`SceneText::faults`].
+    pub fn faults(text: &str, source_name: &str, budget: Budget) -> Vec<Fault> {
         let (_, errors) = DeTable::parse_recoverable(text);
         if !errors.is_empty() {
             let of_syntax = |error: &toml::de::Error| of_syntax(source_name, text, error);
@@ -28,23 +29,23 @@ impl Scene {
             return faults;
         }
         match SceneText::new(text, source_name) {
-            Ok(text) => text.faults(),
+            Ok(text) => text.within(budget).faults(),
             Err(SceneError::Invalid(fault)) => vec![fault],
             Err(_) => Vec::new(),
         }
     }
 
-    /// What is wrong with a scene file and those that it includes: see [`SceneText::faults`].
+    /// What is wrong with a scene file, within this budget, and those that it includes: see [`SceneText::faults`].
     ///
     /// # Errors
     /// If it cannot be read.
-    pub fn faults_of_file(path: &Path) -> Result<Vec<Fault>, SceneError> {
-        match SceneText::from_file(path) {
+    pub fn faults_of_file(path: &Path, budget: Budget) -> Result<Vec<Fault>, SceneError> {
+        match SceneText::from_file_within(path, budget) {
             Ok(text) => Ok(text.faults()),
             // Of one file that is no TOML, all errors.
             Err(SceneError::Invalid(fault)) if fault.source_name == path.display().to_string() => {
-                let text = std::fs::read_to_string(path).unwrap_or_default();
-                let faults = Self::faults(&text, &fault.source_name);
+                let text = include::read_within(path, budget.bytes).unwrap_or_default();
+                let faults = Self::faults(&text, &fault.source_name, budget);
                 Ok(if faults.len() > 1 { faults } else { vec![fault] })
             }
             Err(SceneError::Invalid(fault)) => Ok(vec![fault]),
@@ -71,7 +72,7 @@ impl SceneText {
         let mut originals = originals(&table);
         let (mut faults, mut taken): (Vec<Fault>, Vec<String>) = Default::default();
         while faults.len() < MOST
-            && let Err(problem) = read(table.clone())
+            && let Err(problem) = read(table.clone(), self.budget)
         {
             let field = as_written(&problem.field, &originals);
             let problem = Problem { field, ..problem };

@@ -1,10 +1,13 @@
 //! Scene files that include others.
 
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
 use super::source::SourceText;
+use crate::budget::Budget;
 use crate::error::{SceneError, did_you_mean};
 use crate::table::INCLUDE;
 
@@ -27,6 +30,7 @@ pub(super) fn is_list(field: &str) -> bool {
 pub(super) fn with_included(
     mut own: SourceText,
     way: &[PathBuf],
+    budget: Budget,
     met: &mut Vec<PathBuf>,
 ) -> Result<Vec<SourceText>, SceneError> {
     let mut sources = Vec::new();
@@ -53,7 +57,7 @@ pub(super) fn with_included(
         if met.len() >= MOST_FILES {
             return refused(&format!("a scene has {MOST_FILES} files at most"));
         }
-        let text = match read(&path) {
+        let text = match read(&path, budget.bytes) {
             Ok(text) => text,
             Err(error) => {
                 let with_ending = Path::new(name).with_extension("toml").display().to_string();
@@ -65,7 +69,7 @@ pub(super) fn with_included(
         let mut other = SourceText::new(&path.display().to_string(), &text)?;
         other.table.retain(|field, _| !OWN.contains(&field));
         let way: Vec<PathBuf> = way.iter().cloned().chain([path]).collect();
-        sources.extend(with_included(other, &way, met)?);
+        sources.extend(with_included(other, &way, budget, met)?);
     }
     sources.push(own);
     Ok(sources)
@@ -76,7 +80,7 @@ pub(crate) fn named_files(path: &Path) -> Vec<PathBuf> {
     let mut files: Vec<PathBuf> = Vec::new();
     let mut waiting = vec![path.to_owned()];
     while let Some(path) = waiting.pop().filter(|_| files.len() < MOST_FILES) {
-        let text = read(&path).unwrap_or_default();
+        let text = read(&path, Budget::FILE.bytes).unwrap_or_default();
         let table: Table = toml::from_str(&text).unwrap_or_default();
         let folder = path.parent().unwrap_or(Path::new(""));
         let named = table.get(INCLUDE).and_then(names).unwrap_or_default();
@@ -101,12 +105,21 @@ fn is_same(one: &Path, other: &Path) -> bool {
     one.is_ok_and(|one| other.is_ok_and(|other| one == other))
 }
 
-fn read(path: &Path) -> std::io::Result<String> {
-    // Devices have no end.
+fn read(path: &Path, most: u64) -> io::Result<String> {
     if !std::fs::metadata(path)?.is_file() {
-        return Err(std::io::Error::other("it is no file"));
+        return Err(io::Error::other("it is no file"));
     }
-    std::fs::read_to_string(path)
+    read_within(path, most)
+}
+
+/// The text of a file, or a pipe, that has no more than so many bytes. Devices have no end.
+pub(super) fn read_within(path: &Path, most: u64) -> io::Result<String> {
+    let mut text = String::new();
+    File::open(path)?.take(most.saturating_add(1)).read_to_string(&mut text)?;
+    if text.len() as u64 > most {
+        return Err(io::Error::other(format!("it is longer than {most} bytes")));
+    }
+    Ok(text)
 }
 
 /// Fields of a table that say the same thing in two ways.

@@ -11,6 +11,7 @@ use toml::{Table, Value};
 
 pub(crate) use self::include::named_files;
 use self::source::{SourceText, fault};
+use crate::budget::Budget;
 use crate::error::{Fault, Problem, SceneError, segments};
 use crate::overrides::Override;
 use crate::parameters::{self, Parameter};
@@ -35,6 +36,8 @@ pub struct SceneText {
     sources: Vec<SourceText>,
     /// All that they say.
     table: Table,
+    /// How much they may ask for.
+    budget: Budget,
 }
 
 impl SceneText {
@@ -44,7 +47,7 @@ impl SceneText {
     /// # Errors
     /// [`SceneError::Invalid`] for text that is no TOML, or that includes a file.
     pub fn new(text: &str, source_name: &str) -> Result<Self, SceneError> {
-        Self::of(SourceText::new(source_name, text)?, &[])
+        Self::of(SourceText::new(source_name, text)?, &[], Budget::FILE)
     }
 
     /// A file, and those that it includes.
@@ -53,22 +56,35 @@ impl SceneText {
     /// [`SceneError::Unreadable`] if it cannot be read, [`SceneError::Invalid`] for what is no TOML, and
     /// for a file it includes that cannot be read or includes it in turn.
     pub fn from_file(path: &Path) -> Result<Self, SceneError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
-        let own = SourceText::new(&path.display().to_string(), &text)?;
-        Self::of(own, &[path.to_owned()])
+        Self::from_file_within(path, Budget::FILE)
     }
 
-    fn of(own: SourceText, way: &[PathBuf]) -> Result<Self, SceneError> {
+    /// A file, and those that it includes, of a scene that may ask for this.
+    ///
+    /// # Errors
+    /// As [`Self::from_file`], and [`SceneError::Unreadable`] if a file has too many bytes.
+    pub fn from_file_within(path: &Path, budget: Budget) -> Result<Self, SceneError> {
+        let text = include::read_within(path, budget.bytes)
+            .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
+        let own = SourceText::new(&path.display().to_string(), &text)?;
+        Self::of(own, &[path.to_owned()], budget)
+    }
+
+    /// This text, of a scene that may ask for this; [`Budget::FILE`] unless given.
+    pub fn within(self, budget: Budget) -> Self {
+        Self { budget, ..self }
+    }
+
+    fn of(own: SourceText, way: &[PathBuf], budget: Budget) -> Result<Self, SceneError> {
         let name = Path::new(&own.name).file_stem().unwrap_or_default();
         let name = name.to_string_lossy().into_owned();
-        let sources = include::with_included(own, way, &mut Vec::new())?;
+        let sources = include::with_included(own, way, budget, &mut Vec::new())?;
         let mut table = Table::new();
         sources.iter().for_each(|source| include::lay_over(&mut table, source.table.clone()));
         if !(table.contains_key("name") || name.is_empty()) {
             table.insert("name".to_owned(), name.into());
         }
-        Ok(Self { sources, table })
+        Ok(Self { sources, table, budget })
     }
 
     /// The scene, with some values changed.
@@ -77,12 +93,12 @@ impl SceneText {
     /// As [`Scene::from_toml_with`].
     pub fn scene(&self, overrides: &[Override]) -> Result<Scene, SceneError> {
         let table = self.changed(overrides)?;
-        read(table).map_err(|problem| {
+        read(table, self.budget).map_err(|problem| {
             // Without overrides, or if the file is wrong by itself, the file is to blame.
             let own = if overrides.is_empty() {
                 Some(problem.clone())
             } else {
-                read(self.table.clone()).err()
+                read(self.table.clone(), self.budget).err()
             };
             if let Some(problem) = own {
                 return self.fault(&problem).into();

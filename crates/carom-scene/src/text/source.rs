@@ -1,7 +1,7 @@
 //! The text of one file, and places in it.
 
-use toml::Table;
 use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table};
 
 use crate::error::Fault;
 use crate::wording::{slip_of_syntax, suggestion, without_list};
@@ -57,10 +57,33 @@ impl SourceText {
 
 /// What the reader of TOML says.
 pub(super) fn of_syntax(name: &str, text: &str, error: &toml::de::Error) -> Fault {
-    let Some(span) = error.span() else { return fault(name, None, "", error.message()) };
+    let Some(span) = error.span() else {
+        let place = DeTable::parse(text).ok().and_then(|it| too_large_in(it.get_ref()));
+        let line = place.map(|offset| line_at(text, offset));
+        return fault(name, line, "", line.map_or(error.message(), |_| TOO_LARGE));
+    };
     let problem = slip_of_syntax(text, span.start, error.message());
     let problem = problem.as_deref().unwrap_or(error.message());
     fault(name, Some(line_at(text, span.start)), "", problem)
+}
+
+/// What is wrong with an integer that the reader of tables takes for none, without its place.
+const TOO_LARGE: &str = "the integer is too large: 9223372036854775807 is the largest";
+
+/// Where the first integer is that does not fit into 64 bits with a sign.
+fn too_large_in(table: &DeTable) -> Option<usize> {
+    table.iter().find_map(|(_, value)| too_large(value))
+}
+
+fn too_large(value: &Spanned<DeValue>) -> Option<usize> {
+    match value.get_ref() {
+        DeValue::Integer(it) => {
+            i64::from_str_radix(it.as_str(), it.radix()).is_err().then(|| value.span().start)
+        }
+        DeValue::Array(values) => values.iter().find_map(too_large),
+        DeValue::Table(table) => too_large_in(table),
+        _ => None,
+    }
 }
 
 pub(super) fn fault(name: &str, line: Option<usize>, field: &str, problem: &str) -> Fault {

@@ -1,7 +1,6 @@
 //! The scene of a link.
 
-use carom_scene::scene::Scene;
-use carom_scene::{BUILT_IN_FILES, Library, Override, SceneError};
+use carom_scene::{BUILT_IN_FILES, Budget, Library, Override, Scene, SceneError, SceneText};
 
 use super::error::LinkError;
 use super::rule::rule_override;
@@ -25,11 +24,19 @@ impl Link {
     /// # Errors
     /// [`LinkError::Scene`] if there is no such scene, or with what is wrong in it.
     pub fn open(&self) -> Result<Scene, LinkError> {
+        self.open_within(Budget::LINK)
+    }
+
+    /// The scene at its beginning, which may ask for this; [`Self::open`] allows [`Budget::LINK`].
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn open_within(&self, budget: Budget) -> Result<Scene, LinkError> {
         let scene = match &self.source {
-            LinkSource::BuiltIn(name) => built_in(name, &self.overrides),
+            LinkSource::BuiltIn(name) => built_in(name, &self.overrides, budget),
             LinkSource::File { name, text } => {
                 let name = if name.is_empty() { NAMELESS } else { name };
-                Scene::from_toml_with(text, name, &self.overrides)
+                SceneText::new(text, name)?.within(budget).scene(&self.overrides)
             }
         };
         Ok(scene?)
@@ -38,7 +45,7 @@ impl Link {
 
 /// A scene by the name of a built-in one with the same values but for its rule, if there is one.
 fn as_built_in(scene: &Scene) -> Option<Link> {
-    let mut own = built_in(&scene.name, &[]).ok()?;
+    let mut own = built_in(&scene.name, &[], Budget::FILE).ok()?;
     let link = Link::new(LinkSource::BuiltIn(own.name.clone()));
     if own == *scene {
         return Some(link);
@@ -50,15 +57,15 @@ fn as_built_in(scene: &Scene) -> Option<Link> {
 
 /// A built-in scene by name or title. A link must not reach for files by their path, as
 /// [`Library::find`] does.
-fn built_in(name: &str, overrides: &[Override]) -> Result<Scene, SceneError> {
+fn built_in(name: &str, overrides: &[Override], budget: Budget) -> Result<Scene, SceneError> {
     let wanted = name.to_lowercase();
     let is_wanted = |file: &str| file.strip_suffix(".toml").is_some_and(|own| own == wanted);
     if let Some((file, text)) = BUILT_IN_FILES.iter().find(|(file, _)| is_wanted(file)) {
-        return Scene::from_toml_with(text, file, overrides);
+        return SceneText::new(text, file)?.within(budget).scene(overrides);
     }
     let is_path = name.ends_with(".toml") || name.contains(['/', '\\']);
     if is_path {
         return Err(SceneError::Unknown { name: name.to_owned(), nearest: None });
     }
-    Ok(Library::new().find(name, overrides)?.0)
+    Ok(Library::new().within(budget).find(name, overrides)?.0)
 }

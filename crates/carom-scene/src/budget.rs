@@ -1,0 +1,86 @@
+//! How much a scene may ask for.
+
+use crate::error::Problem;
+use crate::requirement::check;
+use crate::scene::{Generator, Scene};
+
+/// How much a scene may ask for, before anything of it is made: a few bytes of a generator can stand
+/// for more spheres than fit into memory.
+///
+/// ```
+/// use carom_scene::{Budget, SceneText};
+///
+/// let text = "[[generators]]\nrow = { count = 500, start = [0, 0, 0], step = [3, 0, 0], \
+///             sphere = { radius = 1 } }\n";
+/// let strict = Budget { spheres: 100, ..Budget::FILE };
+/// let refusal = SceneText::new(text, "row.toml")?.within(strict).scene(&[]).unwrap_err();
+/// assert!(refusal.to_string().starts_with("row.toml:1: generators[0]: makes 500 spheres"));
+/// # Ok::<(), carom_scene::SceneError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Budget {
+    /// Most spheres at the start, of all generators together and single ones.
+    pub spheres: u64,
+    /// Most colliders, likewise.
+    pub colliders: u64,
+    /// Most bytes of each file of a scene.
+    pub bytes: u64,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self::FILE
+    }
+}
+
+impl Budget {
+    /// For scene files: room for gases of a million spheres, in about 1 GB of memory.
+    pub const FILE: Self = Self { spheres: 2_000_000, colliders: 1_000_000, bytes: 256 << 20 };
+
+    /// For links, which anyone can send.
+    pub const LINK: Self = Self { spheres: 200_000, colliders: 100_000, bytes: 16 << 20 };
+
+    /// For scenes that were checked, or put together in code: more than this is a slip of the
+    /// keyboard.
+    pub const MOST: Self = Self { spheres: 10_000_000, colliders: 1_000_000, bytes: u64::MAX };
+
+    /// Checks how many spheres and colliders a scene has, with those of all generators together,
+    /// before any is made.
+    pub(crate) fn check(&self, scene: &Scene) -> Result<(), Problem> {
+        let (spheres, colliders) = (scene.spheres.len() as u64, scene.colliders.len() as u64);
+        for (list, count, most) in
+            [("spheres", spheres, self.spheres), ("colliders", colliders, self.colliders)]
+        {
+            check(count <= most, &format!("{list}[{most}]"), || {
+                format!("{count} {list} are more than the {most} that are allowed")
+            })?;
+        }
+        self.check_generators(&scene.generators, spheres, colliders)
+    }
+
+    /// Checks generators, where there are so many spheres and colliders besides.
+    fn check_generators(
+        &self,
+        generators: &[Generator],
+        mut spheres: u64,
+        mut colliders: u64,
+    ) -> Result<(), Problem> {
+        for (i, generator) in generators.iter().enumerate() {
+            let (sum, limit, most, made) = match generator.collider() {
+                None => (&mut spheres, self.spheres, Self::MOST.spheres, "spheres"),
+                Some(_) => (&mut colliders, self.colliders, Self::MOST.colliders, "colliders"),
+            };
+            let own = generator.places();
+            if own > most {
+                // Its own field is to blame: see `check_count`.
+                return Ok(());
+            }
+            *sum += own;
+            let sum = *sum;
+            check(sum <= limit, &format!("generators[{i}]"), || {
+                format!("makes {sum} {made} with those before it, and a scene has {limit} at most")
+            })?;
+        }
+        Ok(())
+    }
+}

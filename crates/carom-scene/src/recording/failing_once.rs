@@ -1,0 +1,51 @@
+//! A writer that fails only once.
+
+use std::io::{self, Seek, SeekFrom, Write};
+
+/// Passes on what is written until that fails; what is written after that is lost in silence. The
+/// writer of archives completes them when it is dropped, and prints a line if it cannot.
+pub(super) struct FailingOnce<W> {
+    inner: W,
+    /// Where the next byte goes.
+    position: u64,
+    has_failed: bool,
+}
+
+impl<W> FailingOnce<W> {
+    /// Begins at the beginning of `inner`.
+    pub fn new(inner: W) -> Self {
+        Self { inner, position: 0, has_failed: false }
+    }
+
+    fn noting<T>(&mut self, result: io::Result<T>) -> io::Result<T> {
+        self.has_failed |= result.is_err();
+        result
+    }
+}
+
+impl<W: Write> Write for FailingOnce<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = if self.has_failed { Ok(bytes.len()) } else { self.inner.write(bytes) };
+        let written = self.noting(written)?;
+        self.position += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let flushed = if self.has_failed { Ok(()) } else { self.inner.flush() };
+        self.noting(flushed)
+    }
+}
+
+impl<W: Seek> Seek for FailingOnce<W> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let sought = match to {
+            _ if !self.has_failed => self.inner.seek(to),
+            SeekFrom::Start(position) => Ok(position),
+            SeekFrom::Current(by) => Ok(self.position.saturating_add_signed(by)),
+            SeekFrom::End(_) => Ok(self.position),
+        };
+        self.position = self.noting(sought)?;
+        Ok(self.position)
+    }
+}
