@@ -197,5 +197,5 @@ fn at_place(error: SceneError, places: &BTreeMap<String, Place>, path: &Path) ->
             return place.malformed(format!("{}: {}", fault.field, fault.problem));
         }
     }
-    ImportError::Scene { path: path.to_path_buf(), source: error }
+    ImportError::Scene { path: path.to_path_buf(), source: Box::new(error) }
 }
