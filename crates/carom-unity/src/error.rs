@@ -42,7 +42,7 @@ pub enum ImportError {
         /// The file of the scene.
         path: PathBuf,
         /// What is wrong with the scene.
-        source: SceneError,
+        source: Box<SceneError>,
     },
 }
 

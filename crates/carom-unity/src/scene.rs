@@ -181,7 +181,7 @@ fn checked(building: Building<'_>, path: &Path) -> Result<Imported, ImportError>
         if let Err(error) = scene.world() {
             return Err(at_place(error, &places, path));
         }
-        omit(&mut report, &scene.name, "start", format!("{refused}; the scene allows it"));
+        omit(&mut report, &scene.name, "start", format!("`allow_overlap` is set, for {refused}"));
     }
     Ok(Imported { scene, omissions: report })
 }
@@ -197,5 +197,5 @@ fn at_place(error: SceneError, places: &BTreeMap<String, Place>, path: &Path) ->
             return place.malformed(format!("{}: {}", fault.field, fault.problem));
         }
     }
-    ImportError::Scene { path: path.to_path_buf(), source: error }
+    ImportError::Scene { path: path.to_path_buf(), source: Box::new(error) }
 }
