@@ -111,7 +111,7 @@ impl<'a> Loader<'a> {
                 None => {
                     let what = format!("modification of {}", modification.path);
                     let reason = "its object is not in the prefab (any more)";
-                    omit(&mut self.report, &path.display().to_string(), &what, reason);
+                    omit(&mut self.report, &self.project.shown(&path), &what, reason);
                 }
             }
         }
@@ -129,7 +129,7 @@ impl<'a> Loader<'a> {
         // The second name is that of Unity up to 2018.2.
         let source = fields.get("m_SourcePrefab").or_else(|| fields.get("m_ParentPrefab"));
         let changes = fields.get("m_Modification");
-        let object = fields.place.file.display().to_string();
+        let object = self.project.shown(&fields.place.file);
         let Some(guid) = source.and_then(Value::reference).and_then(|it| it.guid) else {
             // Prefabs of Unity up to 2018.2 have such a document for themselves.
             if fields.get("m_RootGameObject").is_none() {
@@ -143,7 +143,7 @@ impl<'a> Loader<'a> {
             return Ok(None);
         };
         if path.extension().is_none_or(|ending| ending != "prefab") {
-            let reason = format!("{} is no prefab", path.display());
+            let reason = format!("{} is no prefab", self.project.shown(&path));
             omit(&mut self.report, &object, "prefab instance", reason);
             return Ok(None);
         }

@@ -56,6 +56,12 @@ impl Project {
         self.by_guid.get(guid).map(PathBuf::as_path)
     }
 
+    /// A file as reports call it: its path from the folder around `Assets`.
+    pub(crate) fn shown(&self, file: &Path) -> String {
+        let root = self.assets.parent().unwrap_or(&self.assets);
+        file.strip_prefix(root).unwrap_or(file).display().to_string()
+    }
+
     /// What of the project was not understood.
     pub(crate) fn omissions(&self) -> &[Omission] {
         &self.omissions

@@ -181,7 +181,7 @@ fn checked(building: Building<'_>, path: &Path) -> Result<Imported, ImportError>
         if let Err(error) = scene.world() {
             return Err(at_place(error, &places, path));
         }
-        omit(&mut report, &scene.name, "start", format!("{refused}; the scene allows it"));
+        omit(&mut report, &scene.name, "start", format!("`allow_overlap` is set, for {refused}"));
     }
     Ok(Imported { scene, omissions: report })
 }

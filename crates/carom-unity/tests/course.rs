@@ -39,7 +39,7 @@ fn what_the_first_scene_has_without_a_counterpart_is_listed() {
     assert_eq!(
         reasons(&imported("First")),
         [
-            "Plane.prefab: modification of restitution: its object is not in the prefab (any more)",
+            "Assets/Prefabs/Plane.prefab: modification of restitution: its object is not in the prefab (any more)",
             "First.unity: RenderSettings: has no counterpart",
             "Main Camera: AudioListener: has no counterpart",
             "Emitter: script \"emitter\": its field sphereGameObject is not read",

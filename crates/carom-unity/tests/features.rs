@@ -61,7 +61,7 @@ fn removed_inactive_and_lost_objects_are_left_out_and_listed() {
     assert_eq!(
         reasons(&imported),
         [
-            "Nested.unity: prefab instance: no file of the project has its guid dead0000000000000000000000000000",
+            "Assets/Scenes/Nested.unity: prefab instance: no file of the project has its guid dead0000000000000000000000000000",
             "Lost: game object: hangs on an object that is not in the file, or in no known prefab",
             "Hidden and 1 more: game object: is inactive, or hangs on one that is",
             "Bare: mesh: is only drawn: it has no collider",
