@@ -23,6 +23,8 @@ __all__ = [
     "film_scene",
     "find_scene",
     "list_scenes",
+    "pair_histogram",
+    "pairs_within",
     "read_scene",
     "read_scene_file",
     "run_command",
@@ -316,6 +318,12 @@ def film_scene(
     frame_rate: int,
     view: View,
 ) -> int: ...
+def pair_histogram(
+    points: NDArray[np.float64], sides: Sequence[float], r_max: float, bins: int
+) -> NDArray[np.uint64]: ...
+def pairs_within(
+    points: NDArray[np.float64], sides: Sequence[float], distance: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]: ...
 def read_scene(text: str, source: str, overrides: list[str]) -> str: ...
 def read_scene_file(path: str | PathLike[str], overrides: list[str]) -> str: ...
 def canonical_toml(text: str) -> str: ...

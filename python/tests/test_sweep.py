@@ -416,7 +416,8 @@ def test_a_script_without_a_guard_ends_in_one_line(store: str, tmp_path: Path) -
     command = [sys.executable, str(script)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
     assert done.returncode == 1
-    assert {*done.stdout.splitlines()} == {"begin"}
+    # Processes that print at one time may share a line.
+    assert done.stdout.replace("begin", "").split() == []
     [line] = done.stderr.splitlines()
     assert line.startswith("carom.sweep: its worker processes import this script")
     assert 'if __name__ == "__main__":' in line

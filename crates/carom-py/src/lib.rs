@@ -34,6 +34,7 @@ mod maze;
 mod next_event;
 #[cfg(feature = "pictures")]
 mod painter;
+mod pairs;
 mod part;
 mod points;
 mod properties;
@@ -79,6 +80,8 @@ mod _carom {
     #[cfg(feature = "pictures")]
     #[pymodule_export]
     use crate::film::film_scene;
+    #[pymodule_export]
+    use crate::pairs::{pair_histogram, pairs_within};
     #[pymodule_export]
     use crate::scenes::{canonical_toml, find_scene, list_scenes, read_scene, read_scene_file};
 

@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom._carom import pairs_within
 from carom.analysis import _arguments as arguments
 from carom.analysis._collisions import impacts_between_spheres
-from carom.analysis._neighbours import Indices, check_distance, pairs_within
+from carom.analysis._distances import check_distance
 from carom.errors import CaromError
+
+Indices = NDArray[np.int64]
 
 
 def contact_network(
@@ -54,12 +57,10 @@ def contact_network(
     # The pairs of a search are nearer than its distance; those at it are wanted, too.
     distance = float(np.nextafter(2 * sizes[there].max() + tolerance, np.inf))
     check_distance(distance, sides, "box")
-    found = []
-    for one, other, squares in pairs_within(points[there], sides, distance):
-        one, other = there[one], there[other]
-        touch = np.sqrt(squares) <= sizes[one] + sizes[other] + tolerance
-        found.append(np.stack([one[touch], other[touch]], axis=1))
-    return _ascending(np.concatenate(found))
+    first, second, squares = pairs_within(points[there], sides.tolist(), distance)
+    one, other = there[first], there[second]
+    touch = np.sqrt(squares) <= sizes[one] + sizes[other] + tolerance
+    return _ascending(np.stack([one[touch], other[touch]], axis=1))
 
 
 def pairs_in_contact(contacts: NDArray[np.void], ids: ArrayLike) -> Indices:

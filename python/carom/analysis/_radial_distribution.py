@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom._carom import pair_histogram
 from carom._trajectory import Trajectory
 from carom.analysis import _arguments as arguments
 from carom.analysis._arguments import Floats
-from carom.analysis._neighbours import check_distance, pairs_within
+from carom.analysis._distances import check_distance
 from carom.errors import CaromError
 
 
@@ -49,7 +50,7 @@ def radial_distribution(
     correlations have ``1 - 1/N``. Without a box there are no images: centres near the border have
     fewer neighbours, and g falls with r; the volume is then an argument.
 
-    A frame of 10,000 spheres at a packing fraction of 0.3 takes 0.25 s for an ``r_max`` of 4
+    A frame of 10,000 spheres at a packing fraction of 0.3 takes 0.02 s for an ``r_max`` of 4
     diameters, on a slow core; the work grows with ``N² r_max³ / V``.
 
     Args:
@@ -80,9 +81,7 @@ def radial_distribution(
         present = frame[there]
         spheres += len(present)
         squares += len(present) ** 2
-        for _, _, square in pairs_within(present, sides, r_max):
-            number = (np.sqrt(square) * (bins / r_max)).astype(np.int64)
-            pairs += np.bincount(np.minimum(number, bins - 1), minlength=bins)
+        pairs += pair_histogram(present, sides.tolist(), r_max, bins).astype(np.int64)
     edges = np.linspace(0, r_max, bins + 1)
     shells = 4 / 3 * np.pi * np.diff(edges**3)
     nothing = np.full(bins, np.nan)

@@ -1,0 +1,14 @@
+//! What is counted of recorded states, where there are too many pairs for a language that is interpreted.
+//!
+//! ```
+//! let points = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0]];
+//! // Across a face of the box they are 1 m apart.
+//! assert_eq!(carom_analysis::pair_histogram(&points, [10.0; 3], 2.0, 2), [0, 1]);
+//! ```
+
+#![warn(clippy::unwrap_used)]
+
+mod cells;
+mod pairs;
+
+pub use pairs::{Pair, pair_histogram, pairs_within};

@@ -1,0 +1,77 @@
+//! Pairs of points that are near each other.
+
+use crate::cells::Cells;
+
+/// Two points, by their places in the list, and the square of their distance \[m²\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// The points.
+    pub points: [usize; 2],
+    /// \[m²\]
+    pub squared_distance: f64,
+}
+
+/// Every pair of points \[m\] nearer than a `distance` \[m\], once, in an order that depends on the points alone.
+///
+/// `sides` are those of a periodic box \[m\], infinite along axes that are open. A pair counts at the nearest image,
+/// so the distance must be at most half the smallest side; where it is more, some pairs are missing. Points that
+/// are not finite are near none.
+pub fn pairs_within(points: &[[f64; 3]], sides: [f64; 3], distance: f64) -> Vec<Pair> {
+    let mut pairs = Vec::new();
+    for_each_pair(points, sides, distance, |points, squared_distance| {
+        pairs.push(Pair { points, squared_distance });
+    });
+    pairs
+}
+
+/// How many pairs of points \[m\] there are in each of so many bins of their distance, from 0 to `r_max` \[m\], all of
+/// the same width. `sides` and `r_max` are as in [`pairs_within`].
+pub fn pair_histogram(points: &[[f64; 3]], sides: [f64; 3], r_max: f64, bins: usize) -> Vec<u64> {
+    let mut counts = vec![0; bins];
+    let per_metre = bins as f64 / r_max;
+    for_each_pair(points, sides, r_max, |_, squared_distance| {
+        let bin = (squared_distance.sqrt() * per_metre) as usize;
+        // Rounding may put the last ones beyond.
+        if let Some(count) = counts.get_mut(bin.min(bins.saturating_sub(1))) {
+            *count += 1;
+        }
+    });
+    counts
+}
+
+fn for_each_pair(
+    points: &[[f64; 3]],
+    sides: [f64; 3],
+    distance: f64,
+    mut visit: impl FnMut([usize; 2], f64),
+) {
+    let cells = Cells::new(points, sides, distance);
+    let (halves, squared) = (sides.map(|side| 0.5 * side), distance * distance);
+    let mut test = |first: usize, second: usize| {
+        let (one, other) = (&cells.points[first], &cells.points[second]);
+        let mut square = 0.0;
+        for axis in 0..3 {
+            let apart = (other[axis] - one[axis]).abs();
+            // Along an open axis the half is infinite.
+            let apart = if apart > halves[axis] { sides[axis] - apart } else { apart };
+            square += apart * apart;
+        }
+        if square < squared {
+            visit([cells.order[first], cells.order[second]], square);
+        }
+    };
+    for cell in 0..cells.len() {
+        let own = cells.points_of(cell);
+        if own.is_empty() {
+            continue;
+        }
+        for first in own.clone() {
+            (first + 1..own.end).for_each(|second| test(first, second));
+        }
+        for other in cells.greater_neighbours(cell) {
+            for first in own.clone() {
+                cells.points_of(other).for_each(|second| test(first, second));
+            }
+        }
+    }
+}
