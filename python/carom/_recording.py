@@ -83,6 +83,8 @@ def run_into(world: World, out: Out, frames: int, dt: float | None, every: int) 
 
 def _check(out: Out, rows: int, spheres: int) -> None:
     """Refuses arrays into which the states do not fit."""
+    if not isinstance(out, Mapping):
+        raise TypeError(f"out: must be a dict of arrays by name, not {type(out).__name__}")
     if not out:
         raise CaromError(f"out: must have arrays for some of {', '.join(_WIDTHS)}", "out")
     for name, array in out.items():

@@ -209,6 +209,11 @@ def test_arrays_into_which_a_run_does_not_fit(out: Out, words: str) -> None:
     assert world.state_hash == before
 
 
+def test_arrays_without_names_are_no_place_for_a_run() -> None:
+    with pytest.raises(TypeError, match="out: must be a dict of arrays by name, not ndarray"):
+        carom.load("cradle").run(frames=2, out=np.empty((3, 15, 3)))  # type: ignore[arg-type]
+
+
 def test_spheres_that_come_have_no_place_in_arrays() -> None:
     world = carom.load("simtest1").world()
     before = world.state_hash
