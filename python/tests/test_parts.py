@@ -224,9 +224,9 @@ def test_parts_are_values_as_before() -> None:
 
 def test_what_the_engine_holds_is_read_though_it_could_not_be_made_here() -> None:
     # Under another rule, the engine does not look at this number.
-    text = 'name = "x"\nsimulation = { rule = "exact", bisect = { tolerance = -1 } }\n'
+    text = 'name = "x"\nsimulation = { rule = "exact", contact = { sub_steps = 0 } }\n'
     scene = carom.Scene.from_toml(text)
-    assert scene.simulation.bisect.tolerance == -1
+    assert scene.simulation.contact.sub_steps == 0
     assert carom.Scene.from_toml(scene.to_toml()) == scene
     assert scene.world().simulation == scene.simulation
 
