@@ -1,5 +1,8 @@
 //! Pairs of points that are near each other, for `carom.analysis`.
 
+// What is said of functions here is read in Python, where units stand in plain brackets.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
