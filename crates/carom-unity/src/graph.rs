@@ -159,8 +159,8 @@ fn node(owner: &Document, transform: &Document, above: &Node) -> Result<Node, Im
         true => name.clone(),
         false => format!("{}/{name}", above.path),
     };
-    let position = vector(transform, "m_LocalPosition", DVec3::ZERO)?;
-    let scale = vector(transform, "m_LocalScale", DVec3::ONE)?;
+    let position = transform.fields.vector_at("m_LocalPosition", DVec3::ZERO)?;
+    let scale = transform.fields.vector_at("m_LocalScale", DVec3::ONE)?;
     let active = owner.fields.get("m_IsActive").and_then(Value::text) != Some("0");
     Ok(Node {
         path: path.into(),
@@ -177,11 +177,6 @@ fn node(owner: &Document, transform: &Document, above: &Node) -> Result<Node, Im
 fn name(owner: &Document) -> &str {
     let name = owner.fields.get("m_Name").and_then(Value::text).unwrap_or_default();
     if name.is_empty() { "(without a name)" } else { name }
-}
-
-fn vector(transform: &Document, name: &str, missing: DVec3) -> Result<DVec3, ImportError> {
-    let value = transform.fields.get(name);
-    value.map_or(Ok(missing), |value| value.vector(name).map(DVec3::from_array))
 }
 
 /// The local rotation. Unity computes in 32 bits, in which a unit quaternion has 7 decimals; its versions

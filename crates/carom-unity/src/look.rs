@@ -17,24 +17,22 @@ pub(crate) fn camera(
     report: &mut Vec<Omission>,
 ) -> Result<bool, ImportError> {
     let fields = &document.fields;
-    let number =
-        |name: &str, missing: f64| fields.get(name).map_or(Ok(missing), |value| value.number(name));
     if scene.camera.is_some() && node.tag != "MainCamera" {
         omit(report, &node.path, "Camera", "a scene has one camera");
         return Ok(false);
     }
-    if number("orthographic", 0.0)? != 0.0 {
+    if fields.number_at("orthographic", 0.0)? != 0.0 {
         omit(report, &node.path, "Camera", "is orthographic; it is drawn in perspective");
     }
     scene.camera = Some(Camera {
         position: mirrored(node.pose.position),
         rotation: mirrored_rotation(node.pose.rotation),
-        vertical_fov_degrees: number("field of view", 60.0)?,
-        near: number("near clip plane", 0.3)?,
-        far: number("far clip plane", 1000.0)?,
+        vertical_fov_degrees: fields.number_at("field of view", 60.0)?,
+        near: fields.number_at("near clip plane", 0.3)?,
+        far: fields.number_at("far clip plane", 1000.0)?,
     });
     // A plain colour, not the sky.
-    if number("m_ClearFlags", 1.0)? == 2.0
+    if fields.number_at("m_ClearFlags", 1.0)? == 2.0
         && let Some(color) = fields.get("m_BackGroundColor")
     {
         let background = rgb(color)?;
@@ -51,9 +49,7 @@ pub(crate) fn light(
     report: &mut Vec<Omission>,
 ) -> Result<bool, ImportError> {
     let fields = &document.fields;
-    let number =
-        |name: &str, missing: f64| fields.get(name).map_or(Ok(missing), |value| value.number(name));
-    if number("m_Type", 1.0)? != 1.0 {
+    if fields.number_at("m_Type", 1.0)? != 1.0 {
         omit(report, &node.path, "Light", "only a directional light has a counterpart");
         return Ok(false);
     }
@@ -64,7 +60,7 @@ pub(crate) fn light(
     scene.sun = Some(Sun {
         rotation: mirrored_rotation(node.pose.rotation),
         color: fields.get("m_Color").map_or(Ok([1.0; 3]), rgb)?,
-        intensity: number("m_Intensity", 1.0)?,
+        intensity: fields.number_at("m_Intensity", 1.0)?,
     });
     Ok(true)
 }

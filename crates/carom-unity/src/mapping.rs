@@ -45,7 +45,7 @@ pub(crate) struct ScriptKind {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Number {
-    /// The same for all.
+    /// A number for all scripts.
     Constant(f64),
     /// The name of the field.
     Field(String),
@@ -55,7 +55,7 @@ pub(crate) enum Number {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Vector {
-    /// The same for all.
+    /// A vector for all scripts.
     Constant([f64; 3]),
     /// The name of the field.
     Field(String),

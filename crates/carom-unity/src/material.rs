@@ -46,12 +46,9 @@ impl Surface {
         let Some(fields) = asset(reference, class::PHYSIC_MATERIAL, project)? else {
             return Ok(None);
         };
-        let number = |old: &str, new: &str, missing: f64| {
-            let value = fields.get(old).or_else(|| fields.get(new));
-            value.map_or(Ok(missing), |value| value.number(old))
-        };
-        let combine = |old: &str, new: &str| -> Result<CombineRule, ImportError> {
-            Ok(match number(old, new, 0.0)? as i64 {
+        let number = |names, missing| fields.number_at_either(names, missing);
+        let combine = |names| -> Result<CombineRule, ImportError> {
+            Ok(match number(names, 0.0)? as i64 {
                 1 => CombineRule::Product,
                 2 => CombineRule::Minimum,
                 3 => CombineRule::Maximum,
@@ -59,10 +56,10 @@ impl Surface {
             })
         };
         Ok(Some(Self {
-            bounciness: number("bounciness", "m_Bounciness", 0.0)?,
-            friction: number("dynamicFriction", "m_DynamicFriction", 0.6)?,
-            bounce_combine: combine("bounceCombine", "m_BounceCombine")?,
-            friction_combine: combine("frictionCombine", "m_FrictionCombine")?,
+            bounciness: number(["bounciness", "m_Bounciness"], 0.0)?,
+            friction: number(["dynamicFriction", "m_DynamicFriction"], 0.6)?,
+            bounce_combine: combine(["bounceCombine", "m_BounceCombine"])?,
+            friction_combine: combine(["frictionCombine", "m_FrictionCombine"])?,
         }))
     }
 }

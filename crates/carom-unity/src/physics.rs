@@ -82,20 +82,17 @@ impl Physics {
         (node, parts): (&Node, &Parts<'_>),
         building: &mut Building<'_>,
     ) -> Result<(), ImportError> {
-        let number = |old: &str, new: &str, missing: f64| {
-            let value = body.fields.get(old).or_else(|| body.fields.get(new));
-            value.map_or(Ok(missing), |value| value.number(old))
-        };
+        let fields = &body.fields;
         let carom_scene::scene::Shape::Sphere { radius } = placed.shape else { return Ok(()) };
         let mut sphere = Sphere::at(mirrored(placed.position), radius);
-        let mass = number("m_Mass", "m_Mass", 1.0)?;
+        let mass = fields.number_at("m_Mass", 1.0)?;
         sphere.mass = Some(mass);
         sphere.restitution = surface.bounciness;
         sphere.friction = Some(surface.friction);
         sphere.color = building.color(node, parts)?.0;
         building.push_sphere(sphere, body);
         // Unity's drag is a rate: the force is that times mass and velocity.
-        let drag = mass * number("m_Drag", "m_LinearDamping", 0.0)?;
+        let drag = mass * fields.number_at_either(["m_Drag", "m_LinearDamping"], 0.0)?;
         if !self.drags.contains(&drag) {
             self.drags.push(drag);
         }
@@ -108,7 +105,7 @@ impl Physics {
                 list("Rigidbody", "has no gravity in Unity; here gravity acts on every sphere")
             }
         }
-        if number("m_AngularDrag", "m_AngularDamping", 0.0)? != 0.0 {
+        if fields.number_at_either(["m_AngularDrag", "m_AngularDamping"], 0.0)? != 0.0 {
             list("Rigidbody", "its angular drag has no counterpart");
         }
         if is_set(body, "m_Constraints") {

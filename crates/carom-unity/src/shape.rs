@@ -96,23 +96,20 @@ pub(crate) fn of_collider(
     pose: &Pose,
 ) -> Result<Result<Placed, String>, ImportError> {
     let fields = &collider.fields;
-    let vector = |name: &str, missing: DVec3| {
-        let value = fields.get(name);
-        value.map_or(Ok(missing), |value| value.vector(name).map(DVec3::from_array))
-    };
     let scale = pose.scale();
     let (rotation, inexact) = (pose.rotation, sheared(pose));
     Ok(match collider.class {
         class::SPHERE_COLLIDER => {
-            let position = pose.point(vector("m_Center", DVec3::ZERO)?);
-            let radius = fields.get("m_Radius").map_or(Ok(0.5), |it| it.number("m_Radius"))?;
+            let position = pose.point(fields.vector_at("m_Center", DVec3::ZERO)?);
+            let radius = fields.number_at("m_Radius", 0.5)?;
             let radius = short(radius * scale.max_element());
             let inexact = inexact.or(uneven(scale));
             Ok(Placed { shape: Shape::Sphere { radius }, position, rotation, inexact })
         }
         class::BOX_COLLIDER => {
-            let position = pose.point(vector("m_Center", DVec3::ZERO)?);
-            let size = shortened((vector("m_Size", DVec3::ONE)? * scale).abs().to_array());
+            let position = pose.point(fields.vector_at("m_Center", DVec3::ZERO)?);
+            let size =
+                shortened((fields.vector_at("m_Size", DVec3::ONE)? * scale).abs().to_array());
             Ok(Placed { shape: Shape::Box { size }, position, rotation, inexact })
         }
         _ => Mesh::of(fields.get("m_Mesh")).map(|mesh| mesh.placed(pose)),

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::rc::Rc;
 
+use carom::DVec3;
 use saphyr_parser::{Event, Parser};
 
 use crate::error::{ImportError, Place};
@@ -95,6 +96,33 @@ impl Value {
     /// As [`Self::numbers`].
     pub fn vector(&self, what: &str) -> Result<[f64; 3], ImportError> {
         self.numbers(what, ["x", "y", "z"])
+    }
+
+    /// The number under a name, `missing` where there is none.
+    ///
+    /// # Errors
+    /// As [`Self::number`].
+    pub fn number_at(&self, name: &str, missing: f64) -> Result<f64, ImportError> {
+        self.number_at_either([name; 2], missing)
+    }
+
+    /// The number under the first of two names that is there, which versions of Unity have for one thing;
+    /// `missing` without both.
+    ///
+    /// # Errors
+    /// As [`Self::number`], with the first name.
+    pub fn number_at_either(&self, names: [&str; 2], missing: f64) -> Result<f64, ImportError> {
+        let value = names.into_iter().find_map(|name| self.get(name));
+        value.map_or(Ok(missing), |value| value.number(names[0]))
+    }
+
+    /// The vector under a name, `missing` where there is none.
+    ///
+    /// # Errors
+    /// As [`Self::vector`].
+    pub fn vector_at(&self, name: &str, missing: DVec3) -> Result<DVec3, ImportError> {
+        let value = self.get(name);
+        value.map_or(Ok(missing), |value| value.vector(name).map(DVec3::from_array))
     }
 
     /// What it refers to; `None` where it is no reference, or refers to nothing.
