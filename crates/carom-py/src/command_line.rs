@@ -2,10 +2,10 @@
 
 use std::ffi::OsString;
 
-use carom_scene::Scene;
 use pyo3::prelude::*;
 
 use crate::failure::Failure;
+use crate::scenes;
 
 /// Does what the command `carom` does with these arguments, the name of the program first, and
 /// answers with the code to end with. `registered` are the texts of scenes that are found by name
@@ -16,7 +16,7 @@ pub fn run_command(
     arguments: Vec<OsString>,
     registered: Vec<String>,
 ) -> Result<u8, Failure> {
-    let read = |text: &String| Scene::from_toml(text, "scene");
+    let read = |text: &String| scenes::in_code(text);
     let registered = registered.iter().map(read).collect::<Result<_, _>>()?;
     Ok(py.detach(|| carom_cli::main(arguments, registered)))
 }

@@ -6,7 +6,7 @@
 use std::sync::{Arc, Mutex, MutexGuard};
 
 use carom::{ContactAccount, World, ZoneAccount};
-use carom_scene::{Palette, Scene};
+use carom_scene::Palette;
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -19,6 +19,7 @@ use crate::failure::Failure;
 use crate::points;
 use crate::properties::sphere_properties;
 use crate::quantity::Quantity;
+use crate::scenes;
 use crate::setting;
 use crate::snapshot::Snapshot;
 use crate::stop::{self, Watch};
@@ -164,7 +165,7 @@ impl Engine {
     #[new]
     #[pyo3(signature = (text, points = None))]
     fn new(text: &str, points: Option<points::Given<'_>>) -> PyResult<Self> {
-        let mut scene = Scene::from_toml(text, "scene").map_err(Failure::of_part)?;
+        let mut scene = scenes::in_code(text).map_err(Failure::of_part)?;
         if let Some(points) = points {
             scene.spheres = points::described(points::read(points)?);
         }

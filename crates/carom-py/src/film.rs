@@ -15,6 +15,7 @@ use crate::failure::Failure;
 use crate::graphics_failure::raised;
 use crate::look::{Sight, View};
 use crate::running::whole_frames;
+use crate::scenes;
 use crate::stop::PATIENCE;
 
 /// Films the scene that `text` describes in TOML, for `seconds` [s] or as long as the scene says, up
@@ -34,7 +35,7 @@ pub fn film_scene(
     let seconds = arguments::optional_number("seconds", seconds)?;
     // A rate that is too large for this is refused in the words for all of them.
     let fps = u32::try_from(arguments::count("frame_rate", frame_rate)?).unwrap_or(u32::MAX);
-    let mut scene = Scene::from_toml(text, "scene").map_err(Failure::of_part)?;
+    let mut scene = scenes::in_code(text).map_err(Failure::of_part)?;
     let seconds = seconds.unwrap_or(scene.simulation.duration);
     sight.apply(&mut scene);
     let order = Order { path: &path, fps };

@@ -2,10 +2,15 @@
 
 use std::path::PathBuf;
 
-use carom_scene::{Library, Override, Scene, SceneError, Source};
+use carom_scene::{Budget, Library, Override, Scene, SceneError, Source};
 use pyo3::prelude::*;
 
 use crate::failure::Failure;
+
+/// The scene that Python code put together and wrote as TOML.
+pub fn in_code(text: &str) -> Result<Scene, SceneError> {
+    Scene::from_toml_within(text, "scene", Budget::MOST)
+}
 
 /// Reads a scene from TOML, with some values changed (`path=value`), and answers with it as JSON;
 /// infinite numbers are `null`. `source` is what errors call it.
@@ -24,7 +29,7 @@ pub fn read_scene_file(path: PathBuf, overrides: Vec<String>) -> Result<String, 
 /// The scene that `text` describes in TOML, every default written out.
 #[pyfunction]
 pub fn canonical_toml(text: &str) -> Result<String, Failure> {
-    Ok(Scene::from_toml(text, "scene").map_err(Failure::of_part)?.to_toml())
+    Ok(in_code(text).map_err(Failure::of_part)?.to_toml())
 }
 
 /// Finds a scene by its name, title or file, as the command line does, among the scenes registered

@@ -6,6 +6,7 @@ use carom::{ForceId, Snapshot};
 use thiserror::Error;
 use xxhash_rust::xxh3::xxh3_64;
 
+use crate::budget::Budget;
 use crate::palette::Palette;
 use crate::scene::Scene;
 
@@ -123,7 +124,8 @@ impl Checkpoint {
         room.map_err(|_| CheckpointError::NoMemory)?;
         let (_, snapshot, scene, palette): (&str, Snapshot, String, Palette) =
             postcard::from_bytes(parts).map_err(damaged)?;
-        let scene = Scene::from_toml(&scene, "snapshot").map_err(|_| CheckpointError::Damaged)?;
+        let scene = Scene::from_toml_within(&scene, "snapshot", Budget::MOST)
+            .map_err(|_| CheckpointError::Damaged)?;
         let palette = palette.in_colors_of(&scene);
         Ok(Self { snapshot, scene, palette })
     }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
+use crate::budget::Budget;
 use crate::error::SceneError;
 use crate::overrides::Override;
 use crate::scene::Scene;
@@ -48,6 +49,18 @@ impl Scene {
         SceneText::new(text, source_name)?.scene(overrides)
     }
 
+    /// Reads a scene from TOML that may ask for as much as `budget` allows.
+    ///
+    /// # Errors
+    /// As [`Self::from_toml`].
+    pub fn from_toml_within(
+        text: &str,
+        source_name: &str,
+        budget: Budget,
+    ) -> Result<Self, SceneError> {
+        SceneText::new(text, source_name)?.within(budget).scene(&[])
+    }
+
     /// Reads a scene file, and those that it includes.
     ///
     /// # Errors
@@ -61,7 +74,7 @@ impl Scene {
     /// # Errors
     /// As [`Self::from_toml_with`].
     pub fn with(&self, overrides: &[Override]) -> Result<Self, SceneError> {
-        Self::from_toml_with(&self.to_toml(), &self.name, overrides)
+        SceneText::new(&self.to_toml(), &self.name)?.within(Budget::MOST).scene(overrides)
     }
 
     /// The scene as TOML, every default written out.

@@ -17,7 +17,7 @@ use crate::report::{StepReport, TriggerContact};
 use crate::respond;
 use crate::settings::{Bisect, WindBack};
 use crate::system::System;
-use crate::work::Work;
+use crate::work::{StopRequest, Work};
 
 /// What every part of the rule reads: the world, and the frame that it takes.
 #[derive(Clone, Copy)]
@@ -75,8 +75,9 @@ pub(crate) fn step(
     interval: Interval,
     scratch: &mut Scratch,
     report: &mut StepReport,
-    work: &Work,
+    stop_request: Option<&StopRequest>,
 ) -> bool {
+    let work = Work::new(stop_request);
     let Scratch { contacts, islands, buffers } = scratch;
     let frame = Frame { system: *system, parameters, interval, start: motion };
     let everyone = 0..system.spheres.id.len() as u32;
@@ -92,7 +93,7 @@ pub(crate) fn step(
     islands.join(contacts);
     while islands.any_unsettled() {
         for island in islands.unsettled() {
-            settle(&frame, island, buffers, work);
+            settle(&frame, island, buffers, &work);
         }
         if work.is_stopped() {
             return false;

@@ -64,9 +64,8 @@ pub(crate) fn step(
             by_frame::step(&mut attempt, |state, frame, scratch, report| {
                 let (system, motion) = state.split();
                 let scratch = &mut scratch.bisect;
-                let work = Work::new(stop_request);
                 let is_done =
-                    bisect::step(&system, parameters, motion, frame, scratch, report, &work);
+                    bisect::step(&system, parameters, motion, frame, scratch, report, stop_request);
                 motion.spin.advance(frame.h);
                 is_done
             })
