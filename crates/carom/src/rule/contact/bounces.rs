@@ -11,6 +11,7 @@ use super::sub_step::SubStep;
 use super::surfaces::Place;
 use super::swept::FAR;
 use crate::contact_time;
+use crate::detect::sphere_surface;
 use crate::flight::Flight;
 
 /// A change of velocity is that of a bounce alone up to this part of it.
@@ -30,8 +31,9 @@ struct OneBounce {
 /// Notes where spheres that bounce come to.
 ///
 /// One that nothing else touches in the sub-step moves until its bounce as if nothing were there. Any other
-/// moves by its last velocity. Contacts know nothing of surfaces that a sphere comes to after a bounce: one
-/// that goes far stops at the first of them, and bounces off it in the next sub-step.
+/// moves by its last velocity. Contacts know nothing of surfaces that a sphere comes to after a bounce, or
+/// because of what hit it: one that goes far stops at the first of them, and bounces off it in the next
+/// sub-step.
 pub(super) fn note(solver: &mut Solver, sub_step: &SubStep) {
     let Solver { slots, slabs, bounces, places, has_other_forces, .. } = solver;
     let mut all = Vec::new();
@@ -42,21 +44,29 @@ pub(super) fn note(solver: &mut Solver, sub_step: &SubStep) {
     all.sort_by_key(|bounce| bounce.slot);
     bounces.clear();
     for of_sphere in all.chunk_by(|first, second| first.slot == second.slot) {
-        let slot = of_sphere[0].slot;
         let own = match of_sphere {
             [bounce] if !*has_other_forces => alone(slots, bounce, sub_step),
             _ => None,
         };
-        let leg = own.as_ref().map_or_else(|| Leg::straight(slots, slot, sub_step), |own| own.leg);
-        let stopped = leg.first_met(slots, slabs, places).map(|time| {
-            let [start, velocity] = [slots.position[slot], slots.velocity[slot]].map(Row::vector);
-            let (end, velocity_there) = leg.flight.after(time);
-            let shift = end - start - sub_step.h * velocity;
-            let is_alone = own.is_some();
-            Bounce { slot: slot as u32, shift, velocity: velocity_there, is_alone }
-        });
-        bounces.extend(stopped.or(own.map(|own| own.bounce)));
+        if let Some(own) = own {
+            let time = own.leg.first_met(slots, slabs, places);
+            let stopped = time.map(|time| own.leg.stopped(slots, time, sub_step, true));
+            bounces.push(stopped.unwrap_or(own.bounce));
+        }
     }
+    let is_alone = |slot: usize| bounces.binary_search_by_key(&slot, |it| it.slot as usize).is_ok();
+    let others = (0..slots.len()).filter(|&slot| !is_alone(slot));
+    let stopped: Vec<_> = others
+        .filter_map(|slot| {
+            let leg = Leg::straight(slots, slot, sub_step);
+            let is_pushed = || slots.velocity[slot].vector() != slots.accelerated(slot, sub_step.h);
+            let goes_far = leg.goes_far(slots) && is_pushed();
+            let time = goes_far.then(|| leg.first_passed(slots, slabs, places))??;
+            Some(leg.stopped(slots, time, sub_step, false))
+        })
+        .collect();
+    bounces.extend(stopped);
+    bounces.sort_by_key(|bounce| bounce.slot);
 }
 
 fn of_pairs(slots: &Slots, slab: &Slab, bounces: &mut Vec<OneBounce>) {
@@ -137,18 +147,55 @@ impl Leg {
         Self { slot, flight, duration: sub_step.h }
     }
 
-    /// When the sphere comes to a surface at rest \[s\]; `None` also if it goes too little to come past one.
+    /// Whether the sphere goes so far that it may come past a surface.
+    fn goes_far(&self, slots: &Slots) -> bool {
+        self.duration * self.flight.velocity.length() > FAR * slots.position[self.slot].number()
+    }
+
+    /// When the sphere comes to a surface at rest that bears nothing of it \[s\].
     fn first_met(&self, slots: &Slots, slabs: &Slabs, places: &[Place]) -> Option<f64> {
-        let Self { slot, flight, duration } = self;
-        let radius = slots.position[*slot].number();
-        if duration * flight.velocity.length() <= FAR * radius {
+        if !self.goes_far(slots) {
             return None;
         }
-        let times = slabs.free_surfaces_of(*slot).filter_map(|surface| {
-            let (form, motion) = &places[surface as usize];
-            let meets = || contact_time::sphere_surface(flight, radius, form, motion, *duration);
-            motion.is_at_rest().then(meets)?
+        let free = slabs.surfaces_of(self.slot).filter(|contact| contact.impulses.normal == 0.0);
+        let times = free.filter_map(|it| self.meets(slots, &places[it.surface as usize]));
+        times.min_by(f64::total_cmp)
+    }
+
+    /// When the sphere comes to a surface at rest that it would pass with its centre, also one that bears it: the
+    /// sweeps may leave it a part of its speed \[s\].
+    fn first_passed(&self, slots: &Slots, slabs: &Slabs, places: &[Place]) -> Option<f64> {
+        let times = slabs.surfaces_of(self.slot).filter_map(|contact| {
+            let place = &places[contact.surface as usize];
+            if contact.impulses.normal == 0.0 {
+                return self.meets(slots, place);
+            }
+            let radius = slots.position[self.slot].number();
+            let Flight { position, velocity, .. } = self.flight;
+            let separation = sphere_surface(&place.0, position, radius)?;
+            let speed = -velocity.dot(separation.normal);
+            let is_passed = self.duration * speed > separation.distance + radius;
+            let is_at_rest = place.1.is_at_rest();
+            (is_passed && is_at_rest).then(|| separation.distance.max(0.0) / speed)
         });
         times.min_by(f64::total_cmp)
+    }
+
+    /// When the sphere comes to a surface, if that is at rest \[s\].
+    fn meets(&self, slots: &Slots, (form, motion): &Place) -> Option<f64> {
+        let Self { slot, flight, duration } = self;
+        let radius = slots.position[*slot].number();
+        let meets = || contact_time::sphere_surface(flight, radius, form, motion, *duration);
+        motion.is_at_rest().then(meets)?
+    }
+
+    /// What becomes of the sphere if it stops after a `time` \[s\] of this leg, where nothing else touches it
+    /// in the sub-step or something does.
+    fn stopped(&self, slots: &Slots, time: f64, sub_step: &SubStep, is_alone: bool) -> Bounce {
+        let Self { slot, flight, .. } = self;
+        let [start, last] = [slots.position[*slot], slots.velocity[*slot]].map(Row::vector);
+        let (end, velocity) = flight.after(time);
+        let shift = end - start - sub_step.h * last;
+        Bounce { slot: *slot as u32, shift, velocity, is_alone }
     }
 }

@@ -78,13 +78,12 @@ impl Slabs {
         self.list.iter().chain([&self.far])
     }
 
-    /// The surfaces that a sphere, by its slot, is near and that bear nothing of it.
-    pub fn free_surfaces_of(&self, slot: usize) -> impl Iterator<Item = u32> {
+    /// The contacts of a sphere, by its slot, with surfaces.
+    pub fn surfaces_of(&self, slot: usize) -> impl Iterator<Item = &SurfaceContact> {
         let slab = &self.list[self.list.partition_point(|slab| slab.end <= slot)];
         let relative = (slot - slab.start) as u32;
         let first = slab.surfaces.partition_point(|contact| contact.slot < relative);
-        let own = slab.surfaces[first..].iter().take_while(move |it| it.slot == relative);
-        own.filter(|contact| contact.impulses.normal == 0.0).map(|contact| contact.surface)
+        slab.surfaces[first..].iter().take_while(move |it| it.slot == relative)
     }
 
     pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Slab> {
