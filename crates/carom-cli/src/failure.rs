@@ -53,32 +53,11 @@ pub fn complain(line: &str) {
     writeln!(io::stderr(), "{}", legible(line)).ok();
 }
 
-/// A message in one line, as a terminal shows it: what files and links hold may be long, and must
-/// not steer the terminal.
+/// A message in one line, as a terminal shows it.
 pub fn legible(message: &str) -> String {
     /// In characters.
     const LONGEST: usize = 4000;
-    let line = message.trim_end().lines().collect::<Vec<_>>().join(" ");
-    let mut text = String::new();
-    for character in line.chars().take(LONGEST) {
-        match character {
-            '\t' => text.push(character),
-            _ if steers(character) => text.extend(character.escape_unicode()),
-            _ => text.push(character),
-        }
-    }
-    match line.chars().count().saturating_sub(LONGEST) {
-        0 => text,
-        left => format!("{text}... and {left} characters more"),
-    }
-}
-
-/// Whether a character does something to what shows it: controls, and marks that turn the
-/// direction of the text after them (Unicode Standard Annex 9).
-pub fn steers(character: char) -> bool {
-    let turns = matches!(character,
-        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    turns || character.is_control() || matches!(character, '\u{2028}' | '\u{2029}')
+    carom_scene::legible(&message.trim_end().lines().collect::<Vec<_>>().join(" "), LONGEST)
 }
 
 impl From<SceneError> for Failure {

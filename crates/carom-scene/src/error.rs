@@ -6,6 +6,14 @@ use std::path::PathBuf;
 use carom::InvalidValue;
 use thiserror::Error;
 
+use crate::legible::legible;
+
+/// Longest quotation of a file or a link in an error \[characters\].
+const LONGEST_QUOTATION: usize = 120;
+
+/// Longest problem \[characters\]: some list names.
+const LONGEST_PROBLEM: usize = 600;
+
 /// What can go wrong with scenes.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -14,7 +22,7 @@ pub enum SceneError {
     #[error(transparent)]
     Invalid(#[from] Fault),
     /// The scene makes sense, but not with the values that overrides put into it.
-    #[error("{overrides}: {fault}")]
+    #[error("{}: {fault}", legible(.overrides, LONGEST_QUOTATION))]
     Overridden {
         /// The overrides that matter.
         overrides: String,
@@ -30,7 +38,11 @@ pub enum SceneError {
         source: std::io::Error,
     },
     /// No scene has this name or title.
-    #[error("there is no scene \"{name}\"{}", did_you_mean(.nearest))]
+    #[error(
+        "there is no scene \"{}\"{}",
+        legible(.name, LONGEST_QUOTATION),
+        did_you_mean(.nearest)
+    )]
     Unknown {
         /// The name requested.
         name: String,
@@ -38,7 +50,7 @@ pub enum SceneError {
         nearest: Option<String>,
     },
     /// An override is not of the form `path=value`.
-    #[error("{text}: {problem}")]
+    #[error("{}: {}", legible(.text, LONGEST_QUOTATION), legible(.problem, LONGEST_PROBLEM))]
     BadOverride {
         /// The override.
         text: String,
@@ -64,14 +76,15 @@ pub struct Fault {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.source_name)?;
+        f.write_str(&legible(&self.source_name, LONGEST_PROBLEM))?;
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
         }
         if !self.field.is_empty() {
-            write!(f, ": {}", self.field)?;
+            write!(f, ": {}", legible(&self.field, LONGEST_QUOTATION))?;
         }
-        write!(f, ": {}{}", self.problem, did_you_mean(&self.nearest))
+        let problem = legible(&self.problem, LONGEST_PROBLEM);
+        write!(f, ": {problem}{}", did_you_mean(&self.nearest))
     }
 }
 

@@ -28,6 +28,7 @@ mod expand;
 mod force;
 mod formula;
 mod generate;
+mod legible;
 mod library;
 mod load;
 mod origin;
@@ -54,6 +55,7 @@ pub use changed_file::ChangedFile;
 #[cfg(feature = "checkpoint")]
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use error::{Fault, SceneError};
+pub use legible::{legible, steers};
 pub use library::{Entry, Library, Source};
 pub use overrides::Override;
 pub use palette::{Coat, Paint, Palette};

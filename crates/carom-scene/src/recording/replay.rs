@@ -10,6 +10,7 @@ use thiserror::Error;
 use super::csv_table::{HEADER, ORIENTATION};
 use super::rotation;
 use crate::error::SceneError;
+use crate::legible::legible;
 use crate::origin::{Origin, Origins};
 use crate::palette;
 use crate::scene::{Color, Scene};
@@ -66,7 +67,7 @@ pub enum ReplayError {
 #[non_exhaustive]
 pub enum LineProblem {
     /// A field is no number, or not a finite one.
-    #[error("{column} must be a number, not \"{text}\"")]
+    #[error("{column} must be a number, not \"{}\"", legible(.text, 60))]
     NotANumber {
         /// Its column.
         column: &'static str,

@@ -2,8 +2,7 @@
 
 use carom::DVec3;
 
-use super::error::LinkError;
-use super::quotation::quoted;
+use super::error::{LinkError, quoted};
 
 /// A camera may be off by this part of its distance: a tenth of a pixel of a large picture.
 const SEEN: f64 = 3e-5;

@@ -1,13 +1,20 @@
 //! What can be wrong with a link.
 
-use carom_scene::SceneError;
 use carom_scene::scene::Rule;
+use carom_scene::{SceneError, legible};
 use thiserror::Error;
 
 use super::packed::PackedError;
 
 /// Names of the parts of a link.
 const PARTS: [&str; 8] = ["scene", "file", "name", "set", "rule", "edits", "t", "camera"];
+
+/// The beginning of what a link says, in one line.
+pub fn quoted(text: &str) -> String {
+    /// In characters.
+    const LONGEST: usize = 40;
+    legible(text, LONGEST)
+}
 
 /// What is wrong with a link.
 #[derive(Debug, Error)]

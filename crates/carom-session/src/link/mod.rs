@@ -6,7 +6,6 @@ mod error;
 mod packed;
 mod parse;
 mod present;
-mod quotation;
 mod rule;
 mod run;
 mod scene;

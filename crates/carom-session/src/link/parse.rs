@@ -6,9 +6,8 @@ use std::sync::Arc;
 use percent_encoding::percent_decode_str;
 
 use super::camera::LinkCamera;
-use super::error::LinkError;
+use super::error::{LinkError, quoted};
 use super::packed::unpack;
-use super::quotation::quoted;
 use super::rule::rule_override;
 use super::run::{Link, LinkSource};
 use super::time::checked_time;

@@ -3,8 +3,7 @@
 use carom_scene::Override;
 use carom_scene::scene::Rule;
 
-use super::error::LinkError;
-use super::quotation::quoted;
+use super::error::{LinkError, quoted};
 
 /// What an override that changes the rule begins with.
 const RULE_PATH: &str = "simulation.rule=";

@@ -9,10 +9,10 @@
 //! Things go by the numbers of their ids. TOML gives every number back to the bit.
 
 use carom::{ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Mass, SOLID_BALL, SphereId};
+use carom_scene::legible;
 use carom_scene::scene::{Color, Force, Quaternion, Simulation, Vector};
 use serde::{Deserialize, Serialize};
 
-use super::quotation::shortened;
 use crate::change::{Change, PastChange};
 use crate::edit::{Edit, SphereChange};
 
@@ -52,7 +52,7 @@ impl Edit {
 fn problem_in(text: &str, error: &toml::de::Error) -> String {
     let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
     let problem = error.message().lines().next().unwrap_or_default();
-    format!("in line {line}, {}", shortened(problem, LONGEST_PROBLEM))
+    format!("in line {line}, {}", legible(problem, LONGEST_PROBLEM))
 }
 
 /// A change of no particular time.
