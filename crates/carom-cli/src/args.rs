@@ -249,6 +249,10 @@ pub struct Run {
     /// Run again whenever the scene file is changed, until Ctrl-C; files are written anew each time.
     #[arg(long, short, conflicts_with = "link")]
     pub watch: bool,
+    /// End with code 1 if the run did not keep what its rule keeps: balls overlap under `exact`, an impact
+    /// loses momentum, `bisect` gives up. A warning says so in any case.
+    #[arg(long)]
+    pub strict: bool,
     /// Print the summary as JSON.
     #[arg(long)]
     pub json: bool,

@@ -6,6 +6,7 @@
 mod advice;
 mod args;
 mod bench;
+mod breach;
 mod choice;
 mod compare;
 mod config;
@@ -52,7 +53,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>, registered: Vec<Scene
         Ok(args) => obey(args, registered),
         Err(refusal) => {
             let text = refusal.render().to_string();
-            let steers = |it: &OsString| it.to_string_lossy().contains(failure::steers);
+            let steers = |it: &OsString| it.to_string_lossy().contains(carom_scene::steers);
             if refusal.use_stderr() && arguments.iter().any(steers) {
                 // It may quote such an argument, which may come from a link.
                 text.lines().for_each(failure::complain);

@@ -117,7 +117,17 @@ fn once(
     } else {
         summary.print(&mut io::stdout().lock(), args.json)?;
     }
-    if interrupted.load(Ordering::Relaxed) { Err(Failure::Interrupted) } else { Ok(()) }
+    for broken in summary.broken() {
+        complain(&format!("carom: warning: {broken}"));
+    }
+    if interrupted.load(Ordering::Relaxed) {
+        return Err(Failure::Interrupted);
+    }
+    if args.strict && !summary.broken().is_empty() {
+        let rule = replay.simulation().rule.name();
+        return Err(Failure::Fault(format!("the run did not keep what the rule {rule} keeps")));
+    }
+    Ok(())
 }
 
 /// Refuses to sum up a run whose numbers have grown too large for a computer.

@@ -9,6 +9,7 @@ use carom_session::{Replay, SessionError};
 use serde::Serialize;
 
 use crate::advice::{Conduct, advice};
+use crate::breach::{Course, breaches};
 use crate::contact_totals::ContactTotals;
 use crate::stage_work::StageWork;
 use crate::zone_totals::ZoneTotals;
@@ -33,6 +34,8 @@ pub struct Observer {
     unfinished_islands: u64,
     work: StageCounts,
     largest_overlap: f64,
+    /// The same as a part of the smallest radius at that time.
+    largest_relative_overlap: f64,
     /// In any group of impacts, under rules that keep a ledger.
     largest_momentum_error: f64,
     largest_energy_error: f64,
@@ -57,6 +60,7 @@ impl Observer {
             unfinished_islands: 0,
             work: StageCounts::default(),
             largest_overlap: 0.0,
+            largest_relative_overlap: 0.0,
             largest_momentum_error: 0.0,
             largest_energy_error: 0.0,
             contact: ContactTotals::default(),
@@ -94,7 +98,12 @@ impl Observer {
 
     fn look_for_overlaps(&mut self, world: &World) {
         let depths = world.overlaps(0.0).into_iter().map(|overlap| overlap.depth);
-        self.largest_overlap = depths.fold(self.largest_overlap, f64::max);
+        let deepest = depths.fold(0.0, f64::max);
+        if deepest > 0.0 {
+            let smallest = world.spheres().radii().iter().copied().fold(f64::INFINITY, f64::min);
+            self.largest_overlap = self.largest_overlap.max(deepest);
+            self.largest_relative_overlap = self.largest_relative_overlap.max(deepest / smallest);
+        }
     }
 }
 
@@ -148,6 +157,21 @@ pub struct Summary {
     state_hash: String,
     /// What would have made the run better.
     advice: Option<String>,
+    /// What the rule keeps, and this run did not.
+    broken: Vec<String>,
+}
+
+impl Course {
+    fn of(replay: &Replay, observer: &Observer) -> Self {
+        Self {
+            rule: replay.simulation().rule,
+            overlap: observer.largest_relative_overlap,
+            may_overlap: replay.simulation().allow_overlap || observer.zones.are_any(),
+            momentum_error: observer.largest_momentum_error,
+            energy_error: observer.largest_energy_error,
+            unfinished_islands: observer.unfinished_islands,
+        }
+    }
 }
 
 impl Conduct {
@@ -175,6 +199,7 @@ impl Summary {
         let is_exact = simulation.rule == Rule::Exact;
         let is_contact = simulation.rule == Rule::Contact;
         let advice = advice(Conduct::of(replay, &observer));
+        let broken = breaches(Course::of(replay, &observer));
         Self {
             scene: replay.scene().name.clone(),
             rule: simulation.rule,
@@ -212,7 +237,13 @@ impl Summary {
             stepping_time: observer.stepping.as_secs_f64(),
             state_hash: world.state_hash().to_string(),
             advice,
+            broken,
         }
+    }
+
+    /// What the rule keeps, and this run did not, a line each.
+    pub fn broken(&self) -> &[String] {
+        &self.broken
     }
 
     /// Prints the figures as a table, or as JSON.

@@ -1,0 +1,75 @@
+//! What a rule keeps, and a run did not.
+
+use carom_scene::scene::Rule;
+
+/// Part of the smallest radius by which balls may overlap under `exact`: curved surfaces are followed in pieces.
+const OVERLAP: f64 = 1e-6;
+
+/// What a group of impacts may change of the momentum, as a part of the momenta at work: rounding, many times
+/// over.
+const MOMENTUM: f64 = 1e-6;
+
+/// What it may change of the energy against what restitution demands, as a part of the energy at work.
+const ENERGY: f64 = 1e-6;
+
+/// How a run went.
+#[derive(Debug, Clone, Copy)]
+pub struct Course {
+    pub rule: Rule,
+    /// Largest overlap at the end of a frame, as a part of the smallest radius.
+    pub overlap: f64,
+    /// Whether spheres may overlap: the scene allows it, or some were stepped, which leaves a little.
+    pub may_overlap: bool,
+    /// Largest errors of any group of impacts.
+    pub momentum_error: f64,
+    pub energy_error: f64,
+    pub unfinished_islands: u64,
+}
+
+/// What was not kept, a line each.
+pub fn breaches(course: Course) -> Vec<String> {
+    let Course { rule, overlap, may_overlap, momentum_error, energy_error, unfinished_islands } =
+        course;
+    let is_exact = rule == Rule::Exact;
+    let mut breaches = Vec::new();
+    if is_exact && !may_overlap && overlap > OVERLAP {
+        breaches.push(format!("balls overlap by {overlap:.1e} of the smallest radius"));
+    }
+    if is_exact && momentum_error > MOMENTUM {
+        breaches.push(format!("an impact changes the momentum by {momentum_error:.1e} of itself"));
+    }
+    if is_exact && energy_error > ENERGY {
+        breaches.push(format!("an impact changes the energy by {energy_error:.1e} too much"));
+    }
+    if unfinished_islands > 0 {
+        breaches.push(format!("{unfinished_islands} islands were left before they were settled"));
+    }
+    breaches
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const KEPT: Course = Course {
+        rule: Rule::Exact,
+        overlap: 1e-9,
+        may_overlap: false,
+        momentum_error: 1e-15,
+        energy_error: 1e-8,
+        unfinished_islands: 0,
+    };
+
+    #[test]
+    fn only_what_a_rule_keeps_can_be_broken() {
+        assert!(breaches(KEPT).is_empty());
+        let overlapping = Course { overlap: 1e-3, ..KEPT };
+        assert_eq!(breaches(overlapping).len(), 1);
+        assert!(breaches(Course { may_overlap: true, ..overlapping }).is_empty());
+        assert!(breaches(Course { rule: Rule::Discrete, ..overlapping }).is_empty());
+        let lossy = Course { momentum_error: 1e-3, energy_error: 1e-3, ..KEPT };
+        assert_eq!(breaches(lossy).len(), 2);
+        let unsettled = Course { rule: Rule::Bisect, unfinished_islands: 2, ..KEPT };
+        assert_eq!(breaches(unsettled).len(), 1);
+    }
+}
