@@ -6,6 +6,7 @@ mod architecture;
 mod circles;
 mod commands;
 mod demo;
+mod dependencies;
 mod documents;
 mod imports;
 mod js_package;
@@ -47,6 +48,8 @@ Usage: cargo xtask COMMAND
   schema    write scenes/scene.schema.json anew from the scene types
   soak      a day of simulated time of several scenes: pinned states, hour by hour, and flat memory
             (an hour; `soak --hours H` for another time)
+  fuzz      hostile input for every reader, and worlds that are hard to step: the campaign of
+            docs/reliability.md (half an hour); `fuzz --help` says how to choose
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
             pictures and of the interface, `bench web` the JavaScript package against the native
             engine";
@@ -74,6 +77,7 @@ fn main() -> ExitCode {
         ["schema"] => schema::write(),
         ["soak"] => test::soak("24"),
         ["soak", "--hours", hours] => test::soak(hours),
+        ["fuzz", ref options @ ..] => test::fuzz(options),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "web"] => js_package::bench(),
         ["bench", "pictures"] => {

@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 use crate::commands::{self, Programs};
 use crate::shell::{Outcome, cargo, cargo_with, target_folder};
 use crate::{
-    architecture, circles, documents, js_package, python, setup, sizes, stages, web, words,
+    architecture, circles, dependencies, documents, js_package, python, setup, sizes, stages, web,
+    words,
 };
 
 /// A part of the checks, for which one time is printed.
@@ -71,10 +72,17 @@ pub fn soak(hours: &str) -> Outcome {
     cargo_with(&[&OPTIMISED[..], &soak].concat(), &[("SOAK_HOURS", hours)])
 }
 
+/// Tries hostile input; `options` are those of `carom-fuzz`.
+pub fn fuzz(options: &[&str]) -> Outcome {
+    cargo(&[&["build", "--release"], &PLAIN[..]].concat())?;
+    cargo(&[&["run", "--release", "--package", "carom-fuzz", "--"], options].concat())
+}
+
 /// Checks what needs no build: formats, words, names in documents, the order of modules.
 pub fn lint() -> Outcome {
     cargo(&["fmt", "--all", "--check"])?;
     architecture::check()?;
+    dependencies::check()?;
     words::check()?;
     circles::check()?;
     sizes::check()?;

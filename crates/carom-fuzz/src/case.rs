@@ -1,0 +1,35 @@
+//! What targets make of their cases.
+
+use std::borrow::Cow;
+use std::time::{Duration, Instant};
+
+use carom::{StopRequest, World};
+use carom_scene::BUILT_IN_FILES;
+
+use crate::fault::Fault;
+
+/// How long frames of a case may go on until they are stopped.
+const FRAME_PATIENCE: Duration = Duration::from_secs(1);
+
+/// The texts of the built-in scenes.
+pub fn built_in() -> Vec<Vec<u8>> {
+    BUILT_IN_FILES.iter().map(|(_, text)| text.as_bytes().to_vec()).collect()
+}
+
+/// A request that stands once [`FRAME_PATIENCE`] is over.
+pub fn soon() -> StopRequest {
+    let began = Instant::now();
+    StopRequest::new(move || began.elapsed() > FRAME_PATIENCE)
+}
+
+/// Checks that the motion of a world consists of numbers.
+pub fn check_finite(world: &World) -> Result<(), Fault> {
+    let spheres = world.spheres();
+    let is_finite = spheres.positions().iter().chain(spheres.velocities()).all(|it| it.is_finite());
+    if is_finite { Ok(()) } else { Err(Fault::Law("has motion that is no number".to_owned())) }
+}
+
+/// Text for what readers take as text; what is none becomes some.
+pub fn text(case: &[u8]) -> Cow<'_, str> {
+    String::from_utf8_lossy(case)
+}

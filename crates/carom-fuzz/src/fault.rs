@@ -1,0 +1,61 @@
+//! What must not happen.
+
+use std::time::Duration;
+
+use thiserror::Error;
+
+/// How a case breaks a promise.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Fault {
+    /// Code came where it must not.
+    #[error("panics: {0}")]
+    Panic(String),
+    /// It took too long.
+    #[error("takes {:.1} s", .0.as_secs_f64())]
+    Slow(Duration),
+    /// It took too much memory.
+    #[error("takes {} MB", .bytes / 1_000_000)]
+    Memory {
+        /// Most of the process so far.
+        bytes: u64,
+    },
+    /// An error says it badly.
+    #[error("has an error {problem}: {error:?}")]
+    Error {
+        /// What is wrong with it.
+        problem: &'static str,
+        /// The error.
+        error: String,
+    },
+    /// A law of the engine, or of a reader, does not hold.
+    #[error("{0}")]
+    Law(String),
+}
+
+/// Longest error \[characters\]: a few lines of a terminal.
+const MOST_CHARACTERS: usize = 1000;
+
+/// Checks that an error is one line that people can read, and that steers no terminal.
+pub fn check_error(error: &str) -> Result<(), Fault> {
+    let problem = if error.trim().is_empty() {
+        "that says nothing"
+    } else if error.contains('\n') {
+        "of several lines"
+    } else if error.chars().count() > MOST_CHARACTERS {
+        "that is too long"
+    } else {
+        return check_line(error);
+    };
+    Err(Fault::Error { problem, error: error.chars().take(MOST_CHARACTERS).collect() })
+}
+
+/// Checks that a line steers no terminal.
+pub fn check_line(line: &str) -> Result<(), Fault> {
+    // Characters that turn the direction of text make it read otherwise than it is.
+    let turns = |it: char| matches!(it, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    if !line.contains(|it: char| it.is_control() || turns(it)) {
+        return Ok(());
+    }
+    let error = line.chars().take(MOST_CHARACTERS).collect();
+    Err(Fault::Error { problem: "that steers the terminal", error })
+}

@@ -1,0 +1,178 @@
+//! Laws that hold of every world, or of those of a rule.
+
+use carom::{StopRequest, World};
+use carom_scene::scene::{Boundary, Rule, Shape};
+use carom_scene::{Checkpoint, Palette, Scene};
+
+use crate::fault::Fault;
+use crate::target::PATIENCE;
+
+/// Frames that a world is taken.
+const FRAMES: usize = 64;
+
+/// Part of the energy that a frame may add: to this, pieces of path along curved surfaces keep it.
+const GAIN: f64 = 1e-7;
+
+/// Overlap that may be, as a part of the smallest radius.
+const OVERLAP: f64 = 1e-6;
+
+/// Takes a world some frames, and checks what must hold of it.
+///
+/// # Errors
+/// The law that does not hold.
+pub fn check(scene: &Scene) -> Result<(), Fault> {
+    let mut world = world(scene)?;
+    let middle = run(scene, &mut world, FRAMES / 2)?;
+    let (snapshot, bytes) = (world.snapshot(), checkpoint(scene, &world)?);
+    let seen = middle.and(run(scene, &mut world, FRAMES / 2)?);
+    let end = world.state_hash();
+    let is_same = |it: &World, what: &str| {
+        let hash = it.state_hash();
+        law(hash == end, || format!("ends otherwise {what}: {hash}, not {end}"))
+    };
+
+    world.restore(&snapshot);
+    run(scene, &mut world, FRAMES / 2)?;
+    is_same(&world, "from a snapshot")?;
+
+    let read = Checkpoint::from_bytes(&bytes);
+    let read = read.map_err(|error| Fault::Law(format!("its checkpoint is refused: {error}")))?;
+    let mut other = self::world(scene)?;
+    other.restore(&read.snapshot);
+    run(scene, &mut other, FRAMES / 2)?;
+    is_same(&other, "from a checkpoint")?;
+
+    let mut other = self::world(scene)?;
+    run(scene, &mut other, FRAMES)?;
+    is_same(&other, "the second time")?;
+    if scene.simulation.rule == Rule::Exact && !is_driven(scene) && seen == Seen::default() {
+        check_other_frames(scene, &world)?;
+    }
+    Ok(())
+}
+
+/// What was seen of a run.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+struct Seen {
+    /// Whether spheres were stepped, which loses what holds of events.
+    zone: bool,
+    /// Whether a contact lasted: its forces may be held over a frame.
+    contact: bool,
+}
+
+impl Seen {
+    fn and(self, other: Self) -> Self {
+        Self { zone: self.zone || other.zone, contact: self.contact || other.contact }
+    }
+}
+
+/// Whether surfaces move, which do work, and are where frames take them.
+fn is_driven(scene: &Scene) -> bool {
+    scene.colliders.iter().any(|it| it.velocity != [0.0; 3])
+}
+
+fn law(holds: bool, broken: impl FnOnce() -> String) -> Result<(), Fault> {
+    if holds { Ok(()) } else { Err(Fault::Law(broken())) }
+}
+
+fn world(scene: &Scene) -> Result<World, Fault> {
+    let mut world = scene.world().map_err(|it| Fault::Law(format!("makes no world: {it}")))?;
+    let began = std::time::Instant::now();
+    world.set_stop_request(Some(StopRequest::new(move || began.elapsed() > PATIENCE)));
+    Ok(world)
+}
+
+fn checkpoint(scene: &Scene, world: &World) -> Result<Vec<u8>, Fault> {
+    let palette = Palette::new(scene).map_err(|it| Fault::Law(format!("has no colours: {it}")))?;
+    let bytes = Checkpoint::bytes_of(&world.snapshot(), scene, &palette);
+    bytes.map_err(|it| Fault::Law(format!("has no bytes: {it}")))
+}
+
+/// Takes a world some frames, and checks the laws of its rule after each.
+fn run(scene: &Scene, world: &mut World, frames: usize) -> Result<Seen, Fault> {
+    let keeps = Keeps::of(scene);
+    let mut seen = Seen::default();
+    let mut energy = world.total_energy();
+    let mut scale = energy.abs().max(world.kinetic_energy());
+    for _ in 0..frames {
+        let report = world.step(scene.simulation.frame_time);
+        let report = report.map_err(|it| Fault::Law(format!("stops: {it}")))?;
+        seen.zone |= report.zone_account.joined > 0 || report.zone_account.spheres > 0;
+        let corrected = report.contact_account.correction_work;
+        seen.contact |= !world.contacts().is_empty();
+        let at = format!("at {} s", world.time());
+        let now = world.total_energy();
+        scale = scale.max(world.kinetic_energy());
+        law(now.is_finite(), || format!("has energy {now} {at}"))?;
+        let gain = now - energy - corrected.max(0.0);
+        law(!keeps.energy || seen.zone || gain <= GAIN * scale, || {
+            format!("gains {gain:e} J, its energy being {scale:e} J, {at}")
+        })?;
+        energy = now;
+        check_places(world, &keeps, seen.zone).map_err(|it| Fault::Law(format!("{it} {at}")))?;
+    }
+    Ok(seen)
+}
+
+/// What the rule of a scene keeps.
+struct Keeps {
+    energy: bool,
+    no_overlap: bool,
+    /// Farthest place from the centre of the container \[m\], where it keeps what is inside.
+    farthest: Option<f64>,
+}
+
+impl Keeps {
+    fn of(scene: &Scene) -> Self {
+        let rule = scene.simulation.rule;
+        let is_driven = is_driven(scene);
+        let size = scene.colliders.iter().find_map(|it| match &it.shape {
+            Shape::Container { size, .. } => Some(size.map(|it| it * it).iter().sum::<f64>()),
+            _ => None,
+        });
+        let is_solid = matches!(rule, Rule::Exact | Rule::Contact);
+        // What moves may press a sphere through what stands.
+        let is_kept = is_solid && !is_driven;
+        Self {
+            energy: is_kept && scene.simulation.boundary == Boundary::default(),
+            no_overlap: rule == Rule::Exact && !is_driven,
+            farthest: size.filter(|_| is_kept).map(|it| 0.5 * it.sqrt()),
+        }
+    }
+}
+
+fn check_places(world: &World, keeps: &Keeps, in_zone: bool) -> Result<(), String> {
+    let spheres = world.spheres();
+    if spheres.positions().iter().any(|it| !it.is_finite()) {
+        return Err("is nowhere".to_owned());
+    }
+    if let Some(farthest) = keeps.farthest {
+        let out = spheres.positions().iter().find(|it| it.length() > farthest);
+        if let Some(out) = out {
+            return Err(format!("has a sphere outside its container, at {out}"));
+        }
+    }
+    let smallest = spheres.radii().iter().copied().fold(f64::INFINITY, f64::min);
+    let depths = world.overlaps(0.0).into_iter().map(|overlap| overlap.depth / smallest);
+    let overlap = depths.fold(0.0, f64::max);
+    if keeps.no_overlap && !in_zone && overlap > OVERLAP {
+        return Err(format!("overlaps by {overlap:e} of its smallest radius"));
+    }
+    Ok(())
+}
+
+/// Frames of half the length come to the same place, as far as nothing is held over a frame.
+fn check_other_frames(scene: &Scene, end: &World) -> Result<(), Fault> {
+    let mut scene = scene.clone();
+    scene.simulation.frame_time *= 0.5;
+    let mut world = world(&scene)?;
+    if run(&scene, &mut world, 2 * FRAMES)? != Seen::default() {
+        return Ok(());
+    }
+    let (positions, expected) = (world.spheres().positions(), end.spheres().positions());
+    law(positions == expected, || {
+        let pairs = positions.iter().zip(expected);
+        let far = pairs.map(|(one, other)| (*one - *other).length()).fold(0.0, f64::max);
+        format!("comes to another place by frames of half the length, {far:e} m away")
+    })
+}

@@ -1,0 +1,23 @@
+//! Hostile input for every reader of Carom, and worlds that are hard to step.
+//!
+//! A [`Target`] says how its cases are drawn, and what must hold of each: no panic, an end within
+//! [`PATIENCE`], little memory, errors of one line that steer no terminal, and the laws of the engine.
+//! A [`Campaign`] draws cases by number, so that each can be had again, and makes those that fail
+//! smaller. Cases that once failed lie in the corpus.
+
+mod campaign;
+mod case;
+mod corpus;
+mod fault;
+mod laws;
+mod memory;
+mod mutation;
+mod target;
+mod targets;
+
+pub use campaign::{Campaign, Finding, Totals};
+pub use corpus::Known;
+pub use fault::Fault;
+pub use memory::MOST_BYTES;
+pub use target::{Answer, PATIENCE, Target};
+pub use targets::TARGETS;

@@ -1,0 +1,57 @@
+//! One reader, or the engine: how its cases are drawn, and what must hold of each.
+
+use std::panic::{self, AssertUnwindSafe};
+use std::time::{Duration, Instant};
+
+use proptest::strategy::BoxedStrategy;
+
+use crate::fault::Fault;
+use crate::memory;
+
+/// Longest that a case may take.
+pub const PATIENCE: Duration = Duration::from_secs(5);
+
+/// A reader, or the engine.
+#[derive(Debug, Clone, Copy)]
+pub struct Target {
+    /// Name, as typed.
+    pub name: &'static str,
+    /// What its cases are.
+    pub about: &'static str,
+    /// Cases of a whole campaign.
+    pub campaign: u64,
+    /// Cases that are drawn. Each is what a file of it holds.
+    pub cases: fn() -> BoxedStrategy<Vec<u8>>,
+    /// Checks a case.
+    pub check: fn(&[u8]) -> Result<Answer, Fault>,
+}
+
+/// What a reader said to a case. Both are right; a campaign in which one is missing tests little.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// It makes sense.
+    Accepted,
+    /// It makes none, and the error says so.
+    Refused,
+}
+
+impl Target {
+    /// Checks a case, its time and its memory, too.
+    ///
+    /// # Errors
+    /// What it breaks.
+    pub fn try_case(&self, case: &[u8]) -> Result<Answer, Fault> {
+        let began = Instant::now();
+        let answer = panic::catch_unwind(AssertUnwindSafe(|| (self.check)(case)));
+        let took = began.elapsed();
+        let answer = answer.map_err(|payload| Fault::Panic(message(&*payload)))??;
+        memory::check_peak()?;
+        if took > PATIENCE { Err(Fault::Slow(took)) } else { Ok(answer) }
+    }
+}
+
+/// What a panic said.
+fn message(payload: &(dyn std::any::Any + Send)) -> String {
+    let text = payload.downcast_ref::<String>().map(String::as_str);
+    text.or(payload.downcast_ref::<&str>().copied()).unwrap_or("without a message").to_owned()
+}

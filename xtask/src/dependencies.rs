@@ -1,0 +1,87 @@
+//! What Carom is built of: every crate comes from the registry, under a licence that lets anyone use it.
+
+use std::process::Command;
+
+use serde_json::Value;
+use spdx::{Expression, ParseMode};
+
+use crate::shell::{Outcome, cargo_program, root};
+
+/// Licences under which anyone may use, change and pass on what is built of a crate.
+const LICENCES: [&str; 13] = [
+    "0BSD",
+    "Apache-2.0",
+    "BSD-2-Clause",
+    "BSD-3-Clause",
+    "BSL-1.0",
+    "ISC",
+    "MIT",
+    "MPL-2.0",
+    "OFL-1.1",
+    "Ubuntu-font-1.0",
+    "Unicode-3.0",
+    "Unlicense",
+    "Zlib",
+];
+
+/// Where crates come from.
+const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
+
+/// Checks the crates that `Cargo.lock` names.
+pub fn check() -> Outcome {
+    let mut faults = Vec::new();
+    for package in packages()? {
+        let text = |field: &str| package[field].as_str().unwrap_or_default().to_owned();
+        let (name, version) = (text("name"), text("version"));
+        // Those of Carom have no source.
+        let source = package["source"].as_str().unwrap_or(REGISTRY);
+        if source != REGISTRY {
+            faults.push(format!("{name} {version} comes from {source}"));
+        }
+        if !is_free(&text("license")) {
+            faults.push(format!("{name} {version} has the licence {:?}", text("license")));
+        }
+    }
+    if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
+}
+
+/// Every crate of the lock file, as cargo describes it.
+fn packages() -> Outcome<Vec<Value>> {
+    let mut command = Command::new(cargo_program());
+    command.args(["metadata", "--format-version", "1", "--locked"]).current_dir(root());
+    let output = command.output().map_err(|error| format!("cargo metadata: {error}"))?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+    }
+    let described: Value = serde_json::from_slice(&output.stdout)
+        .map_err(|error| format!("cargo metadata: {error}"))?;
+    described["packages"]
+        .as_array()
+        .cloned()
+        .ok_or_else(|| "cargo metadata lists no packages".into())
+}
+
+/// Whether a licence, in the words of SPDX, leaves a choice that is free.
+fn is_free(licence: &str) -> bool {
+    let expression = Expression::parse_mode(licence, ParseMode::LAX);
+    expression.is_ok_and(|it| {
+        it.evaluate(|choice| choice.license.id().is_some_and(|id| LICENCES.contains(&id.name)))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_free_choice_is_enough_and_each_part_needs_one() {
+        for free in
+            ["MIT", "MIT/Apache-2.0", "GPL-2.0-only OR MIT", "(MIT OR Apache-2.0) AND Unicode-3.0"]
+        {
+            assert!(is_free(free), "{free}");
+        }
+        for bound in ["", "GPL-3.0-only", "MIT AND LGPL-2.1-or-later", "no licence"] {
+            assert!(!is_free(bound), "{bound}");
+        }
+    }
+}
