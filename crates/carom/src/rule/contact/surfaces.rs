@@ -360,7 +360,7 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Plac
         let slot = contact.slot as usize;
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
         let (form, _) = &places[contact.surface as usize];
-        let is_held = contact.is_slow || run.bears[slot];
+        let is_held = contact.is_slow || run.bears[slot] || contact.is_pushed_through(center, form);
         let start = if is_held { contact.kept_in_front(center, radius) } else { center };
         let separation = sphere_surface(form, start, radius);
         let overlap = separation.map_or(0.0, |it| -it.distance - SLOP * radius).max(0.0);
@@ -376,6 +376,13 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Plac
 }
 
 impl SurfaceContact {
+    /// Whether a sphere about `center` \[m\] that was in front of a face is right behind it: others have pushed it
+    /// through.
+    fn is_pushed_through(&self, center: DVec3, form: &Form) -> bool {
+        let is_behind = self.point.is_some_and(|point| (center - point).dot(self.normal) < 0.0);
+        is_behind && is_over(form, center)
+    }
+
     /// Where a sphere about `center` \[m\] is at least that much in front of the surface as what presses on
     /// it may leave: [`LEAST_IN_FRONT`] of its radius.
     fn kept_in_front(&self, center: DVec3, radius: f64) -> DVec3 {
@@ -391,6 +398,19 @@ fn is_flat(form: &Form, normal: DVec3) -> bool {
     match form {
         Form::HalfSpace { .. } => true,
         Form::Rectangle(rectangle) => rectangle.normal == normal,
+        Form::Sphere { .. } | Form::Box(_) => false,
+    }
+}
+
+/// Whether a point, in front or behind, is over a plane or a face, not beside it.
+fn is_over(form: &Form, point: DVec3) -> bool {
+    match form {
+        Form::HalfSpace { .. } => true,
+        Form::Rectangle(face) => {
+            let offset = point - face.center;
+            offset.dot(face.axis_x).abs() <= face.half_x
+                && offset.dot(face.axis_z).abs() <= face.half_z
+        }
         Form::Sphere { .. } | Form::Box(_) => false,
     }
 }
