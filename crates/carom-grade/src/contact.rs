@@ -95,9 +95,8 @@ impl<N: Real> Surface<N> {
         let length = offset.length();
         let is_at_centre = length <= N::of(0.0);
         let normal = if is_at_centre { Vec3::of(DVec3::Y) } else { offset / length };
-        let place = mistakes
-            .has(Mistake::OnTopOfSpheres)
-            .then(|| self.center + normal * (own + radius));
+        let place =
+            mistakes.has(Mistake::OnTopOfSpheres).then(|| self.center + normal * (own + radius));
         let touches = length - (own + radius) < N::of(0.0);
         touches.then_some(Contact { kind: ContactKind::Sphere, normal, place })
     }

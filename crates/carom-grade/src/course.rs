@@ -13,6 +13,8 @@ pub struct Course {
     pub name: String,
     /// Length of a frame \[s\].
     pub frame_time: f64,
+    /// Time worth watching \[s\].
+    pub duration: f64,
     pub(crate) combine_rule: CombineRule,
     /// Forces, in the order in which they add up.
     pub(crate) forces: Vec<Acting>,
@@ -126,6 +128,7 @@ impl Course {
         Ok(Self {
             name: scene.name.clone(),
             frame_time: scene.simulation.frame_time,
+            duration: scene.simulation.duration,
             combine_rule: scene.settings().combine_rule,
             forces: scene.forces.iter().map(acting).collect(),
             balls,

@@ -31,7 +31,9 @@ pub struct Fit {
     pub rms: f64,
     /// Largest distance of them \[m\].
     pub max: f64,
-    /// The same of their velocities \[m/s\], where there are any.
+    /// Largest distance of them, as a part of how far the ball is from the origin, where that is more than 1 m.
+    pub max_relative: f64,
+    /// Largest difference of their velocities \[m/s\], where there are any.
     pub max_velocity: Option<f64>,
     /// The earliest departure.
     pub departure: Option<Departed>,
@@ -90,7 +92,7 @@ impl Rows<'_> {
             let known = ball.or_insert((None, true));
             let (before, follows) = (known.0.replace(number), known.1);
             // Before the start, and after the end of what was run, there is nothing to compare with.
-            if !follows || later != 0.0 && tracks.frame_at(time).is_none() {
+            if !follows || tracks.frame_at(time).is_none() {
                 sums.followed += usize::from(follows);
                 continue;
             }
@@ -100,7 +102,11 @@ impl Rows<'_> {
                 && distance <= self.tolerances[number]
             {
                 let velocity = row.velocity.map(|it| it.distance(there.velocity));
-                sums.add(distance, velocity, self.frame_time);
+                if let Some(velocity) = velocity {
+                    sums.max_velocity = Some(sums.max_velocity.unwrap_or(0.0).max(velocity));
+                }
+                let moved = velocity.unwrap_or(0.0) * self.frame_time;
+                sums.add(distance, there.position.length(), moved);
                 continue;
             }
             known.1 = false;
@@ -117,6 +123,31 @@ impl Rows<'_> {
     }
 }
 
+/// How long after a departure runs are compared that follow no longer \[s\].
+const AFTERWARDS: f64 = 0.5;
+
+impl Rows<'_> {
+    /// Root of the mean square of distances \[m\] of the ball that departs, each 1 m at most, right after its
+    /// departure.
+    pub fn distance_after(&self, departed: &Departed, tracks: &Tracks) -> f64 {
+        let rows = &self.recorded.rows;
+        let (label, ball) = (rows[departed.row].label, self.balls[departed.row]);
+        let (mut sum, mut count) = (0.0, 0.0);
+        let until = departed.time + AFTERWARDS;
+        let shown =
+            rows.iter().enumerate().skip(departed.row).take_while(|(_, row)| row.time <= until);
+        for (number, row) in shown {
+            if row.label != label || self.balls[number] != ball {
+                continue;
+            }
+            let there = tracks.sample(self.keys[label], row.time);
+            let distance = there.map_or(1.0, |it| it.position.distance(row.position).min(1.0));
+            (sum, count) = (sum + distance * distance, count + 1.0);
+        }
+        (sum / f64::max(count, 1.0)).sqrt()
+    }
+}
+
 /// What adds up over rows.
 #[derive(Default)]
 struct Sums {
@@ -125,20 +156,18 @@ struct Sums {
     squares: f64,
     residuals: f64,
     max: f64,
+    max_relative: f64,
     max_velocity: Option<f64>,
 }
 
 impl Sums {
-    fn add(&mut self, distance: f64, velocity: Option<f64>, frame_time: f64) {
+    fn add(&mut self, distance: f64, from_origin: f64, moved: f64) {
         self.followed += 1;
         self.compared += 1;
         self.max = self.max.max(distance);
         self.squares += distance * distance;
-        let moved = velocity.unwrap_or(0.0) * frame_time;
+        self.max_relative = self.max_relative.max(distance / from_origin.max(1.0));
         self.residuals += distance * distance + moved * moved;
-        if let Some(velocity) = velocity {
-            self.max_velocity = Some(self.max_velocity.unwrap_or(0.0).max(velocity));
-        }
     }
 
     fn fit(self, rows: usize, departure: Option<Departed>) -> Fit {
@@ -147,10 +176,11 @@ impl Sums {
             compared => (sum / compared as f64).sqrt(),
         };
         Fit {
-            followed: self.followed,
+            followed: if self.compared > 0 { self.followed } else { 0 },
             rows,
             rms: root_of_mean(self.squares),
             max: self.max,
+            max_relative: self.max_relative,
             max_velocity: self.max_velocity,
             departure,
             residual: root_of_mean(self.residuals),

@@ -23,6 +23,9 @@ const SPREADS: f64 = 4.0;
 /// Clocks that are this many frames ahead or behind are recognised.
 const SHIFTS: [i32; 4] = [1, -1, 2, -2];
 
+/// Tables of more rows are not compared with pairs of mistakes, which would take minutes.
+const MOST_ROWS_OF_PAIRS: usize = 100_000;
+
 /// Two mistakes at once must follow this part of all rows longer than one does to be named.
 const WORTH_A_PAIR: f64 = 0.02;
 
@@ -138,6 +141,8 @@ impl Grader {
                 (Some(ball), Some(frame), Some(spread)) => {
                     spread.at(ball, frame - reference.balls[ball].birth)
                 }
+                // A ball that only a wrong run has.
+                (None, _, Some(spread)) => spread.largest(),
                 _ => 0.0,
             };
             rows.balls.push(ball);
@@ -166,19 +171,24 @@ impl Grader {
         })
     }
 
-    /// The mistakes that explain a run best, the best first.
+    /// The mistakes that explain a run better than the course's rule, the best first.
     fn explanations(&self, rows: &Rows, right: &Fit) -> Vec<Explanation> {
-        let mut found: Vec<Explanation> = Mistake::all()
-            .map(|mistake| self.explanation(mistake.into(), rows, right))
-            .collect();
-        sort(&mut found);
-        let best = found[0].fit.followed;
-        if !found[0].fit.is_complete()
+        let mut found: Vec<Explanation> =
+            Mistake::all().map(|mistake| self.explanation(mistake.into(), rows, right)).collect();
+        found.sort_by(Explanation::compare);
+        let best = &found[0].fit;
+        let much_longer = best.followed as f64 + WORTH_A_PAIR * best.rows as f64;
+        if !best.is_complete()
+            && best.rows <= MOST_ROWS_OF_PAIRS
             && let Some(pair) = self.pair(rows, right)
-            && pair.fit.followed as f64 > best as f64 + WORTH_A_PAIR * pair.fit.rows as f64
+            && pair.fit.followed as f64 > much_longer
         {
             found.insert(0, pair);
         }
+        let reference = &self.runs[&Mistakes::NONE];
+        let of_rule = right.departure.map_or(0.0, |it| rows.distance_after(&it, reference));
+        // A tenth of a percent nearer is chance.
+        found.retain(|it| it.share > 0.0 || it.distance_after < 0.999 * of_rule);
         found
     }
 
@@ -198,11 +208,16 @@ impl Grader {
     }
 
     fn explanation(&self, mistakes: Mistakes, rows: &Rows, right: &Fit) -> Explanation {
-        let fit = match self.runs.get(&mistakes) {
-            Some(tracks) if !self.needs_own_run(mistakes, rows.recorded) => rows.follow(tracks, 0.0),
-            _ => rows.follow(&self.tracks(mistakes, rows.recorded), 0.0),
+        let own;
+        let tracks = match self.runs.get(&mistakes) {
+            Some(known) if !self.needs_own_run(mistakes, rows.recorded) => known,
+            _ => {
+                own = self.tracks(mistakes, rows.recorded);
+                &own
+            }
         };
-        Explanation::new(mistakes, fit, right)
+        let after = right.departure.map_or(0.0, |it| rows.distance_after(&it, tracks));
+        Explanation::new(mistakes, rows.follow(tracks, 0.0), right, after)
     }
 
     /// Whether the run with these mistakes depends on the times of the table.
@@ -220,13 +235,6 @@ impl Grader {
         let known = self.runs.get(&mistakes).cloned();
         known.unwrap_or_else(|| run::<f64>(&self.course, mistakes, &Clock::Fixed(self.end)))
     }
-}
-
-/// Sorts by how well they fit; of those that fit alike, the first of the list is named first.
-fn sort(found: &mut [Explanation]) {
-    found.sort_by(|a, b| {
-        b.fit.followed.cmp(&a.fit.followed).then(a.fit.residual.total_cmp(&b.fit.residual))
-    });
 }
 
 /// The frames of a display that a table was recorded in: its times, where they are no ends of fixed frames;

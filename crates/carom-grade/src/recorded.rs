@@ -146,7 +146,8 @@ impl Recorded {
         }
         let resolution = 0.5 * 10_f64.powi(-parts.decimals) * reading.length_unit;
         let labels = order(&mut rows, parts.labels);
-        let twice = rows.windows(2).find(|it| (it[0].time, it[0].label) == (it[1].time, it[1].label));
+        let twice =
+            rows.windows(2).find(|it| (it[0].time, it[0].label) == (it[1].time, it[1].label));
         if let Some([first, second]) = twice {
             let ball = &labels[first.label];
             let problem = format!("ball {ball} at this time is in line {} already", first.line);
@@ -258,7 +259,12 @@ impl Parts<'_> {
         Ok(DVec3::from_array(values))
     }
 
-    fn number(&self, record: &csv::StringRecord, line: u64, place: usize) -> Result<f64, GradeError> {
+    fn number(
+        &self,
+        record: &csv::StringRecord,
+        line: u64,
+        place: usize,
+    ) -> Result<f64, GradeError> {
         let text = record.get(place).unwrap_or_default();
         number(text).ok_or_else(|| {
             let problem = format!("\"{text}\" is no number, in column {}", place + 1);
@@ -275,9 +281,8 @@ fn order(rows: &mut [Row], labels: BTreeMap<String, usize>) -> Vec<String> {
         first[row.label] = first[row.label].min(row.time);
     }
     let mut labels: Vec<(String, usize)> = labels.into_iter().collect();
-    let place = |(label, line): &(String, usize)| {
-        (first[*line], whole(label).unwrap_or(i64::MAX), *line)
-    };
+    let place =
+        |(label, line): &(String, usize)| (first[*line], whole(label).unwrap_or(i64::MAX), *line);
     labels.sort_by(|a, b| {
         let (a, b) = (place(a), place(b));
         a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2))

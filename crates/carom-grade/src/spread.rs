@@ -68,4 +68,9 @@ impl Spread {
         let ages = ages.map(Vec::as_slice).unwrap_or_default();
         ages.get(age).or(ages.last()).copied().unwrap_or(0.0)
     }
+
+    /// Of any ball at any time \[m\].
+    pub fn largest(&self) -> f64 {
+        self.of_start.iter().filter_map(|ages| ages.last()).copied().fold(0.0, f64::max)
+    }
 }

@@ -89,6 +89,11 @@ impl Tracks {
         self.times.len().saturating_sub(1)
     }
 
+    /// Time at the end of a frame \[s\]; 0 of the frame 0, NaN of one that is not there.
+    pub fn time(&self, frame: usize) -> f64 {
+        self.times.get(frame).copied().unwrap_or(f64::NAN)
+    }
+
     /// How many balls there were.
     pub fn len(&self) -> usize {
         self.balls.len()
@@ -166,7 +171,8 @@ impl Tracks {
             for (number, ball) in self.balls.iter().enumerate() {
                 let Some(state) = ball.at(frame).filter(|_| ball.birth < frame) else { continue };
                 let State { position, velocity } = state;
-                let numbers = position.to_array().into_iter().chain(velocity.to_array()).map(digits);
+                let numbers =
+                    position.to_array().into_iter().chain(velocity.to_array()).map(digits);
                 let row = [time.clone(), number.to_string()].into_iter().chain(numbers);
                 table.write_record(row)?;
             }

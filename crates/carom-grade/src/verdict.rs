@@ -1,5 +1,6 @@
 //! What grading says.
 
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 use serde::{Serialize, Serializer};
@@ -32,8 +33,9 @@ pub struct Verdict {
     pub time: [f64; 2],
     /// How the run follows the course's rule.
     pub fit: Fit,
-    /// Decimals to which places are the same, of the rows that follow.
-    pub decimals: Option<i32>,
+    /// Digits to which places are the same, of the rows that follow; those after the point within 1 m of
+    /// the origin.
+    pub digits: Option<i32>,
     /// Where it departs first.
     pub departure: Option<Departure>,
     /// Whether the first of the explanations explains it.
@@ -88,19 +90,34 @@ pub struct Explanation {
     pub fit: Fit,
     /// The part of the rows that it explains and the course's rule does not.
     pub share: f64,
+    /// How far off the ball that departs is right after its departure \[m\].
+    pub distance_after: f64,
 }
 
 impl Explanation {
-    pub(crate) fn new(mistakes: Mistakes, fit: Fit, right: &Fit) -> Self {
+    pub(crate) fn new(mistakes: Mistakes, fit: Fit, right: &Fit, distance_after: f64) -> Self {
         let gained = fit.followed as f64 - right.followed as f64;
         let share = gained / (right.rows - right.followed).max(1) as f64;
-        Self { mistakes, same_as: Vec::new(), fit, share: share.max(0.0) }
+        Self { mistakes, same_as: Vec::new(), fit, share: share.max(0.0), distance_after }
+    }
+
+    /// Puts the better one first: it follows longer; of those that follow as long as each other, the nearer one,
+    /// in all rows where they follow longer than the course's rule, else right after the departure.
+    pub(crate) fn compare(&self, other: &Self) -> Ordering {
+        let nearer = match self.share > 0.0 {
+            true => self.fit.residual.total_cmp(&other.fit.residual),
+            false => self.distance_after.total_cmp(&other.distance_after),
+        };
+        other.fit.followed.cmp(&self.fit.followed).then(nearer)
     }
 
     /// Whether both cannot be distinguished by this run.
     fn is_same_as(&self, other: &Self) -> bool {
         let (a, b) = (self.fit.residual, other.fit.residual);
-        self.fit.followed == other.fit.followed && (a - b).abs() <= 1e-9 * a.max(1e-6)
+        let (near_a, near_b) = (self.distance_after, other.distance_after);
+        self.fit.followed == other.fit.followed
+            && (a - b).abs() <= 1e-9 * a.max(1e-6)
+            && (near_a - near_b).abs() <= 1e-9
     }
 
     /// What its program does, in sentences.
@@ -123,7 +140,7 @@ pub(crate) struct Parts<'a> {
     pub fit: Fit,
     /// By how many frames the clock of the table is off.
     pub shift: Option<i32>,
-    /// The best first.
+    /// The best first; those that are no better than the course's rule are left out.
     pub explanations: Vec<Explanation>,
     /// The run of the first of them.
     pub explaining: Option<&'a Tracks>,
@@ -145,7 +162,7 @@ impl Verdict {
             tolerance: *tolerance,
             balls: recorded.labels.len(),
             time: times.map(|row| row.map_or(0.0, |row| row.time)),
-            decimals: found.then(|| decimals(fit.max)),
+            digits: found.then(|| digits(fit.max_relative)),
             departure,
             explained,
             explanations,
@@ -155,9 +172,9 @@ impl Verdict {
     }
 }
 
-/// How many decimals places have in common that are this far apart \[m\].
-fn decimals(distance: f64) -> i32 {
-    (0..15).take_while(|decimals| distance <= 0.5 * 10_f64.powi(-decimals)).last().unwrap_or(0)
+/// How many digits numbers have in common that differ by this part.
+fn digits(difference: f64) -> i32 {
+    (0..=15).take_while(|digits| difference <= 0.5 * 10_f64.powi(-digits)).last().unwrap_or(0)
 }
 
 /// The best explanations, without those that are the same as one before.
@@ -199,7 +216,12 @@ fn departure(parts: &Parts, departed: &Departed) -> Departure {
 
 /// The last contact of a ball that can show in a row: after the row before it, or in the frame before that,
 /// whose answer shows a frame later.
-fn last_touch<'a>(tracks: &'a Tracks, key: Key, [since, until]: [f64; 2], h: f64) -> Option<&'a Touch> {
+fn last_touch<'a>(
+    tracks: &'a Tracks,
+    key: Key,
+    [since, until]: [f64; 2],
+    h: f64,
+) -> Option<&'a Touch> {
     let (first, last) = (since - 1.5 * h, until + 0.5 * h);
     let is_it = |touch: &&Touch| {
         let time = tracks.times[touch.frame];
@@ -227,9 +249,13 @@ fn notes(parts: &Parts) -> Vec<String> {
             course.frame_time
         ));
     }
-    let there: BTreeSet<usize> =
-        recorded.rows.iter().filter_map(|row| ball_at(reference, keys[row.label], row.time)).collect();
-    let missing = reference.births_until(recorded.end()).filter(|ball| !there.contains(ball)).count();
+    let there: BTreeSet<usize> = recorded
+        .rows
+        .iter()
+        .filter_map(|row| ball_at(reference, keys[row.label], row.time))
+        .collect();
+    let missing =
+        reference.births_until(recorded.end()).filter(|ball| !there.contains(ball)).count();
     if missing > 0 {
         notes.push(format!("{missing} balls of the reference are not in the table"));
     }

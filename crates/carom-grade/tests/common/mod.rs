@@ -38,7 +38,7 @@ impl Default for Style {
 }
 
 /// The table of a run.
-pub fn table(tracks: &Tracks, frame_time: f64, style: Style) -> String {
+pub fn table(tracks: &Tracks, style: Style) -> String {
     let mut random = Pcg64::seed_from_u64(style.seed);
     let mut noise = || style.noise * (f64::from(random.next_u32()) / f64::from(1_u32 << 31) - 1.0);
     let mut text = "t,ball,x,y,z".to_owned();
@@ -50,7 +50,7 @@ pub fn table(tracks: &Tracks, frame_time: f64, style: Style) -> String {
                 continue;
             }
             let [x, y, z] = state.position.to_array().map(|it| it + noise());
-            write!(text, "{},{ball},{x},{y},{z}", frame as f64 * frame_time).unwrap();
+            write!(text, "{},{ball},{x},{y},{z}", tracks.time(frame)).unwrap();
             if style.velocities {
                 let [x, y, z] = state.velocity.to_array();
                 write!(text, ",{x},{y},{z}").unwrap();
@@ -65,8 +65,8 @@ pub fn recorded(text: &str) -> Recorded {
     Recorded::parse(Path::new("run.csv"), text.as_bytes(), &Reading::default()).unwrap()
 }
 
-/// A run with these mistakes, in single precision unless `double`.
+/// A run with these mistakes, in single precision.
 pub fn planted(grader: &Grader, mistakes: Mistakes, seconds: f64, style: Style) -> Recorded {
     let tracks = grader.planted(mistakes, seconds, true);
-    recorded(&table(&tracks, grader.course().frame_time, style))
+    recorded(&table(&tracks, style))
 }
