@@ -16,6 +16,8 @@ pub(crate) struct Rows<'a> {
     pub balls: Vec<Option<usize>>,
     /// How far each row may be off \[m\].
     pub tolerances: Vec<f64>,
+    /// From when on \[s\] rounding moves a ball far, and how far \[m\] it does at most.
+    pub rounding: Option<[f64; 2]>,
     /// Frame time \[s\]: what velocities that differ make of places in a frame.
     pub frame_time: f64,
 }

@@ -20,6 +20,9 @@ pub const TOLERANCE: f64 = 5e-4;
 /// that the spread was measured with.
 const SPREADS: f64 = 4.0;
 
+/// A spread of more than this \[m\] is worth a note.
+const FAR_SPREAD: f64 = 0.02;
+
 /// Clocks that are this many frames ahead or behind are recognised.
 const SHIFTS: [i32; 4] = [1, -1, 2, -2];
 
@@ -83,11 +86,11 @@ impl Grader {
         let rows = self.rows(recorded, &keys);
         let right = rows.follow(reference, 0.0);
         let shift = (!right.is_complete()).then(|| self.shift(&rows)).flatten();
-        let mut explanations = Vec::new();
-        let mut explaining = None;
+        let (mut explanations, mut explaining, mut is_mirrored) = (Vec::new(), None, false);
         if !right.is_complete() && shift.is_none() {
             explanations = self.explanations(&rows, &right);
             explaining = explanations.first().map(|it| self.tracks(it.mistakes, recorded));
+            is_mirrored = self.is_mirrored(&rows, &right);
         }
         let fit = shift.as_ref().map_or(&right, |(_, fit)| fit).clone();
         let parts = crate::verdict::Parts {
@@ -97,6 +100,8 @@ impl Grader {
             reference,
             fit,
             shift: shift.map(|(frames, _)| frames),
+            is_mirrored,
+            rounding: rows.rounding,
             explanations,
             explaining: explaining.as_ref(),
             tolerance: self.base_tolerance(recorded),
@@ -131,6 +136,7 @@ impl Grader {
             keys,
             balls: Vec::new(),
             tolerances: Vec::new(),
+            rounding: None,
             frame_time: self.course.frame_time,
         };
         for row in &recorded.rows {
@@ -145,6 +151,10 @@ impl Grader {
                 (None, _, Some(spread)) => spread.largest(),
                 _ => 0.0,
             };
+            if spread > FAR_SPREAD {
+                let [since, most] = rows.rounding.unwrap_or([row.time, spread]);
+                rows.rounding = Some([since, most.max(spread)]);
+            }
             rows.balls.push(ball);
             rows.tolerances.push(base + SPREADS * spread);
         }
@@ -169,6 +179,13 @@ impl Grader {
             let moved = fit.max_velocity.unwrap_or(0.0) * self.course.frame_time;
             fit.is_complete() && fit.rms.is_finite() && moved < 10.0 * self.tolerance
         })
+    }
+
+    /// Whether the course's rule is followed much longer with z mirrored.
+    fn is_mirrored(&self, rows: &Rows, right: &Fit) -> bool {
+        let mirrored = rows.recorded.mirrored();
+        let fit = self.rows(&mirrored, rows.keys).follow(&self.runs[&Mistakes::NONE], 0.0);
+        fit.followed as f64 > right.followed as f64 + WORTH_A_PAIR * fit.rows as f64
     }
 
     /// The mistakes that explain a run better than the course's rule, the best first.

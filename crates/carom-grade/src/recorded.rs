@@ -156,6 +156,13 @@ impl Recorded {
         Ok(Self { path: path.to_owned(), rows, labels, resolution })
     }
 
+    /// The same run with z mirrored.
+    pub(crate) fn mirrored(&self) -> Self {
+        let mut mirrored = self.clone();
+        mirrored.rows.iter_mut().for_each(|row| row.position.z = -row.position.z);
+        mirrored
+    }
+
     /// The last time \[s\].
     pub(crate) fn end(&self) -> f64 {
         self.rows.last().map_or(0.0, |row| row.time)

@@ -140,6 +140,10 @@ pub(crate) struct Parts<'a> {
     pub fit: Fit,
     /// By how many frames the clock of the table is off.
     pub shift: Option<i32>,
+    /// Whether the run fits better with z mirrored.
+    pub is_mirrored: bool,
+    /// From when on \[s\] rounding moves a ball far, and how far \[m\].
+    pub rounding: Option<[f64; 2]>,
     /// The best first; those that are no better than the course's rule are left out.
     pub explanations: Vec<Explanation>,
     /// The run of the first of them.
@@ -237,6 +241,18 @@ fn notes(parts: &Parts) -> Vec<String> {
         let seconds = f64::from(frames) * course.frame_time;
         notes.push(format!(
             "the clock of the table is off: the run is the same with {seconds:+.3} s added to its times"
+        ));
+    }
+    if parts.is_mirrored {
+        let unity = "is it in Unity's coordinates (--unity), or was that said of one that is not?";
+        notes.push(format!(
+            "with z mirrored the run follows the course's rule much longer: {unity}"
+        ));
+    }
+    if let Some([since, most]) = parts.rounding {
+        notes.push(format!(
+            "from {since:.2} s on rounding alone moves a ball by up to {most:.1e} m: it may be off by four times \
+             that"
         ));
     }
     let is_between = |time: &&f64| reference.frame_at(**time).is_some_and(|(_, part)| part > 0.0);

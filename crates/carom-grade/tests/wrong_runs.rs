@@ -46,6 +46,18 @@ fn slips_of_another_program_are_named() {
 }
 
 #[test]
+fn a_run_in_unitys_coordinates_is_recognised_if_it_was_not_said() {
+    let scene = Library::new().find("simtest3", &[]).unwrap().0;
+    let text = student::table(&scene, 6.0, Slips::default());
+    let columns = "t=time,ball=sphere".parse().unwrap();
+    let reading = Reading { columns, ..Reading::default() };
+    let run = Recorded::parse(Path::new("run.csv"), text.as_bytes(), &reading).unwrap();
+    let verdict = grader("simtest3").grade(&run).verdict;
+    assert!(!verdict.same);
+    assert!(verdict.notes.iter().any(|note| note.contains("--unity")), "{:?}", verdict.notes);
+}
+
+#[test]
 fn two_slips_at_once_are_named_together() {
     let slips = Slips { explicit_euler: true, whole_restitution: true, ..Slips::default() };
     let verdict = verdict_on("simtest3", slips);
@@ -104,7 +116,7 @@ fn the_first_departure_is_where_a_ball_leaves_the_tolerance() {
 
 #[test]
 fn mistakes_that_no_simtest_shows_are_named_where_they_can_be_seen() {
-    // Balls are thrown up at a plane, and fall into a groove of two planes.
+    // Balls are thrown up at a plane, touch it, and fall back; others fall into a groove of two planes.
     let text = r#"
         name = "groove"
         [simulation]
@@ -116,7 +128,7 @@ fn mistakes_that_no_simtest_shows_are_named_where_they_can_be_seen() {
         [[emitters]]
         position = [-3.0, 0.0, 0.0]
         period = 0.5
-        sphere = { radius = 0.2, velocity = [0.3, 6.0, 0.0] }
+        sphere = { radius = 0.2, velocity = [0.3, 4.3, 0.0] }
         [[emitters]]
         position = [3.0, 2.0, 0.0]
         period = 0.5
