@@ -2,6 +2,8 @@
 
 mod args;
 mod planted;
+mod refusal;
+mod row;
 mod table;
 
 use std::collections::BTreeMap;
@@ -9,11 +11,13 @@ use std::collections::btree_map::Entry;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use carom_grade::{Course, GradeError, Graded, Grader, Recorded, Verdict};
+use carom_grade::{Course, Graded, Grader, Recorded, Verdict};
 use carom_scene::Library;
-use serde::Serialize;
 
 pub use args::Grade;
+
+use refusal::{refused, unwritable};
+use row::Row;
 
 use crate::failure::{Failure, complain, legible};
 use crate::table::{Side, Table};
@@ -24,7 +28,7 @@ pub fn grade(library: &Library, args: &Grade) -> Result<(), Failure> {
         return planted::list(args.json);
     }
     if !args.plant.is_empty() {
-        return planted::write(&mut grader(library, args, args.scene.as_deref())?, args);
+        return planted::write(&grader(library, args, args.scene.as_deref())?, args);
     }
     let names = if args.scene.is_none() { names(library)? } else { Vec::new() };
     let mut graders = Graders { library, args, names, of_scene: BTreeMap::new() };
@@ -53,17 +57,6 @@ pub fn grade(library: &Library, args: &Grade) -> Result<(), Failure> {
     }
     let is_same = |row: &Row| row.verdict.as_ref().is_some_and(|it| it.same);
     if rows.iter().all(is_same) { Ok(()) } else { Err(Failure::Differs) }
-}
-
-/// What came of a run.
-#[derive(Debug, Serialize)]
-struct Row {
-    /// Its file.
-    run: PathBuf,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    verdict: Option<Verdict>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    error: Option<String>,
 }
 
 /// One grader for each scene: runs of the rule and of the mistakes serve all files.
@@ -117,13 +110,6 @@ fn named_in<'a>(names: &'a [String], run: &Path) -> Result<&'a str, Failure> {
     })
 }
 
-fn refused(error: GradeError) -> Failure {
-    match error {
-        GradeError::Scene(error) => error.into(),
-        error => Failure::Usage(error.to_string()),
-    }
-}
-
 /// Where pages are written.
 struct Reports<'a> {
     path: Option<&'a Path>,
@@ -162,10 +148,6 @@ impl<'a> Reports<'a> {
         let page = carom_grade::page(course, recorded, graded);
         std::fs::write(&file, page).map_err(|error| unwritable(&file, &error))
     }
-}
-
-fn unwritable(path: &Path, error: &io::Error) -> Failure {
-    Failure::Fault(format!("cannot write {}: {error}", path.display()))
 }
 
 fn print(rows: &[Row], json: bool) -> io::Result<()> {

@@ -7,7 +7,8 @@ use std::path::Path;
 use carom_grade::{Grader, Mistake, Mistakes};
 use serde::Serialize;
 
-use super::{Grade, refused, unwritable};
+use super::args::Grade;
+use super::refusal::{refused, unwritable};
 use crate::failure::Failure;
 
 /// A mistake as `--mistakes --json` prints it.
@@ -40,7 +41,7 @@ pub fn list(json: bool) -> Result<(), Failure> {
 }
 
 /// Writes a run with the mistakes that the arguments name.
-pub fn write(grader: &mut Grader, args: &Grade) -> Result<(), Failure> {
+pub fn write(grader: &Grader, args: &Grade) -> Result<(), Failure> {
     let named = args.plant.iter().filter(|name| *name != "none");
     let mistakes: Result<Mistakes, _> = named.map(|name| Mistake::named(name)).collect();
     let seconds = args.seconds.unwrap_or(grader.course().duration);

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use carom_grade::Verdict;
 
-use super::{Row, unwritable};
+use super::refusal::unwritable;
+use super::row::Row;
 use crate::failure::Failure;
 
 /// Names of the columns of the file.
