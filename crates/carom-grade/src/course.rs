@@ -223,7 +223,7 @@ fn faces(center: DVec3, axes: [DVec3; 3], half: DVec3) -> Vec<Form> {
     let face = |number: usize| {
         let axis = number / 2;
         let (first, second) = [(1, 2), (0, 2), (0, 1)][axis];
-        let normal = if number % 2 == 0 { -axes[axis] } else { axes[axis] };
+        let normal = if number.is_multiple_of(2) { -axes[axis] } else { axes[axis] };
         Form::Rectangle {
             center: center + half[axis] * normal,
             axes: [axes[first], normal, axes[second]],

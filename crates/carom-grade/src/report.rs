@@ -38,8 +38,8 @@ pub fn page(course: &Course, recorded: &Recorded, graded: &Graded) -> String {
     let departed = verdict.departure.as_ref();
     let label = departed.and_then(|it| recorded.labels.iter().position(|own| *own == it.ball));
     let label = label.unwrap_or(0);
-    let own = recorded.rows.iter().filter(|row| row.label == label).map(|row| row.time);
-    let (first, last) = (own.clone().next().unwrap_or(0.0), own.last().unwrap_or(0.0));
+    let mut own = recorded.rows.iter().filter(|row| row.label == label).map(|row| row.time);
+    let (first, last) = (own.clone().next().unwrap_or(0.0), own.next_back().unwrap_or(0.0));
     let first = departed.map_or(first, |it| first.max(it.time - 3.0));
     let end = departed.map_or_else(|| last_touch(graded, label), |it| it.time);
     let shown = [first, last.min(end + AFTERWARDS)];
@@ -182,23 +182,27 @@ impl Page<'_> {
         }
         (least, most) = (least - DVec3::ONE, most + DVec3::ONE);
         let mut text = "<h2>The place</h2>".to_owned();
-        for (title, axes) in [("from the side: z and y", [2, 1]), ("from above: x and z", [0, 2])] {
-            text += &self.picture(title, axes, [least, most]);
-        }
+        let (right, up) = (DVec3::Z, DVec3::Y);
+        text += &self.picture("from the side: z to the right, y up", [right, up], [least, most]);
+        // So that one looks down: z comes towards the reader's feet.
+        let (right, up) = (DVec3::X, DVec3::NEG_Z);
+        text += &self.picture("from above: x to the right, z down", [right, up], [least, most]);
         let Some(departure) = &self.graded.verdict.departure else { return text };
         let there = DVec3::from_array(departure.position);
         let apart = departure.expected.map_or(DVec3::Z, |it| (DVec3::from_array(it) - there).abs());
-        let (along, name) = if apart.x > apart.z { (0, "x") } else { (2, "z") };
+        let (along, name) = if apart.x > apart.z { (DVec3::X, "x") } else { (DVec3::Z, "z") };
         let title = format!(
             "where ball {} departs, at {:.2} s: {name} and y",
             departure.ball, departure.time
         );
-        text + &self.picture(&title, [along, 1], [there - CLOSE, there + CLOSE])
+        text + &self.picture(&title, [along, DVec3::Y], [there - CLOSE, there + CLOSE])
     }
 
-    fn picture(&self, title: &str, axes: [usize; 2], bounds: [DVec3; 2]) -> String {
-        let flat = |point: DVec3| [point[axes[0]], point[axes[1]]];
-        let [least, most] = bounds.map(flat);
+    fn picture(&self, title: &str, axes: [DVec3; 2], bounds: [DVec3; 2]) -> String {
+        let flat = |point: DVec3| axes.map(|axis| point.dot(axis));
+        let [first, second] = bounds.map(flat);
+        let least = [0, 1].map(|axis| first[axis].min(second[axis]));
+        let most = [0, 1].map(|axis| first[axis].max(second[axis]));
         let mut picture = Picture::new(title, least, most);
         for collider in &self.course.colliders {
             match collider.form {

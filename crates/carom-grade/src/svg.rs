@@ -84,17 +84,19 @@ pub struct Picture {
     height: f64,
 }
 
-/// Width of a picture [px].
+/// Largest width and height of a picture [px].
 const WIDTH: f64 = 520.0;
+const HEIGHT: f64 = 560.0;
 
 impl Picture {
     /// An empty picture of the rectangle between two corners \[m\].
     pub fn new(title: &str, least: [f64; 2], most: [f64; 2]) -> Self {
-        let scale = WIDTH / (most[0] - least[0]).max(1e-9);
-        let height = ((most[1] - least[1]) * scale).clamp(60.0, 900.0);
+        let size = [most[0] - least[0], most[1] - least[1]].map(|length| length.max(1e-9));
+        let scale = (WIDTH / size[0]).min(HEIGHT / size[1]);
+        let [width, height] = size.map(|length| length * scale);
         let svg = format!(
             "<figure><figcaption>{}</figcaption>\
-             <svg viewBox=\"0 0 {WIDTH} {height:.1}\" role=\"img\" class=\"place\">",
+             <svg viewBox=\"0 0 {width:.1} {height:.1}\" role=\"img\" class=\"place\">",
             escaped(title)
         );
         Self { svg, least, scale, height }

@@ -220,12 +220,7 @@ fn departure(parts: &Parts, departed: &Departed) -> Departure {
 
 /// The last contact of a ball that can show in a row: after the row before it, or in the frame before that,
 /// whose answer shows a frame later.
-fn last_touch<'a>(
-    tracks: &'a Tracks,
-    key: Key,
-    [since, until]: [f64; 2],
-    h: f64,
-) -> Option<&'a Touch> {
+fn last_touch(tracks: &Tracks, key: Key, [since, until]: [f64; 2], h: f64) -> Option<&Touch> {
     let (first, last) = (since - 1.5 * h, until + 0.5 * h);
     let is_it = |touch: &&Touch| {
         let time = tracks.times[touch.frame];
