@@ -26,6 +26,9 @@ const FAR_SPREAD: f64 = 0.02;
 /// Clocks that are this many frames ahead or behind are recognised.
 const SHIFTS: [i32; 4] = [1, -1, 2, -2];
 
+/// Frames of a display before the first time of a table, at most: some minutes.
+const MOST_FRAMES_BEFORE: f64 = 20_000.0;
+
 /// Tables of more rows are not compared with pairs of mistakes, which would take minutes.
 const MOST_ROWS_OF_PAIRS: usize = 100_000;
 
@@ -266,7 +269,11 @@ fn display_times(course: &Course, recorded: &Recorded) -> Option<Vec<f64>> {
         return None;
     }
     let (first, usual) = (times[0], times[1] - times[0]);
-    let before = (first / usual).round().max(1.0) as usize;
+    let before = (first / usual).round().max(1.0);
+    if before > MOST_FRAMES_BEFORE {
+        return None;
+    }
+    let before = before as usize;
     let before = (1..before).map(|frame| first * frame as f64 / before as f64);
     Some(before.chain(times.iter().copied().filter(|time| *time > 0.0)).collect())
 }

@@ -13,6 +13,12 @@ use crate::number::{decimals, number};
 /// Rows that a table has at most.
 const MOST_ROWS: usize = 2_000_000;
 
+/// A run that takes longer \[s\] is none: a day.
+const LONGEST: f64 = 86_400.0;
+
+/// A place that is farther from the origin \[m\] is none.
+const FARTHEST: f64 = 1e9;
+
 /// Bytes that a table has at most.
 const MOST_BYTES: u64 = 512 << 20;
 
@@ -243,6 +249,13 @@ impl Parts<'_> {
         if time < 0.0 {
             let problem = format!("the time {time} s is before the start");
             return Err(malformed(self.path, line, problem));
+        }
+        if time > LONGEST {
+            let problem = format!("the time {time:e} s is more than a day after the start");
+            return Err(malformed(self.path, line, problem));
+        }
+        if position.abs().max_element() > FARTHEST {
+            return Err(malformed(self.path, line, "the ball is farther than 1e9 m".to_owned()));
         }
         let label = self.places.ball.and_then(|place| record.get(place)).unwrap_or("0");
         if label.is_empty() {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-/// Size of the inside of a figure, and the margins beside and below it [px].
+/// Size of the inside of a figure, and the margins beside and below it \[px\].
 const INSIDE: [f64; 2] = [640.0, 190.0];
 const MARGIN: [f64; 2] = [64.0, 34.0];
 
@@ -84,7 +84,7 @@ pub struct Picture {
     height: f64,
 }
 
-/// Largest width and height of a picture [px].
+/// Largest width and height of a picture \[px\].
 const WIDTH: f64 = 520.0;
 const HEIGHT: f64 = 560.0;
 
@@ -144,7 +144,7 @@ impl Picture {
     }
 }
 
-/// Appends a line through points [px], without those that no screen could show apart.
+/// Appends a line through points \[px\], without those that no screen could show apart.
 fn polyline(svg: &mut String, class: &str, points: impl Iterator<Item = [f64; 2]>) {
     let mut path = String::new();
     let mut last = [f64::NEG_INFINITY; 2];

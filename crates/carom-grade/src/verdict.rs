@@ -268,7 +268,9 @@ fn notes(parts: &Parts) -> Vec<String> {
     let missing =
         reference.births_until(recorded.end()).filter(|ball| !there.contains(ball)).count();
     if missing > 0 {
-        notes.push(format!("{missing} balls of the reference are not in the table"));
+        let are =
+            if missing == 1 { "ball of the reference is" } else { "balls of the reference are" };
+        notes.push(format!("{missing} {are} not in the table"));
     }
     if reference.times.last().is_some_and(|end| *end < recorded.end()) {
         let end = reference.times.last().copied().unwrap_or(0.0);

@@ -18,6 +18,8 @@ fn broken_tables_are_refused_with_the_line() {
         ("0.02,0,1,2\n", "run.csv:2: 4 fields where the first line has 5"),
         ("0.02,0,1,2,3\n0.02,0,1,2,3\n", "run.csv:3: ball 0 at this time is in line 2 already"),
         ("-0.02,0,1,2,3\n", "run.csv:2: the time -0.02 s is before the start"),
+        ("1e300,0,1,2,3\n", "run.csv:2: the time 1e300 s is more than a day after the start"),
+        ("0.02,0,1,2,-1e10\n", "run.csv:2: the ball is farther than 1e9 m"),
         ("0.02,,1,2,3\n", "run.csv:2: the ball is missing"),
         ("", "run.csv: has no rows"),
     ] {

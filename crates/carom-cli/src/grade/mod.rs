@@ -177,8 +177,9 @@ fn print(rows: &[Row], json: bool) -> io::Result<()> {
 
 fn print_one(out: &mut impl Write, run: &Path, verdict: &Verdict) -> io::Result<()> {
     let [first, last] = verdict.time;
+    let balls = if verdict.balls == 1 { "ball" } else { "balls" };
     let of_run = format!(
-        "{}, {}: {} balls, {first:.2} to {last:.2} s, {} rows",
+        "{}, {}: {} {balls}, {first:.2} to {last:.2} s, {} rows",
         run.display(),
         verdict.scene,
         verdict.balls,

@@ -9,7 +9,7 @@ use super::row::Row;
 use crate::failure::Failure;
 
 /// Names of the columns of the file.
-const COLUMNS: [&str; 15] = [
+const COLUMNS: [&str; 16] = [
     "run",
     "scene",
     "result",
@@ -24,6 +24,7 @@ const COLUMNS: [&str; 15] = [
     "explains",
     "residual_m",
     "runners_up",
+    "notes",
     "error",
 ];
 
@@ -61,6 +62,7 @@ fn record(row: &Row) -> [String; COLUMNS.len()] {
         text(best.map(|it| format!("{:.4}", it.share))),
         text(best.map(|it| number(it.fit.rms))),
         others.join("; "),
+        text(verdict.map(|it| it.notes.join("; "))),
         text(row.error.clone()),
     ]
 }
