@@ -9,10 +9,10 @@ use crate::fit::{Fit, Rows};
 use crate::mistake::{Mistake, Mistakes};
 use crate::recorded::Recorded;
 use crate::spread::Spread;
-use crate::tracks::{Key, Tracks};
-use crate::verdict::{Explanation, Verdict};
+use crate::tracks::{Key, Touch, Tracks};
+use crate::verdict::{Explanation, Parts, Verdict};
 
-/// How far places may be off unless said otherwise \[m\]: fifty times what single precision does in the
+/// How far places may be off unless said otherwise \[m\]: a few times what single precision does in the
 /// scenes of the course before a ball has left the picture, half of what a mistake is to be seen by.
 pub const TOLERANCE: f64 = 5e-4;
 
@@ -96,7 +96,7 @@ impl Grader {
             is_mirrored = self.is_mirrored(&rows, &right);
         }
         let fit = shift.as_ref().map_or(&right, |(_, fit)| fit).clone();
-        let parts = crate::verdict::Parts {
+        let parts = Parts {
             course: &self.course,
             recorded,
             keys: &keys,
@@ -168,7 +168,7 @@ impl Grader {
     fn shift(&self, rows: &Rows) -> Option<(i32, Fit)> {
         let reference = &self.runs[&Mistakes::NONE];
         // Before the first bounce, explicit Euler looks the same.
-        let bounced = |it: &crate::tracks::Touch| {
+        let bounced = |it: &Touch| {
             reference.times[it.frame] + 3.0 * self.course.frame_time < rows.recorded.end()
         };
         if !reference.touches.iter().any(bounced) {

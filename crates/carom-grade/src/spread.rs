@@ -13,7 +13,7 @@ const RUNS: u64 = 4;
 
 /// Part of a number by which a step may be off: two units in the last place of single precision.
 /// A program that goes through the colliders' frames, as the course's does, rounds a few times in a step.
-pub(crate) const JITTER: f64 = 2.0 / (1_u64 << 23) as f64;
+const JITTER: f64 = 2.0 / (1_u64 << 23) as f64;
 
 /// The largest distance so far between runs that round differently.
 pub(crate) struct Spread {
