@@ -3,6 +3,10 @@
 
 mod command;
 
+use std::path::Path;
+
+use carom_scene::Library;
+use carom_scene::recording::Replay;
 use command::{bad, bad_line, good, path, run, text_of};
 use serde_json::Value;
 
@@ -118,6 +122,19 @@ fn what_makes_no_sense_is_refused_in_a_line() {
     assert!(
         bad(&["grade", &right, "--scene", "simtest1", "--columns", "q=x"], 2).contains("names no")
     );
+}
+
+#[test]
+fn a_run_with_a_mistake_can_be_filmed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = plant(&folder, "not-on-top", "simtest6", "sinks.csv");
+    let scene = Library::new().find("simtest6", &[]).unwrap().0;
+    let mut replay = Replay::open(Path::new(&file), &scene).unwrap();
+    let mut frames = 0;
+    while replay.next_frame().unwrap().is_some() {
+        frames += 1;
+    }
+    assert_eq!(frames, 200);
 }
 
 #[test]
