@@ -2,8 +2,8 @@
 //!
 //! A block tagged `sh` holds commands; those that begin with `carom` are run. A block that begins
 //! with `# file: NAME` is a file that the reader writes. A block tagged `text` below commands holds
-//! lines that they print. Comments at the end of a command are marks: `# opens a window` and
-//! `# takes minutes` leave it out, `# fails` says that it must fail.
+//! lines that they print. Comments at the end of a command are marks: `# opens a window`,
+//! `# takes minutes` and `# needs a recording` leave it out, `# fails` says that it must fail.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,10 +14,16 @@ use crate::markdown::{Block, Markdown};
 use crate::shell::{Outcome, cargo, succeeds, target_folder};
 
 /// Documents whose commands run.
-const DOCUMENTS: [&str; 5] =
-    ["README.md", "docs/tutorial.md", "docs/command-line.md", "docs/scenes.md", "docs/viewer.md"];
+const DOCUMENTS: [&str; 6] = [
+    "README.md",
+    "docs/tutorial.md",
+    "docs/command-line.md",
+    "docs/scenes.md",
+    "docs/viewer.md",
+    "docs/courses.md",
+];
 /// Marks of commands that are left out.
-const LEFT_OUT: [&str; 2] = ["# opens a window", "# takes minutes"];
+const LEFT_OUT: [&str; 3] = ["# opens a window", "# takes minutes", "# needs a recording"];
 /// Subcommands that a build without pictures does not have.
 const DRAWING: [&str; 4] = ["picture", "record", "maze", "view"];
 

@@ -8,6 +8,7 @@ use clap::{Parser, Subcommand};
 use crate::choice::{Changes, Choice, RULES};
 use crate::config::Config;
 use crate::failure::Failure;
+use crate::grade::Grade;
 use crate::length::{Length, positive};
 use crate::link::Link;
 #[cfg(feature = "pictures")]
@@ -120,6 +121,9 @@ pub enum Command {
     Run(Box<Run>),
     /// Print a link that opens a run of a scene in a browser; `carom run --link` runs it here.
     Link(Link),
+    /// Grade recorded runs of students against the course's rule: where a run departs, and which known mistake
+    /// explains it. Ends with code 1 if one departs, with 2 if one cannot be read.
+    Grade(Box<Grade>),
     /// Check this build against exact results and published values of physics. Ends with code 1 if
     /// it misses one, whichever rule `--rule` names.
     Verify(Verify),

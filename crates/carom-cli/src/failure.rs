@@ -13,6 +13,8 @@ pub enum Failure {
     Usage(String),
     /// Something went wrong on the way: code 1.
     Fault(String),
+    /// What was compared is not the same, as the output says: code 1, silently.
+    Differs,
     /// The reader of the output has closed it: code 0, silently.
     OutputClosed,
     /// Stopped by the user; what was written is complete: code 130, as shells expect.
@@ -34,6 +36,7 @@ impl Failure {
                 refuse(&message);
                 1
             }
+            Self::Differs => 1,
             Self::OutputClosed => 0,
             Self::Interrupted => 130,
         }

@@ -13,6 +13,7 @@ mod config;
 mod contact_totals;
 mod failure;
 mod gas;
+mod grade;
 mod import;
 mod interruption;
 mod length;
@@ -86,6 +87,7 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
         Command::Show(show) => scenes::show(&library()?, show),
         Command::Run(run) => run::run(&library()?, run, sources.budget(Budget::LINK, &config)?),
         Command::Link(link) => link::link(&library()?, link, &config),
+        Command::Grade(grade) => grade::grade(&library()?, grade),
         Command::Verify(verify) => verify::verify(verify),
         Command::Compare(compare) => compare::compare(&library()?, compare),
         Command::Bench(bench) => bench::bench(bench),

@@ -1,0 +1,234 @@
+//! What the course's rule reads of a scene.
+
+use carom::{CombineRule, DQuat, DVec3, Shape};
+use carom_scene::Scene;
+use carom_scene::scene::{self, Boundary, Force, Integrator, Rule};
+
+use crate::error::GradeError;
+
+/// A scene as the course's rule knows it.
+#[derive(Debug, Clone)]
+pub struct Course {
+    /// Name of the scene.
+    pub name: String,
+    /// Length of a frame \[s\].
+    pub frame_time: f64,
+    /// Time worth watching \[s\].
+    pub duration: f64,
+    pub(crate) combine_rule: CombineRule,
+    /// Forces, in the order in which they add up.
+    pub(crate) forces: Vec<Acting>,
+    /// Balls that are there from the start.
+    pub(crate) balls: Vec<Kind>,
+    pub(crate) emitters: Vec<Source>,
+    /// In the order in which each ball meets them.
+    pub(crate) colliders: Vec<Fixed>,
+}
+
+/// A force on every ball.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Acting {
+    /// In N.
+    Constant(DVec3),
+    /// In m/s².
+    Gravity(DVec3),
+    /// In kg/s.
+    Drag(f64),
+}
+
+/// A ball at its start.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Kind {
+    /// In m.
+    pub position: DVec3,
+    /// In m/s.
+    pub velocity: DVec3,
+    /// In m.
+    pub radius: f64,
+    /// In kg.
+    pub mass: f64,
+    pub restitution: f64,
+}
+
+/// An emitter.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Source {
+    /// What it emits, in the world.
+    pub ball: Kind,
+    /// In s.
+    pub period: f64,
+    /// Most balls of it that are there at one time.
+    pub max: Option<usize>,
+    /// How many it emits in all.
+    pub count: Option<u64>,
+}
+
+/// A surface that balls bounce off.
+#[derive(Debug, Clone)]
+pub(crate) struct Fixed {
+    /// Name of the collider.
+    pub name: String,
+    pub restitution: f64,
+    pub form: Form,
+}
+
+/// Geometry of a surface in the world.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Form {
+    Sphere {
+        /// In m.
+        center: DVec3,
+        /// In m.
+        radius: f64,
+        /// Of its own frame.
+        axes: [DVec3; 3],
+    },
+    Rectangle {
+        /// In m.
+        center: DVec3,
+        /// Of its own frame; the second is the normal.
+        axes: [DVec3; 3],
+        /// Half the lengths along the first and third axis \[m\].
+        half: [f64; 2],
+    },
+}
+
+impl Course {
+    /// Reads a scene.
+    ///
+    /// # Errors
+    /// [`GradeError::NotOfTheCourse`] for a scene that has what the rule of the course does not know.
+    pub fn of(scene: &Scene) -> Result<Self, GradeError> {
+        let refuse = |what: &str| GradeError::NotOfTheCourse {
+            scene: scene.name.clone(),
+            what: what.to_owned(),
+        };
+        if let Some(what) = unknown_part(scene) {
+            return Err(refuse(what));
+        }
+        // The world checks every number.
+        let world = scene.world()?;
+        let spheres = world.spheres();
+        let balls = (0..spheres.len()).map(|index| kind(&spheres.get(index))).collect();
+        let mut emitters = Vec::new();
+        for emitter in &scene.emitters {
+            emitters.push(source(&emitter.emitter()?));
+        }
+        let mut colliders = Vec::new();
+        for (number, collider) in scene.colliders.iter().enumerate() {
+            let name = match collider.name.as_str() {
+                "" => format!("collider {number}"),
+                name => name.to_owned(),
+            };
+            for form in forms(collider).ok_or_else(|| refuse("a collider of another shape"))? {
+                let (name, restitution) = (name.clone(), collider.restitution);
+                colliders.push(Fixed { name, restitution, form });
+            }
+        }
+        Ok(Self {
+            name: scene.name.clone(),
+            frame_time: scene.simulation.frame_time,
+            duration: scene.simulation.duration,
+            combine_rule: scene.settings().combine_rule,
+            forces: scene.forces.iter().map(acting).collect(),
+            balls,
+            emitters,
+            colliders,
+        })
+    }
+
+    /// How many balls there can be at one time; `None` without a limit.
+    pub(crate) fn capacity(&self) -> Option<usize> {
+        let emitted = self.emitters.iter().map(|it| match (it.max, it.count) {
+            (Some(max), Some(count)) => Some(max.min(count as usize)),
+            (max, count) => max.or(count.map(|count| count as usize)),
+        });
+        emitted.sum::<Option<usize>>().map(|emitted| emitted + self.balls.len())
+    }
+}
+
+/// What a scene has that the rule of the course does not know.
+fn unknown_part(scene: &Scene) -> Option<&'static str> {
+    let simulation = &scene.simulation;
+    let needs_room = |it: &scene::Emitter| it.needs_room == Some(true);
+    let moves = |it: &scene::Collider| it.velocity != [0.0; 3] || it.angular_velocity != [0.0; 3];
+    if simulation.rule != Rule::Discrete {
+        Some("another rule than `discrete`")
+    } else if simulation.discrete.integrator != Integrator::SemiImplicitEuler {
+        Some("another integrator than semi-implicit Euler")
+    } else if simulation.spheres_collide {
+        Some("balls that collide with one another (`spheres_collide = false` lets them pass)")
+    } else if simulation.boundary != Boundary::Open {
+        Some("a boundary")
+    } else if !scene.generators.is_empty() {
+        Some("generators")
+    } else if scene.emitters.iter().any(needs_room) {
+        Some("emitters that need room")
+    } else if scene.colliders.iter().any(moves) {
+        Some("colliders that move")
+    } else if scene.emitters.is_empty() && scene.spheres.is_empty() {
+        Some("no ball and no emitter")
+    } else {
+        None
+    }
+}
+
+fn acting(force: &Force) -> Acting {
+    match *force {
+        Force::Constant { force } => Acting::Constant(DVec3::from_array(force)),
+        Force::Gravity { acceleration } => Acting::Gravity(DVec3::from_array(acceleration)),
+        Force::ViscousDrag { coefficient } => Acting::Drag(coefficient),
+    }
+}
+
+fn kind(sphere: &carom::Sphere) -> Kind {
+    let &carom::Sphere { position, velocity, radius, restitution, .. } = sphere;
+    Kind { position, velocity, radius, mass: sphere.kilograms(), restitution }
+}
+
+fn source(emitter: &carom::Emitter) -> Source {
+    let rotation = emitter.rotation.normalize();
+    let own = kind(&emitter.sphere);
+    let ball = Kind {
+        position: emitter.position + rotation * own.position,
+        velocity: rotation * own.velocity,
+        ..own
+    };
+    Source {
+        ball,
+        period: emitter.period,
+        max: emitter.max_spheres.map(|max| max as usize),
+        count: emitter.count.map(u64::from),
+    }
+}
+
+/// The surfaces of a collider, none of a trigger; `None` for a shape that the course does not have.
+fn forms(collider: &scene::Collider) -> Option<Vec<Form>> {
+    let rotation = DQuat::from_array(collider.rotation).normalize();
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| rotation * axis);
+    let center = DVec3::from_array(collider.position);
+    let forms = match carom::Shape::from(&collider.shape) {
+        Shape::Sphere { radius } => vec![Form::Sphere { center, radius, axes }],
+        Shape::Rectangle { size_x, size_z } => {
+            vec![Form::Rectangle { center, axes, half: [0.5 * size_x, 0.5 * size_z] }]
+        }
+        Shape::Box { size } => faces(center, axes, 0.5 * size),
+        _ => return None,
+    };
+    Some(if collider.trigger { Vec::new() } else { forms })
+}
+
+/// The faces of a box, outward, in the order -x, +x, -y, +y, -z, +z.
+fn faces(center: DVec3, axes: [DVec3; 3], half: DVec3) -> Vec<Form> {
+    let face = |number: usize| {
+        let axis = number / 2;
+        let (first, second) = [(1, 2), (0, 2), (0, 1)][axis];
+        let normal = if number.is_multiple_of(2) { -axes[axis] } else { axes[axis] };
+        Form::Rectangle {
+            center: center + half[axis] * normal,
+            axes: [axes[first], normal, axes[second]],
+            half: [half[first], half[second]],
+        }
+    };
+    (0..6).map(face).collect()
+}

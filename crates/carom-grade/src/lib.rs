@@ -1,0 +1,55 @@
+//! Recorded runs of students against the course's rule, and which known mistake explains them.
+//!
+//! ```text
+//!  scene -> Course -> course_rule (with Mistakes) -> Tracks --+
+//!  table -> Recorded -> keys of its balls -> rows -----------+-> Fit -> Verdict -> words, page
+//! ```
+//!
+//! [`Grader::grade`] compares a [`Recorded`] run with the run of the course's rule and, where it departs, with
+//! the run of each [`Mistake`]. The mistakes are modifications of a small implementation of the rule that is
+//! kept here: the rule of the engine knows none.
+//!
+//! ```
+//! use carom_grade::{Course, Grader, Mistake, Reading, Recorded, TOLERANCE};
+//! use carom_scene::Library;
+//!
+//! let scene = Library::new().find("simtest1", &[])?.0;
+//! let mut grader = Grader::new(Course::of(&scene)?, TOLERANCE);
+//! let mut table = Vec::new();
+//! grader.planted(Mistake::ExplicitEuler.into(), 5.0, true).write(&mut table)?;
+//! let recorded = Recorded::parse("run.csv".as_ref(), &table, &Reading::default())?;
+//! let verdict = grader.grade(&recorded).verdict;
+//! assert_eq!(verdict.explanations[0].mistakes, Mistake::ExplicitEuler.into());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#![warn(clippy::unwrap_used)]
+
+mod assign;
+mod contact;
+mod course;
+mod course_rule;
+mod error;
+mod fit;
+mod grader;
+mod mistake;
+mod number;
+mod real;
+mod recorded;
+mod report;
+mod spread;
+mod svg;
+mod tracks;
+mod verdict;
+mod words;
+
+pub use contact::ContactKind;
+pub use course::Course;
+pub use error::GradeError;
+pub use fit::{Departed, Fit};
+pub use grader::{Graded, Grader, TOLERANCE};
+pub use mistake::{Mistake, Mistakes};
+pub use recorded::{Columns, Reading, Recorded};
+pub use report::page;
+pub use tracks::{State, Touch, Tracks};
+pub use verdict::{Departure, DepartureContact, Explanation, Verdict};

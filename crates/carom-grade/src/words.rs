@@ -1,0 +1,108 @@
+//! A verdict in words.
+
+use crate::verdict::{Departure, Explanation, Verdict};
+
+impl Verdict {
+    /// The result in a line.
+    pub fn headline(&self) -> String {
+        if self.same {
+            return format!(
+                "same as the course's rule, to {} digits (largest difference {:.1e} m)",
+                self.digits.unwrap_or(0),
+                self.fit.max
+            );
+        }
+        let Some(departure) = &self.departure else {
+            return "departs from the course's rule".to_owned();
+        };
+        let Departure { time, ball, .. } = departure;
+        format!("departs from the course's rule at {time:.2} s, ball {ball}")
+    }
+
+    /// What there is to say besides, each with its name.
+    pub fn lines(&self) -> Vec<(&'static str, String)> {
+        let mut lines = Vec::new();
+        if let Some(departure) = &self.departure {
+            lines.push(("where", departure.place()));
+            lines.push(("contact", departure.touched()));
+        }
+        match self.explanations.split_first() {
+            Some((best, others)) if self.explained => {
+                lines.push(("mistake", best.named()));
+                lines.push(("", best.sentence()));
+                for mistake in best.mistakes.iter() {
+                    lines.push(("program", mistake.wrong().to_owned()));
+                    lines.push(("lecture", mistake.right().to_owned()));
+                }
+                lines.push(("fit", best.fit_in_words()));
+                lines.extend(others.iter().map(|it| ("runner-up", it.in_a_line())));
+            }
+            Some((best, _)) => {
+                let nearest =
+                    format!("no known mistake explains it; nearest is {}", best.in_a_line());
+                lines.push(("mistake", nearest));
+            }
+            None if !self.same => {
+                lines.push(("mistake", "no known mistake explains it".to_owned()))
+            }
+            None => {}
+        }
+        lines.extend(self.notes.iter().map(|note| ("note", note.clone())));
+        lines
+    }
+}
+
+impl Departure {
+    fn place(&self) -> String {
+        let written = |[x, y, z]: [f64; 3]| format!("({x:.4}, {y:.4}, {z:.4})");
+        let there = written(self.position);
+        match (self.expected, self.distance) {
+            (Some(expected), Some(distance)) => format!(
+                "line {}: the ball is at {there}, {distance:.2e} m from {}",
+                self.line,
+                written(expected)
+            ),
+            _ => format!(
+                "line {}: the ball is at {there}, but there is none under the rule",
+                self.line
+            ),
+        }
+    }
+
+    fn touched(&self) -> String {
+        match &self.contact {
+            Some(contact) => {
+                let only = if contact.only_by_mistake { ", where the rule has none" } else { "" };
+                format!("{} of {} at {:.2} s{only}", contact.kind, contact.collider, contact.time)
+            }
+            None => "none".to_owned(),
+        }
+    }
+}
+
+impl Explanation {
+    /// Its mistakes, and those that this run cannot distinguish from them.
+    pub fn named(&self) -> String {
+        let mut names = self.mistakes.to_string();
+        for other in &self.same_as {
+            names += &format!(", or {} (this run cannot tell)", other.name());
+        }
+        names
+    }
+
+    fn fit_in_words(&self) -> String {
+        let fit = &self.fit;
+        if self.share <= 0.0 {
+            let after = self.distance_after;
+            return format!(
+                "follows no longer than the rule; {after:.1e} m off right after it departs"
+            );
+        }
+        let until = fit.departure.map_or(String::new(), |it| format!(", until {:.2} s", it.time));
+        format!("{} of {} rows{until}, residual {:.1e} m", fit.followed, fit.rows, fit.rms)
+    }
+
+    fn in_a_line(&self) -> String {
+        format!("{} ({})", self.named(), self.fit_in_words())
+    }
+}

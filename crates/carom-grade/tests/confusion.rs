@@ -1,0 +1,113 @@
+//! Every known mistake, planted in every SimTest: which one grading names first. Runs are in single precision,
+//! with 1e-6 m of noise, without velocities. The table of `docs/courses.md` is made here, and held to.
+
+mod common;
+
+use carom_grade::{Grader, Mistake, Mistakes, Tracks};
+use common::{SCENES, Style, grader, planted};
+
+/// Longer than it takes until slots are used again [s].
+const SECONDS: f64 = 18.4;
+
+/// A run that differs by less \[m\] shows no mistake.
+const VISIBLE: f64 = 1e-3;
+
+/// What came of a mistake in a scene.
+#[derive(Debug, PartialEq)]
+enum Cell {
+    /// The run is right all the same.
+    Unseen,
+    /// It is named first, alone or with others whose run is the same.
+    Named(Vec<Mistake>),
+    /// Another one is named, or none.
+    Missed(Option<Mistakes>),
+}
+
+impl Cell {
+    fn text(&self) -> String {
+        match self {
+            Self::Unseen => "-".to_owned(),
+            Self::Named(others) if others.is_empty() => "named".to_owned(),
+            Self::Named(others) => {
+                let others: Vec<String> =
+                    others.iter().map(|it| format!("`{}`", it.name())).collect();
+                format!("named, as is {}", others.join(", "))
+            }
+            Self::Missed(Some(other)) => format!("**{other}**"),
+            Self::Missed(None) => "**none**".to_owned(),
+        }
+    }
+}
+
+/// Whether two runs come apart by what can be seen.
+fn is_seen(right: &Tracks, wrong: &Tracks) -> bool {
+    if right.len() != wrong.len() || right.frames() != wrong.frames() {
+        return true;
+    }
+    let apart =
+        |ball: usize, frame: usize| match (right.state(ball, frame), wrong.state(ball, frame)) {
+            (Some(a), Some(b)) => a.position.distance(b.position) > VISIBLE,
+            (a, b) => a.is_some() != b.is_some(),
+        };
+    (0..right.len()).any(|ball| (0..=right.frames()).any(|frame| apart(ball, frame)))
+}
+
+fn cell(grader: &mut Grader, right: &Tracks, mistake: Mistake) -> Cell {
+    if !is_seen(right, &grader.planted(mistake.into(), SECONDS, false)) {
+        return Cell::Unseen;
+    }
+    // A display's frames are in the table as they were.
+    let every = if mistake == Mistake::DisplayFrames { 1 } else { 3 };
+    let style = Style { noise: 1e-6, every, velocities: false, ..Style::default() };
+    let run = planted(grader, mistake.into(), SECONDS, style);
+    let verdict = grader.grade(&run).verdict;
+    let Some(first) = verdict.explanations.first() else { return Cell::Missed(None) };
+    let all: Vec<Mistake> = first.mistakes.iter().chain(first.same_as.iter().copied()).collect();
+    if first.mistakes.len() == 1 && all.contains(&mistake) {
+        Cell::Named(all.into_iter().filter(|it| *it != mistake).collect())
+    } else {
+        Cell::Missed(Some(first.mistakes))
+    }
+}
+
+/// The cells of a scene, a mistake each.
+fn column(scene: &str) -> Vec<Cell> {
+    let mut grader = grader(scene);
+    let right = grader.planted(Mistakes::NONE, SECONDS, false);
+    Mistake::all().map(|mistake| cell(&mut grader, &right, mistake)).collect()
+}
+
+#[test]
+fn mistakes_are_named_and_the_table_of_the_documents_is_current() {
+    let columns: Vec<Vec<Cell>> = std::thread::scope(|scope| {
+        let columns: Vec<_> = SCENES.iter().map(|scene| scope.spawn(|| column(scene))).collect();
+        columns.into_iter().map(|it| it.join().unwrap()).collect()
+    });
+    let cells = || columns.iter().flatten();
+    let seen = cells().filter(|cell| **cell != Cell::Unseen).count();
+    let named = cells().filter(|cell| matches!(cell, Cell::Named(_))).count();
+    let mut table =
+        String::from("| mistake | 1 | 2 | 3 | 4 | 5 | 6 |\n|---|---|---|---|---|---|---|\n");
+    for (row, mistake) in Mistake::all().enumerate() {
+        let texts: Vec<String> = columns.iter().map(|column| column[row].text()).collect();
+        table += &format!("| `{}` | {} |\n", mistake.name(), texts.join(" | "));
+    }
+    table += &format!(
+        "\n{named} of {seen} pairs of a mistake and a scene where it can be seen are named.\n"
+    );
+    assert!(10 * named >= 9 * seen, "{table}");
+    let document = include_str!("../../../docs/courses.md");
+    assert!(document.contains(&table), "docs/courses.md should have this table:\n{table}");
+}
+
+#[test]
+fn the_documents_explain_every_mistake() {
+    let document = include_str!("../../../docs/courses.md");
+    for mistake in Mistake::all() {
+        // In a table, a bar is written with a backslash.
+        let [wrong, right] = [mistake.wrong(), mistake.right()].map(|it| it.replace('|', "\\|"));
+        let (name, sentence) = (mistake.name(), mistake.sentence());
+        let row = format!("| `{name}` | {sentence} | `{wrong}` | `{right}` |");
+        assert!(document.contains(&row), "docs/courses.md should have this row:\n{row}");
+    }
+}
