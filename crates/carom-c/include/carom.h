@@ -100,7 +100,7 @@ enum CaromQuantity
     CAROM_QUANTITY_SPINNING_FRICTIONS = 10,
     /// Coefficients of tangential restitution: 1 number, not a number where nothing is said.
     CAROM_QUANTITY_TANGENTIAL_RESTITUTIONS = 11,
-    /// Forces [N] of their own, which act until they are set again: 3 numbers.
+    /// Forces [N] of their own, which act until they are set again, or taken away by writing no rows: 3 numbers.
     CAROM_QUANTITY_APPLIED_FORCES = 12,
 };
 #ifndef __cplusplus

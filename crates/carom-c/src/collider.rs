@@ -3,11 +3,9 @@
 use carom::{Collider, ColliderId, DQuat, DVec3, Pose, Shape, Sides};
 use carom_scene::scene;
 
-use crate::force::tell_id;
-use crate::pointer::{Out, Plain, read};
+use crate::pointer::{Out, Plain, read, tell};
 use crate::sphere::{coefficients, friction_of};
 use crate::status::{CaromStatus, Failure, call};
-use crate::step::unknown;
 use crate::world::CaromWorld;
 
 /// The form of a collider in its own frame.
@@ -242,7 +240,7 @@ pub unsafe extern "C" fn carom_world_add_collider(
     id: *mut u64,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let collider = unsafe { read(collider, "collider") }?.physical(None)?;
         let number = world.with(|inner| {
             let id = inner.world.add_collider(collider)?;
@@ -251,8 +249,9 @@ pub unsafe extern "C" fn carom_world_add_collider(
             inner.described.change_colliders(|all| all.push(described));
             Ok(id.number())
         })?;
-        // SAFETY: a pointer of the caller.
-        unsafe { tell_id(id, number) }
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+        unsafe { tell(id, number) };
+        Ok(())
     })
 }
 
@@ -264,7 +263,7 @@ pub unsafe extern "C" fn carom_world_collider(
     collider: *mut CaromCollider,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut place = unsafe { Out::new(collider, "collider") }?;
         let collider =
             world.with(|inner| Ok(inner.world.collider(ColliderId::from_number(id))?))?;
@@ -281,7 +280,7 @@ pub unsafe extern "C" fn carom_world_set_collider(
     collider: *const CaromCollider,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let collider = unsafe { read(collider, "collider") }?;
         world.with(|inner| {
             let own = ColliderId::from_number(id);
@@ -303,7 +302,7 @@ pub extern "C" fn carom_world_remove_collider(world: CaromWorld, id: u64) -> Car
     call(|| {
         world.with(|inner| {
             let place = inner.world.colliders().position(|(own, _)| own.number() == id);
-            let place = place.ok_or_else(|| unknown("collider", id))?;
+            let place = place.ok_or_else(|| Failure::unknown("collider", id))?;
             inner.world.remove_collider(ColliderId::from_number(id))?;
             inner.described.change_colliders(|all| drop(all.remove(place)));
             Ok(())

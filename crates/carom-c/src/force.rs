@@ -6,9 +6,8 @@ use std::fmt::{self, Debug};
 use carom::{DVec3, Force, ForceId, SphereState};
 use carom_scene::scene;
 
-use crate::pointer::{Out, Rows, Strided};
+use crate::pointer::{Rows, Strided, tell};
 use crate::status::{CaromStatus, Failure, call};
-use crate::step::unknown;
 use crate::world::CaromWorld;
 
 /// What a force may depend on.
@@ -122,7 +121,7 @@ pub unsafe extern "C" fn carom_world_add_force(
         if force.is_null() {
             return Err(Failure::new(CaromStatus::Null, "force is a null pointer"));
         }
-        // SAFETY: a pointer of the caller, to such a structure.
+        // SAFETY: it leads to such a structure, as the header demands.
         let force = unsafe { force.read_unaligned() };
         if force.force.is_none() {
             return Err(Failure::new(CaromStatus::Null, "the function of the force is null"));
@@ -132,8 +131,9 @@ pub unsafe extern "C" fn carom_world_add_force(
             inner.described.add_function();
             Ok(id.number())
         })?;
-        // SAFETY: a pointer of the caller.
-        unsafe { tell_id(id, number) }
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+        unsafe { tell(id, number) };
+        Ok(())
     })
 }
 
@@ -146,11 +146,12 @@ pub unsafe extern "C" fn carom_world_add_gravity(
 ) -> CaromStatus {
     call(|| {
         let one = Strided { stride: 0, count: 1 };
-        // SAFETY: an array of the caller.
+        // SAFETY: the caller's array is null or lies so, as the header demands.
         let acceleration = unsafe { Rows::new(acceleration, one, 3, "acceleration") }?.row(0);
         let number = add_described(world, scene::Force::Gravity { acceleration })?;
-        // SAFETY: a pointer of the caller.
-        unsafe { tell_id(id, number) }
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+        unsafe { tell(id, number) };
+        Ok(())
     })
 }
 
@@ -164,8 +165,9 @@ pub unsafe extern "C" fn carom_world_add_drag(
 ) -> CaromStatus {
     call(|| {
         let number = add_described(world, scene::Force::ViscousDrag { coefficient })?;
-        // SAFETY: a pointer of the caller.
-        unsafe { tell_id(id, number) }
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+        unsafe { tell(id, number) };
+        Ok(())
     })
 }
 
@@ -177,18 +179,6 @@ fn add_described(world: CaromWorld, force: scene::Force) -> Result<u64, Failure>
     })
 }
 
-/// Writes an id where the program wants to have it.
-///
-/// # Safety
-/// `id` is null, or can be written to.
-pub(crate) unsafe fn tell_id(id: *mut u64, number: u64) -> Result<(), Failure> {
-    if !id.is_null() {
-        // SAFETY: the caller promises that it can be written to.
-        unsafe { Out::new(id, "id") }?.set(number);
-    }
-    Ok(())
-}
-
 /// Takes a force out of a world.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_remove_force(world: CaromWorld, id: u64) -> CaromStatus {
@@ -196,7 +186,7 @@ pub extern "C" fn carom_world_remove_force(world: CaromWorld, id: u64) -> CaromS
         world.with(|inner| {
             // Looked up first: to remove what is not there would let all flights begin anew.
             let place = inner.world.forces().position(|(own, _)| own.number() == id);
-            let place = place.ok_or_else(|| unknown("force", id))?;
+            let place = place.ok_or_else(|| Failure::unknown("force", id))?;
             inner.world.remove_force(ForceId::from_number(id))?;
             inner.described.scene_mut().forces.remove(place);
             Ok(())

@@ -4,7 +4,6 @@ use carom::{EmitterId, SphereId};
 
 use crate::pointer::{Room, Strided};
 use crate::status::{CaromStatus, Failure, call};
-use crate::step::unknown;
 use crate::world::{CaromWorld, Inner};
 
 /// A list of ids.
@@ -39,7 +38,7 @@ pub unsafe extern "C" fn carom_world_ids(
     count: *mut usize,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: an array and a pointer of the caller.
+        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
         let room = unsafe { Room::new(ids, Strided { stride, count: capacity }, count, "ids") }?;
         world.with(|inner| room.fill(of_list(inner, list)?.into_iter()))
     })
@@ -79,7 +78,7 @@ pub extern "C" fn carom_world_remove_emitter(world: CaromWorld, id: u64) -> Caro
     call(|| {
         world.with(|inner| {
             let place = inner.world.emitters().position(|(own, _)| own.number() == id);
-            let place = place.ok_or_else(|| unknown("emitter", id))?;
+            let place = place.ok_or_else(|| Failure::unknown("emitter", id))?;
             inner.world.remove_emitter(EmitterId::from_number(id))?;
             let time = inner.world.time();
             inner.described.palette_mut().remove_emitter(place, time);

@@ -27,8 +27,8 @@ pub unsafe extern "C" fn carom_world_totals(
     world: CaromWorld,
     totals: *mut CaromTotals,
 ) -> CaromStatus {
-    // SAFETY: a pointer of the caller.
-    world.tell(unsafe { Out::new(totals, "totals") }, |inner| CaromTotals {
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    world.measure(unsafe { Out::new(totals, "totals") }, |inner| CaromTotals {
         kinetic_energy: inner.world.kinetic_energy(),
         rotational_energy: inner.world.rotational_energy(),
         potential_energy: inner.world.potential_energy(),
@@ -50,7 +50,7 @@ pub unsafe extern "C" fn carom_world_overlaps(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: an array and a pointer of the caller.
+        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
         let room = unsafe { Room::new(overlaps, array, count, "overlaps") }?;
         if tolerance.is_nan() || tolerance < 0.0 {
             let problem = format!("`tolerance` must be zero or positive, not {tolerance}");

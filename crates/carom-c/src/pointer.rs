@@ -21,8 +21,6 @@ unsafe impl Plain for u8 {}
 // SAFETY: a number.
 unsafe impl Plain for u64 {}
 // SAFETY: a number.
-unsafe impl Plain for usize {}
-// SAFETY: a number.
 unsafe impl Plain for f32 {}
 // SAFETY: a number.
 unsafe impl Plain for f64 {}
@@ -46,6 +44,17 @@ impl<T: Copy> Out<'_, T> {
     pub fn set(&mut self, value: T) {
         // SAFETY: `new` was promised that the place can be written to.
         unsafe { self.place.write_unaligned(value) }
+    }
+}
+
+/// Writes a value where the program wants to have it.
+///
+/// # Safety
+/// `place` is null, or can be written to.
+pub(crate) unsafe fn tell<T: Copy>(place: *mut T, value: T) {
+    if !place.is_null() {
+        // SAFETY: the caller promises that it can be written to.
+        unsafe { place.write_unaligned(value) }
     }
 }
 

@@ -35,7 +35,7 @@ pub enum CaromQuantity {
     SpinningFrictions = 10,
     /// Coefficients of tangential restitution: 1 number, not a number where nothing is said.
     TangentialRestitutions = 11,
-    /// Forces [N] of their own, which act until they are set again: 3 numbers.
+    /// Forces [N] of their own, which act until they are set again, or taken away by writing no rows: 3 numbers.
     AppliedForces = 12,
 }
 
@@ -149,9 +149,9 @@ impl Number for f32 {
 /// The number of spheres: the number of rows in every array.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_count(world: CaromWorld, count: *mut usize) -> CaromStatus {
-    // SAFETY: a pointer of the caller.
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
     let place = unsafe { crate::pointer::Out::new(count, "count") };
-    world.tell(place, |inner| inner.world.spheres().len())
+    world.measure(place, |inner| inner.world.spheres().len())
 }
 
 /// Reads a quantity (CaromQuantity) of all spheres, in ascending order of id: a row for each, `stride` bytes after the one
@@ -164,7 +164,7 @@ pub unsafe extern "C" fn carom_world_read(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: an array of the caller.
+    // SAFETY: the caller's array is null or lies so, as the header demands.
     unsafe { read(world, quantity, values, Strided { stride, count }) }
 }
 
@@ -177,7 +177,7 @@ pub unsafe extern "C" fn carom_world_read_f32(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: an array of the caller.
+    // SAFETY: the caller's array is null or lies so, as the header demands.
     unsafe { read(world, quantity, values, Strided { stride, count }) }
 }
 
@@ -191,7 +191,7 @@ pub unsafe extern "C" fn carom_world_write(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: an array of the caller.
+    // SAFETY: the caller's array is null or lies so, as the header demands.
     unsafe { write(world, quantity, values, Strided { stride, count }) }
 }
 
@@ -204,7 +204,7 @@ pub unsafe extern "C" fn carom_world_write_f32(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: an array of the caller.
+    // SAFETY: the caller's array is null or lies so, as the header demands.
     unsafe { write(world, quantity, values, Strided { stride, count }) }
 }
 
@@ -263,6 +263,10 @@ unsafe fn write<T: Number>(
         // SAFETY: the caller promises such an array.
         let rows = unsafe { Rows::new(values, array, quantity.width(), name) }?;
         world.with(|inner| {
+            // Forces that no sphere has are no rows.
+            if quantity == CaromQuantity::AppliedForces && rows.count() == 0 {
+                return Ok(inner.world.set_applied_forces(&[])?);
+            }
             require_count(name, rows.count(), inner.world.spheres().len())?;
             match quantity.width() {
                 1 => set_others(&mut inner.world, (quantity, name), |row| rows.row::<1>(row)),

@@ -169,8 +169,8 @@ pub unsafe extern "C" fn carom_world_report(
     world: CaromWorld,
     report: *mut CaromReport,
 ) -> CaromStatus {
-    // SAFETY: a pointer of the caller.
-    world.tell(unsafe { Out::new(report, "report") }, |inner| {
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    world.measure(unsafe { Out::new(report, "report") }, |inner| {
         let report = inner.world.report();
         let account = report.contact_account;
         CaromReport {
@@ -199,7 +199,7 @@ pub unsafe extern "C" fn carom_world_impacts(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: an array and a pointer of the caller.
+        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
         let room = unsafe { Room::new(impacts, array, count, "impacts") }?;
         world.with(|inner| room.fill(inner.world.report().impacts.iter().map(impact)))
     })
@@ -217,7 +217,7 @@ pub unsafe extern "C" fn carom_world_contacts(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: an array and a pointer of the caller.
+        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
         let room = unsafe { Room::new(contacts, array, count, "contacts") }?;
         world.with(|inner| room.fill(inner.world.contacts().iter().map(contact)))
     })
@@ -234,7 +234,7 @@ pub unsafe extern "C" fn carom_world_triggers(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: an array and a pointer of the caller.
+        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
         let room = unsafe { Room::new(triggers, array, count, "triggers") }?;
         world.with(|inner| room.fill(inner.world.report().triggers.iter().map(trigger)))
     })

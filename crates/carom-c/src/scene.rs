@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use carom_scene::{BUILT_IN_FILES, Library, Override, Palette, Scene, SceneError, part};
 
 use crate::described::Described;
-use crate::pointer::{Out, text, texts};
+use crate::pointer::{Out, tell, text, texts};
 use crate::status::{CaromStatus, Failure, call};
 use crate::world::{CaromWorld, Inner};
 
@@ -64,11 +64,11 @@ pub unsafe extern "C" fn carom_world_from_scene(
     world: *mut CaromWorld,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut world = unsafe { Out::new(world, "world") }?;
-        // SAFETY: a text of the caller.
+        // SAFETY: the caller's text is null or ends in a zero, as the header demands.
         let name = unsafe { text(name, "name") }?;
-        // SAFETY: texts of the caller.
+        // SAFETY: the caller's texts are null or so many, as the header demands.
         let overrides = unsafe { texts(overrides, override_count, "overrides") }?;
         let (scene, _) = Library::new().find(name, &parsed(&overrides)?)?;
         world.set(made(scene)?);
@@ -86,11 +86,11 @@ pub unsafe extern "C" fn carom_world_from_toml(
     world: *mut CaromWorld,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut world = unsafe { Out::new(world, "world") }?;
-        // SAFETY: a text of the caller.
+        // SAFETY: the caller's text is null or ends in a zero, as the header demands.
         let toml = unsafe { text(toml, "toml") }?;
-        // SAFETY: texts of the caller.
+        // SAFETY: the caller's texts are null or so many, as the header demands.
         let overrides = unsafe { texts(overrides, override_count, "overrides") }?;
         world.set(made(Scene::from_toml_with(toml, "scene", &parsed(&overrides)?)?)?);
         Ok(())
@@ -115,14 +115,12 @@ pub unsafe extern "C" fn carom_world_add_toml(
     added: *mut CaromAdded,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a text of the caller.
+        // SAFETY: the caller's text is null or ends in a zero, as the header demands.
         let toml = unsafe { text(toml, "toml") }?;
         let part = part::read(toml)?;
         let all = world.with(|inner| add(inner, part))?;
-        if !added.is_null() {
-            // SAFETY: a pointer of the caller.
-            unsafe { Out::new(added, "added") }?.set(all);
-        }
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+        unsafe { tell(added, all) };
         Ok(())
     })
 }
@@ -167,7 +165,7 @@ pub unsafe extern "C" fn carom_world_set_simulation(
     toml: *const c_char,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a text of the caller.
+        // SAFETY: the caller's text is null or ends in a zero, as the header demands.
         let toml = unsafe { text(toml, "toml") }?;
         let part = part::read_simulation(toml)?;
         world.with(|inner| {

@@ -33,7 +33,7 @@ pub unsafe extern "C" fn carom_world_snapshot(
     snapshot: *mut CaromSnapshot,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut place = unsafe { Out::new(snapshot, "snapshot") }?;
         let held = world.with(|inner| {
             // Bytes have the colours of spheres that were emitted, too.
@@ -74,7 +74,7 @@ pub unsafe extern "C" fn carom_snapshot_time(
     time: *mut f64,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut time = unsafe { Out::new(time, "time") }?;
         time.set(SNAPSHOTS.get(snapshot.id)?.snapshot.time());
         Ok(())
@@ -92,7 +92,7 @@ pub unsafe extern "C" fn carom_snapshot_to_bytes(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride: 0, count: capacity };
-        // SAFETY: an array and a pointer of the caller.
+        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
         let room = unsafe { Room::new(bytes, array, size, "bytes") }?;
         let held = SNAPSHOTS.get(snapshot.id)?;
         let Held { snapshot, described } = &*held;
@@ -110,10 +110,10 @@ pub unsafe extern "C" fn carom_snapshot_from_bytes(
     snapshot: *mut CaromSnapshot,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut place = unsafe { Out::new(snapshot, "snapshot") }?;
         let array = Strided { stride: 0, count: size };
-        // SAFETY: an array of the caller.
+        // SAFETY: the caller's array is null or lies so, as the header demands.
         let bytes: Vec<u8> = unsafe { Rows::new(bytes, array, 1, "bytes") }?.values().collect();
         let Checkpoint { snapshot, scene, palette } = Checkpoint::from_bytes(&bytes)?;
         let described = Described::new(scene, palette);

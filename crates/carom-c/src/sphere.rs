@@ -3,7 +3,7 @@
 use carom::{DQuat, DVec3, Error, Friction, Mass, Sphere, SphereId, World};
 use carom_scene::Budget;
 
-use crate::pointer::{Out, Plain, Rows, RowsMut, Strided, read};
+use crate::pointer::{Out, Plain, Rows, RowsMut, Strided, read, tell};
 use crate::status::{CaromStatus, Failure, call};
 use crate::world::{CaromWorld, Inner};
 
@@ -117,13 +117,11 @@ pub unsafe extern "C" fn carom_world_add_sphere(
     id: *mut u64,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let sphere = unsafe { read(sphere, "sphere") }?;
         let number = world.with(|inner| Ok(inner.world.add_sphere(sphere.into())?.number()))?;
-        if !id.is_null() {
-            // SAFETY: a pointer of the caller.
-            unsafe { Out::new(id, "id") }?.set(number);
-        }
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+        unsafe { tell(id, number) };
         Ok(())
     })
 }
@@ -140,11 +138,11 @@ pub unsafe extern "C" fn carom_world_add_spheres(
 ) -> CaromStatus {
     call(|| {
         refuse_too_many(count)?;
-        // SAFETY: an array of the caller.
+        // SAFETY: the caller's array is null or lies so, as the header demands.
         let spheres = unsafe { Rows::new(spheres, Strided { stride, count }, 1, "spheres") }?;
         let added = world.with(|inner| add_all(inner, &spheres))?;
         if !ids.is_null() {
-            // SAFETY: an array of the caller.
+            // SAFETY: the caller's array is null or lies so, as the header demands.
             let mut ids = unsafe { RowsMut::new(ids, Strided { stride: 0, count }, 1, "ids") }?;
             added.iter().enumerate().for_each(|(row, id)| ids.set_row(row, [id.number()]));
         }
@@ -191,7 +189,7 @@ pub unsafe extern "C" fn carom_world_sphere(
     sphere: *mut CaromSphere,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut place = unsafe { Out::new(sphere, "sphere") }?;
         let sphere = world.with(|inner| Ok(inner.world.sphere(SphereId::from_number(id))?))?;
         place.set(sphere.into());
@@ -207,7 +205,7 @@ pub unsafe extern "C" fn carom_world_set_sphere(
     sphere: *const CaromSphere,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let sphere = unsafe { read(sphere, "sphere") }?;
         world.with(|inner| Ok(inner.world.set_sphere(SphereId::from_number(id), sphere.into())?))
     })
@@ -223,7 +221,7 @@ pub unsafe extern "C" fn carom_world_remove_spheres(
 ) -> CaromStatus {
     call(|| {
         refuse_too_many(count)?;
-        // SAFETY: an array of the caller.
+        // SAFETY: the caller's array is null or lies so, as the header demands.
         let ids = unsafe { Rows::new(ids, Strided { stride: 0, count }, 1, "ids") }?;
         let ids: Vec<SphereId> = ids.values().map(SphereId::from_number).collect();
         world.with(|inner| Ok(inner.world.remove_spheres(&ids)?))
@@ -238,12 +236,12 @@ pub unsafe extern "C" fn carom_world_index_of(
     index: *mut usize,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut place = unsafe { Out::new(index, "index") }?;
         let found = world.with(|inner| {
             let spheres = inner.world.spheres();
             let index = spheres.index_of(SphereId::from_number(id));
-            index.ok_or_else(|| crate::step::unknown("sphere", id))
+            index.ok_or_else(|| Failure::unknown("sphere", id))
         })?;
         place.set(found);
         Ok(())

@@ -59,6 +59,11 @@ impl Failure {
         Self { status, message: message.to_string() }
     }
 
+    /// An id that names nothing.
+    pub fn unknown(kind: &str, id: u64) -> Self {
+        Self::new(CaromStatus::Unknown, format!("there is no {kind} {id} in this world"))
+    }
+
     /// A fault of the engine, which it tells in a panic.
     fn of_panic(panic: &(dyn Any + Send)) -> Self {
         let text = panic.downcast_ref::<String>().map(String::as_str);
@@ -160,4 +165,27 @@ pub extern "C" fn carom_status_name(status: i32) -> *const c_char {
     ];
     let name = usize::try_from(status).ok().and_then(|status| NAMES.get(status).copied());
     name.unwrap_or(c"unknown status").as_ptr()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_becomes_a_status_with_its_message() {
+        let number = 7;
+        assert_eq!(call(|| panic!("sphere {number} is lost")), CaromStatus::Panic);
+        // SAFETY: the message is a text that ends in a zero.
+        let message = unsafe { CStr::from_ptr(carom_last_error()) };
+        assert_eq!(message, c"a fault of the engine: sphere 7 is lost");
+    }
+
+    #[test]
+    fn a_message_ends_where_it_should() {
+        let failure = || Err(Failure::new(CaromStatus::Scene, "a\0b"));
+        assert_eq!(call(failure), CaromStatus::Scene);
+        // SAFETY: the message is a text that ends in a zero.
+        let message = unsafe { CStr::from_ptr(carom_last_error()) };
+        assert_eq!(message.to_str(), Ok("a\u{fffd}b"));
+    }
 }

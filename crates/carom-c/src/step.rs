@@ -1,7 +1,7 @@
 //! Time: steps of a world.
 
-use crate::pointer::Out;
-use crate::status::{CaromStatus, Failure, call};
+use crate::pointer::{Out, tell};
+use crate::status::{CaromStatus, call};
 use crate::world::CaromWorld;
 
 /// Advances a world by `dt` [s], > 0. If the step is refused, the state before it is kept.
@@ -28,10 +28,8 @@ pub unsafe extern "C" fn carom_world_advance(
             }
             Ok(())
         });
-        if !taken.is_null() {
-            // SAFETY: a pointer of the caller.
-            unsafe { Out::new(taken, "taken") }?.set(done);
-        }
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+        unsafe { tell(taken, done) };
         ended
     })
 }
@@ -52,7 +50,7 @@ pub unsafe extern "C" fn carom_world_next_event_time(
     time: *mut f64,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut time = unsafe { Out::new(time, "time") }?;
         let next = world.with(|inner| Ok(inner.world.next_event_time(within)?))?;
         time.set(next.unwrap_or(f64::INFINITY));
@@ -63,8 +61,8 @@ pub unsafe extern "C" fn carom_world_next_event_time(
 /// Time since the beginning [s]: the sum of all steps.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_time(world: CaromWorld, time: *mut f64) -> CaromStatus {
-    // SAFETY: a pointer of the caller.
-    world.tell(unsafe { Out::new(time, "time") }, |inner| inner.world.time())
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    world.measure(unsafe { Out::new(time, "time") }, |inner| inner.world.time())
 }
 
 /// Sets the clock [s], for forces that depend on time. A world with emitters refuses it.
@@ -79,21 +77,15 @@ pub unsafe extern "C" fn carom_world_frame_time(
     world: CaromWorld,
     frame_time: *mut f64,
 ) -> CaromStatus {
-    // SAFETY: a pointer of the caller.
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
     let place = unsafe { Out::new(frame_time, "frame_time") };
-    world.tell(place, |inner| inner.described.scene().simulation.frame_time)
+    world.measure(place, |inner| inner.described.scene().simulation.frame_time)
 }
 
 /// The state of a world as one number, equal for equal states on every platform and in every language: what `carom
 /// run` prints, in hexadecimal digits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_state_hash(world: CaromWorld, hash: *mut u64) -> CaromStatus {
-    // SAFETY: a pointer of the caller.
-    world.tell(unsafe { Out::new(hash, "hash") }, |inner| inner.world.state_hash().0)
-}
-
-/// What goes wrong where a thing is sought by a number.
-pub(crate) fn unknown(kind: &str, number: u64) -> Failure {
-    let problem = format!("there is no {kind} {number} in this world");
-    Failure::new(CaromStatus::Unknown, problem)
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    world.measure(unsafe { Out::new(hash, "hash") }, |inner| inner.world.state_hash().0)
 }

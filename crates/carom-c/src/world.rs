@@ -64,14 +64,14 @@ impl CaromWorld {
         work(&mut inner)
     }
 
-    /// Looks at a number of the world.
-    pub(crate) fn tell<T: Copy>(
+    /// Writes what is measured of the world to a place.
+    pub(crate) fn measure<T: Copy>(
         self,
         out: Result<Out<'_, T>, Failure>,
-        look: impl FnOnce(&Inner) -> T,
+        measure: impl FnOnce(&Inner) -> T,
     ) -> CaromStatus {
         call(|| {
-            out?.set(self.with(|inner| Ok(look(inner)))?);
+            out?.set(self.with(|inner| Ok(measure(inner)))?);
             Ok(())
         })
     }
@@ -81,7 +81,7 @@ impl CaromWorld {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_new(world: *mut CaromWorld) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut world = unsafe { Out::new(world, "world") }?;
         let (made, described) = Described::of(Scene::new("world"))?;
         world.set(CaromWorld::hold(Inner { world: made, described }));
@@ -94,7 +94,7 @@ pub unsafe extern "C" fn carom_world_new(world: *mut CaromWorld) -> CaromStatus 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_copy(world: CaromWorld, copy: *mut CaromWorld) -> CaromStatus {
     call(|| {
-        // SAFETY: a pointer of the caller.
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut copy = unsafe { Out::new(copy, "copy") }?;
         let inner = world.with(|inner| {
             Ok(Inner { world: inner.world.clone(), described: inner.described.clone() })
@@ -104,10 +104,13 @@ pub unsafe extern "C" fn carom_world_copy(world: CaromWorld, copy: *mut CaromWor
     })
 }
 
-/// Frees a world. A step that is at work on it in another thread ends first, by itself.
+/// Frees a world. A step that is at work on it in another thread is stopped.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_free(world: CaromWorld) -> CaromStatus {
-    call(|| WORLDS.take(world.id).map(drop))
+    call(|| {
+        WORLDS.take(world.id)?.stop.store(true, Ordering::Relaxed);
+        Ok(())
+    })
 }
 
 /// Whether a handle is that of a world: 1, or 0.
