@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::shell::{Outcome, cargo, cargo_with, finish, root, succeeds, target_folder};
+use crate::shell::{Outcome, cargo, cargo_with, finish, output, root, succeeds, target_folder};
 use crate::{native_hashes, setup};
 
 /// Makes the libraries for programs, and says where they are.
@@ -57,8 +57,8 @@ fn run_programs(packages: &[&str]) -> Outcome {
 /// Options of compilers: all that they warn of is an error.
 const STRICT: [&str; 5] = ["-Wall", "-Wextra", "-Werror", "-pedantic", "-g"];
 /// A checker of memory, which fails for whatever it finds, memory that is never freed among it.
-const VALGRIND: &str =
-    "valgrind --quiet --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite";
+const VALGRIND: &str = "valgrind --quiet --error-exitcode=9 --leak-check=full \
+                        --show-leak-kinds=definite --errors-for-leak-kinds=definite";
 
 /// Programs on the C interface, and the library that they use.
 struct Programs {
@@ -137,12 +137,15 @@ impl Programs {
         if !cfg!(target_os = "linux") {
             return finish("every_function", &mut self.program("every_function"));
         }
-        let mut words = VALGRIND.split(' ');
+        let mut words = VALGRIND.split_whitespace();
         let mut command = Command::new(words.next().unwrap_or_default());
         finish("valgrind", command.args(words).arg(self.folder.join("every_function")))?;
         let test = [&["test", "--quiet"], packages, &["--test", "misuse"]].concat();
-        let runner = format!("CARGO_TARGET_{}_LINUX_GNU_RUNNER", ARCHITECTURE.to_uppercase());
-        cargo_with(&test, &[(&runner, VALGRIND)])
+        let about = output("rustc", &["-vV"]).unwrap_or_default();
+        let target = about.lines().find_map(|line| line.strip_prefix("host: "));
+        let target = target.ok_or("rustc does not say what it compiles for")?;
+        let target = target.to_uppercase().replace('-', "_");
+        cargo_with(&test, &[(&format!("CARGO_TARGET_{target}_RUNNER"), VALGRIND)])
     }
 
     /// Compiles and runs the program in C#, with the part for Unity and without.
@@ -176,6 +179,3 @@ impl Programs {
 /// What names the folder of shared libraries to a program that loads them.
 const LIBRARY_PATH: &str =
     if cfg!(target_os = "macos") { "DYLD_LIBRARY_PATH" } else { "LD_LIBRARY_PATH" };
-
-/// The processor, as cargo calls it.
-const ARCHITECTURE: &str = std::env::consts::ARCH;

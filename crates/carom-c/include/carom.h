@@ -468,7 +468,7 @@ CaromStatus carom_world_new(CaromWorld *world);
 /// both.
 CaromStatus carom_world_copy(CaromWorld world, CaromWorld *copy);
 
-/// Frees a world. A step that is at work on it in another thread ends first, by itself.
+/// Frees a world. A step that is at work on it in another thread is stopped.
 CaromStatus carom_world_free(CaromWorld world);
 
 /// Whether a handle is that of a world: 1, or 0.
