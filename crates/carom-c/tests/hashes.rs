@@ -85,7 +85,7 @@ fn a_world_put_together_by_calls_has_the_hash_of_one_put_together_in_rust() {
 #[test]
 fn bytes_of_c_are_snapshots_of_rust() {
     let world = from_scene("simtest3");
-    // SAFETY: nothing is to be told.
+    // SAFETY: null is allowed there.
     ok(unsafe { carom_world_advance(world, 30, ptr::null_mut()) });
     let (mut snapshot, mut size) = (CaromSnapshot::default(), 0);
     // SAFETY: a place for a snapshot.

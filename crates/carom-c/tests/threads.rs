@@ -1,6 +1,11 @@
 //! Several threads: a world that is at work refuses other calls, can be stopped and freed; different worlds do not know of
 //! each other.
 
+#![allow(
+    clippy::multiple_unsafe_ops_per_block,
+    reason = "what makes one call of a block sound makes all of them sound"
+)]
+
 use std::ptr::{null, null_mut};
 use std::thread;
 use std::time::{Duration, Instant};
