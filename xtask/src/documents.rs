@@ -26,7 +26,7 @@ const FOREIGN_NAMES: [&str; 2] = ["GetTimeOfIntersection", "out/"];
 /// Endings of files that a document names.
 const ENDINGS: [&str; 8] = ["rs", "md", "py", "pyi", "toml", "txt", "wgsl", "yml"];
 /// Endings of sources, whose words are the names that a document may use.
-const SOURCES: [&str; 6] = ["rs", "py", "pyi", "js", "ts", "toml"];
+const SOURCES: [&str; 8] = ["rs", "py", "pyi", "js", "ts", "toml", "h", "cs"];
 
 /// Refuses links that lead nowhere, and names of files and types that are not there.
 pub fn check() -> Outcome {

@@ -3,6 +3,7 @@
 #![warn(clippy::unwrap_used)]
 
 mod architecture;
+mod c_interface;
 mod circles;
 mod commands;
 mod demo;
@@ -33,7 +34,7 @@ Usage: cargo xtask COMMAND
 
   demo      set up, run every built-in scene, make pictures and a film in out/, open the window
   test      set up, then every check: format, clippy, tests, documents, schema, the JavaScript
-            package in Node.js, the Python package, the page in a browser; `test --full` adds
+            package in Node.js, the Python package, programs in C, C++ and C#, the page in a browser; `test --full` adds
             the tests of the physics that take minutes
   web       make the page in web/dist and the JavaScript package; `web --serve [PORT]` makes the
             page and serves it on this machine, `web --out DIR` puts it into a folder for a server of
@@ -41,6 +42,9 @@ Usage: cargo xtask COMMAND
             tests it in a browser; `web --package` makes the package alone, `web --test-package`
             tests it in Node.js
   python    make the wheel of the Python package; `python --test` also installs and tests it
+  c         make the shared and the static library of the C interface; `c --test` tests it with
+            programs in C, C++ and C#
+  header    write crates/carom-c/include/carom.h anew from the C interface
   notebook  put the viewer for notebooks into the Python package, for `pip install .`
   lint      the checks that need no build: format, words, links and names in documents, modules that
             use each other in a circle, files and functions that are too long
@@ -71,6 +75,9 @@ fn main() -> ExitCode {
         ["web", "--test-package"] => js_package::test(),
         ["python"] => python::build().map(drop),
         ["python", "--test"] => python::test(),
+        ["c"] => c_interface::build(),
+        ["c", "--test"] => c_interface::test(),
+        ["header"] => c_interface::write_header(),
         ["notebook"] => web::build_for_notebooks(),
         ["lint"] => test::lint(),
         ["documents"] => commands::check_plain(),

@@ -52,6 +52,20 @@ const BROWSER: &[Need] = &[
 /// What builds and tests the Python package.
 const PYTHON: &[Need] = &[Need { is_met: has_python, packages: &["python3", "python3-venv"] }];
 
+/// What programs of the C interface are compiled and run with: compilers, a runtime of C#, a checker of memory, which
+/// needs the symbols of the C library.
+const C_INTERFACE: &[Need] = &[
+    Need { is_met: || succeeds("c++", &["--version"]), packages: &["g++"] },
+    Need {
+        is_met: || succeeds("mcs", &["--version"]) && succeeds("mono", &["--version"]),
+        packages: &["mono-mcs", "mono-runtime"],
+    },
+    Need {
+        is_met: || succeeds("valgrind", &["--quiet", "true"]),
+        packages: &["valgrind", "libc6-dbg"],
+    },
+];
+
 /// What compiles for browsers where the standard library for them cannot be fetched.
 const DEBIAN_WASM: &[Need] = &[Need {
     is_met: || succeeds("/usr/bin/wasm-ld-22", &["--version"]) && has_files("/usr/lib/rustlib/src"),
@@ -91,6 +105,11 @@ pub fn python() -> Outcome {
     } else {
         Err("the Python package needs CPython 3.10 or newer, with venv".to_owned())
     }
+}
+
+/// Installs what the programs of the C interface are compiled and run with.
+pub fn c_interface() -> Outcome {
+    install(C_INTERFACE)
 }
 
 /// Installs Debian's compiler for browsers.

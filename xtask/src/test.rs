@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use crate::commands::{self, Programs};
 use crate::shell::{Outcome, cargo, cargo_with, target_folder};
 use crate::{
-    architecture, circles, dependencies, documents, js_package, python, setup, sizes, stages, web,
-    words,
+    architecture, c_interface, circles, dependencies, documents, js_package, python, setup, sizes,
+    stages, web, words,
 };
 
 /// A part of the checks, for which one time is printed.
@@ -22,12 +22,13 @@ impl Part {
 }
 
 /// All parts; the last ones end with the summary of a test runner.
-const PARTS: [Part; 11] = [
+const PARTS: [Part; 12] = [
     Part::new("set-up", set_up),
     Part::new("lint", lint),
     Part::new("clippy and rustdoc", clippy_and_rustdoc),
     Part::new("builds with fewer features", small_builds),
     Part::new("tests", tests),
+    Part::new("C interface", c_interface::test_built),
     Part::new("claims", claims),
     Part::new("commands of the documents", commands_of_documents),
     Part::new("hashes of optimised builds and threads", hashes),

@@ -1,0 +1,902 @@
+// Carom in C#: one file, for Unity, .NET and Mono. docs/c.md is the guide.
+//
+// In Unity: put this file anywhere into Assets, and the library (carom_c.dll, libcarom_c.so or libcarom_c.dylib) into
+// Assets/Plugins. Then, in a script of an empty object, with a prefab of a sphere of diameter 1:
+//
+//     using Carom;
+//     using UnityEngine;
+//
+//     public class Balls : MonoBehaviour
+//     {
+//         public Transform prefab;
+//         CaromWorld world;
+//         Transform[] balls;
+//         Vector3[] positions;
+//
+//         void Start()
+//         {
+//             world = new CaromWorld();
+//             world.AddGravity(Physics.gravity);
+//             world.AddFloor(0.0f, 0.8f);
+//             balls = new Transform[10];
+//             positions = new Vector3[balls.Length];
+//             for (int i = 0; i < balls.Length; i++)
+//             {
+//                 world.AddBall(new Vector3(0.1f * i, 2.0f + i, 0.0f), 0.5f);
+//                 balls[i] = Instantiate(prefab);
+//             }
+//         }
+//
+//         void FixedUpdate()
+//         {
+//             world.Step(Time.fixedDeltaTime);
+//             world.ReadPositions(positions);
+//             for (int i = 0; i < balls.Length; i++) balls[i].position = positions[i];
+//         }
+//
+//         void OnDestroy() { world.Dispose(); }
+//     }
+//
+// Carom's coordinate system is right-handed with y up, Unity's left-handed: members that take or give a Vector3 or a
+// Quaternion of Unity mirror z; all others are in Carom's own coordinates.
+
+using System;
+using System.Runtime.InteropServices;
+using System.Text;
+
+namespace Carom
+{
+    /// <summary>How a call of the library ended, as carom.h explains.</summary>
+    public enum CaromStatus
+    {
+        Ok, Null, Handle, Busy, Length, Argument, Invalid, Unknown, Scene, Step, Stopped, Snapshot, Memory, Abi, Panic,
+    }
+
+    /// <summary>A quantity that all spheres have: so many numbers of each as carom.h says.</summary>
+    public enum CaromQuantity
+    {
+        Positions, Velocities, Radii, Masses, Restitutions, Orientations, AngularVelocities, InertiaFactors, Frictions,
+        RollingFrictions, SpinningFrictions, TangentialRestitutions, AppliedForces,
+    }
+
+    /// <summary>The form of a collider.</summary>
+    public enum CaromShape
+    {
+        Sphere, Rectangle, HalfSpace, Box, Container, Other,
+    }
+
+    /// <summary>A list of ids.</summary>
+    public enum CaromList
+    {
+        Spheres, Colliders, Forces, Emitters, Emitted, Retired, LeftOut,
+    }
+
+    /// <summary>Why the library refused a call. The world is as it was before.</summary>
+    public sealed class CaromException : Exception
+    {
+        public CaromStatus Status { get; private set; }
+
+        public CaromException(CaromStatus status, string message, Exception cause) : base(message, cause)
+        {
+            Status = status;
+        }
+    }
+
+    /// <summary>Three numbers.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Double3
+    {
+        public double X, Y, Z;
+
+        public Double3(double x, double y, double z) { X = x; Y = y; Z = z; }
+
+        public override string ToString() { return "(" + X + ", " + Y + ", " + Z + ")"; }
+    }
+
+    /// <summary>A quaternion x, y, z, w.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Double4
+    {
+        public double X, Y, Z, W;
+
+        public Double4(double x, double y, double z, double w) { X = x; Y = y; Z = z; W = w; }
+    }
+
+    /// <summary>A sphere; <see cref="Default"/> has usual values. SI units; friction is NaN where nothing is said.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromSphere
+    {
+        public Double3 Position, Velocity;
+        public double Radius, Mass, Density, Restitution;
+        public double Friction, RollingFriction, SpinningFriction, TangentialRestitution;
+        public Double4 Orientation;
+        public Double3 AngularVelocity;
+        public double InertiaFactor;
+
+        /// <summary>A solid ball of 1 kg and radius 1 m at rest at the origin.</summary>
+        public static CaromSphere Default { get { return Native.carom_sphere(); } }
+    }
+
+    /// <summary>A collider; <see cref="Default"/> has usual values.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromCollider
+    {
+        public CaromShape Shape;
+        public uint Trigger, OpenSides, Reserved;
+        public double Radius;
+        public Double3 Size, Position;
+        public Double4 Rotation;
+        public Double3 Velocity, AngularVelocity;
+        public double Restitution, Friction, RollingFriction, SpinningFriction, TangentialRestitution;
+
+        /// <summary>A solid half-space below y = 0, at rest.</summary>
+        public static CaromCollider Default { get { return Native.carom_collider(); } }
+    }
+
+    /// <summary>What a force may depend on.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromSphereState
+    {
+        public Double3 Position, Velocity;
+        public double Radius, Mass;
+    }
+
+    /// <summary>What a text has added: the first id of each kind, and how many.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromAdded
+    {
+        public ulong FirstSphere, Spheres, FirstCollider, Colliders, FirstForce, Forces, FirstEmitter, Emitters;
+    }
+
+    /// <summary>Two bodies: two spheres, or a collider (body 1) and a sphere.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromBodyPair
+    {
+        public ulong Body1, Body2, Body1IsCollider;
+    }
+
+    /// <summary>One impact of the last step.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromImpact
+    {
+        public double Time;
+        public CaromBodyPair Bodies;
+        public Double3 Point, Normal;
+        public double ApproachSpeed, SeparationSpeed, Impulse;
+        public Double3 TangentialImpulse;
+    }
+
+    /// <summary>A contact that persists.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromContact
+    {
+        public CaromBodyPair Bodies;
+        public Double3 Point, Normal;
+        public double Gap, NormalForce;
+        public Double3 TangentialForce;
+        public ulong IsSliding;
+    }
+
+    /// <summary>Sums over all spheres.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromTotals
+    {
+        public double KineticEnergy, RotationalEnergy, PotentialEnergy;
+        public Double3 Momentum, AngularMomentum;
+    }
+
+    /// <summary>A world of spheres, moved exactly. One thread at a time may use it.</summary>
+    public sealed partial class CaromWorld : IDisposable
+    {
+        readonly Native.Handle handle;
+
+        CaromWorld(WorldId id) { handle = new Native.Handle(id.Id, 0); }
+
+        /// <summary>An empty world at time 0.</summary>
+        public CaromWorld() : this(Made(Native.carom_world_new)) { }
+
+        /// <summary>The world of a scene: a built-in one by its name, or a file by its path. Overrides are texts like
+        /// "simulation.rule=contact".</summary>
+        public static CaromWorld FromScene(string name, params string[] overrides)
+        {
+            using (var texts = new Native.Texts(overrides))
+            {
+                WorldId id;
+                var status = Native.carom_world_from_scene(Native.Text(name), texts.Pointers, texts.Count, out id);
+                Native.Check(status);
+                return new CaromWorld(id);
+            }
+        }
+
+        /// <summary>The world of the text of a scene file (TOML).</summary>
+        public static CaromWorld FromToml(string toml, params string[] overrides)
+        {
+            using (var texts = new Native.Texts(overrides))
+            {
+                WorldId id;
+                var status = Native.carom_world_from_toml(Native.Text(toml), texts.Pointers, texts.Count, out id);
+                Native.Check(status);
+                return new CaromWorld(id);
+            }
+        }
+
+        /// <summary>A copy, which goes on by itself.</summary>
+        public CaromWorld Copy()
+        {
+            WorldId copy;
+            Native.Check(Native.carom_world_copy(Id, out copy));
+            return new CaromWorld(copy);
+        }
+
+        public void Dispose() { handle.Dispose(); }
+
+        WorldId Id { get { return new WorldId { Id = handle.Id }; } }
+
+        delegate CaromStatus Maker(out WorldId id);
+
+        static WorldId Made(Maker make)
+        {
+            WorldId id;
+            Native.Check(make(out id));
+            return id;
+        }
+
+        /// <summary>Advances the world by dt seconds.</summary>
+        public void Step(double dt) { Native.Check(Native.carom_world_step(Id, dt)); }
+
+        /// <summary>Advances the world by frames of its own frame time.</summary>
+        public void Advance(ulong frames)
+        {
+            ulong taken;
+            Native.Check(Native.carom_world_advance(Id, frames, out taken));
+        }
+
+        /// <summary>Advances the world to its next impact, by so many seconds at most.</summary>
+        public void StepToNextEvent(double within) { Native.Check(Native.carom_world_step_to_next_event(Id, within)); }
+
+        /// <summary>Stops the step at work in another thread, and refuses further ones; or lets them go on.</summary>
+        public bool Stop { set { Native.Check(Native.carom_world_set_stop(Id, value ? 1 : 0)); } }
+
+        /// <summary>Time since the beginning [s].</summary>
+        public double Time { get { double it; Native.Check(Native.carom_world_time(Id, out it)); return it; } }
+
+        /// <summary>Length of a frame [s].</summary>
+        public double FrameTime { get { double it; Native.Check(Native.carom_world_frame_time(Id, out it)); return it; } }
+
+        /// <summary>The state as one number, equal for equal states everywhere.</summary>
+        public ulong StateHash { get { ulong it; Native.Check(Native.carom_world_state_hash(Id, out it)); return it; } }
+
+        /// <summary>The number of spheres.</summary>
+        public int Count { get { UIntPtr it; Native.Check(Native.carom_world_count(Id, out it)); return (int)it; } }
+
+        /// <summary>Energies and momenta.</summary>
+        public CaromTotals Totals
+        {
+            get { CaromTotals it; Native.Check(Native.carom_world_totals(Id, out it)); return it; }
+        }
+
+        /// <summary>Adds a sphere. Returns its id.</summary>
+        public ulong AddSphere(CaromSphere sphere)
+        {
+            ulong id;
+            Native.Check(Native.carom_world_add_sphere(Id, ref sphere, out id));
+            return id;
+        }
+
+        /// <summary>Adds spheres, all or none. Returns their ids.</summary>
+        public ulong[] AddSpheres(CaromSphere[] spheres)
+        {
+            var ids = new ulong[spheres.Length];
+            var count = (UIntPtr)spheres.Length;
+            Native.Check(Native.carom_world_add_spheres(Id, spheres, UIntPtr.Zero, count, ids));
+            return ids;
+        }
+
+        /// <summary>One sphere.</summary>
+        public CaromSphere Sphere(ulong id)
+        {
+            CaromSphere sphere;
+            Native.Check(Native.carom_world_sphere(Id, id, out sphere));
+            return sphere;
+        }
+
+        /// <summary>Changes a sphere.</summary>
+        public void SetSphere(ulong id, CaromSphere sphere) { Native.Check(Native.carom_world_set_sphere(Id, id, ref sphere)); }
+
+        /// <summary>Takes spheres out of the world.</summary>
+        public void RemoveSpheres(params ulong[] ids)
+        {
+            Native.Check(Native.carom_world_remove_spheres(Id, ids, (UIntPtr)ids.Length));
+        }
+
+        /// <summary>Adds a collider. Returns its id.</summary>
+        public ulong AddCollider(CaromCollider collider)
+        {
+            ulong id;
+            Native.Check(Native.carom_world_add_collider(Id, ref collider, out id));
+            return id;
+        }
+
+        /// <summary>One collider, where it is now.</summary>
+        public CaromCollider Collider(ulong id)
+        {
+            CaromCollider collider;
+            Native.Check(Native.carom_world_collider(Id, id, out collider));
+            return collider;
+        }
+
+        /// <summary>Changes a collider: its place, and all else.</summary>
+        public void SetCollider(ulong id, CaromCollider collider)
+        {
+            Native.Check(Native.carom_world_set_collider(Id, id, ref collider));
+        }
+
+        /// <summary>Takes a collider out of the world.</summary>
+        public void RemoveCollider(ulong id) { Native.Check(Native.carom_world_remove_collider(Id, id)); }
+
+        /// <summary>Adds gravity [m/s^2]. Returns its id.</summary>
+        public ulong AddGravity(Double3 acceleration)
+        {
+            ulong id;
+            Native.Check(Native.carom_world_add_gravity(Id, ref acceleration, out id));
+            return id;
+        }
+
+        /// <summary>Adds viscous drag [kg/s]. Returns its id.</summary>
+        public ulong AddDrag(double coefficient)
+        {
+            ulong id;
+            Native.Check(Native.carom_world_add_drag(Id, coefficient, out id));
+            return id;
+        }
+
+        /// <summary>Adds a force [N] that is a function of a sphere's state and of time, with its potential energy [J] or
+        /// null. Returns its id. What the functions throw is thrown by the step that calls them.</summary>
+        public ulong AddForce(
+            Func<CaromSphereState, double, Double3> force, Func<CaromSphereState, double, double> potentialEnergy = null)
+        {
+            return Native.AddForce(Id, force, potentialEnergy);
+        }
+
+        /// <summary>Takes a force out of the world.</summary>
+        public void RemoveForce(ulong id) { Native.Check(Native.carom_world_remove_force(Id, id)); }
+
+        /// <summary>Adds the spheres, generators, colliders, forces and emitters of a text (TOML).</summary>
+        public CaromAdded AddToml(string toml)
+        {
+            CaromAdded added;
+            Native.Check(Native.carom_world_add_toml(Id, Native.Text(toml), out added));
+            return added;
+        }
+
+        /// <summary>Steps the world as the table [simulation] of a text says (TOML).</summary>
+        public void SetSimulation(string toml)
+        {
+            Native.Check(Native.carom_world_set_simulation(Id, Native.Text(toml)));
+        }
+
+        /// <summary>Reads a quantity of all spheres, one after another.</summary>
+        public void Read(CaromQuantity quantity, double[] values)
+        {
+            var rows = Native.Rows(quantity, values.Length);
+            Native.Check(Native.carom_world_read(Id, quantity, values, UIntPtr.Zero, rows));
+        }
+
+        /// <summary>Reads a quantity of three numbers of all spheres.</summary>
+        public void Read(CaromQuantity quantity, Double3[] values)
+        {
+            Native.RequireWidth(quantity, 3);
+            Native.Check(Native.carom_world_read(Id, quantity, values, UIntPtr.Zero, (UIntPtr)values.Length));
+        }
+
+        /// <summary>Writes a quantity of all spheres, one after another.</summary>
+        public void Write(CaromQuantity quantity, double[] values)
+        {
+            var rows = Native.Rows(quantity, values.Length);
+            Native.Check(Native.carom_world_write(Id, quantity, values, UIntPtr.Zero, rows));
+        }
+
+        /// <summary>Writes a quantity of three numbers of all spheres.</summary>
+        public void Write(CaromQuantity quantity, Double3[] values)
+        {
+            Native.RequireWidth(quantity, 3);
+            Native.Check(Native.carom_world_write(Id, quantity, values, UIntPtr.Zero, (UIntPtr)values.Length));
+        }
+
+        /// <summary>A list of ids.</summary>
+        public ulong[] Ids(CaromList list)
+        {
+            UIntPtr count;
+            Native.Check(Native.carom_world_ids(Id, list, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            var ids = new ulong[(int)count];
+            Native.Check(Native.carom_world_ids(Id, list, ids, UIntPtr.Zero, count, out count));
+            return ids;
+        }
+
+        /// <summary>The impacts of the last step, in order of time.</summary>
+        public CaromImpact[] Impacts()
+        {
+            UIntPtr count;
+            Native.Check(Native.carom_world_impacts(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            var impacts = new CaromImpact[(int)count];
+            Native.Check(Native.carom_world_impacts(Id, impacts, UIntPtr.Zero, count, out count));
+            return impacts;
+        }
+
+        /// <summary>The contacts that persist, with their forces.</summary>
+        public CaromContact[] Contacts()
+        {
+            UIntPtr count;
+            Native.Check(Native.carom_world_contacts(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            var contacts = new CaromContact[(int)count];
+            Native.Check(Native.carom_world_contacts(Id, contacts, UIntPtr.Zero, count, out count));
+            return contacts;
+        }
+
+        /// <summary>Everything the future depends on, to return to.</summary>
+        public CaromSnapshot Snapshot()
+        {
+            SnapshotId id;
+            Native.Check(Native.carom_world_snapshot(Id, out id));
+            return new CaromSnapshot(id);
+        }
+
+        /// <summary>Returns to a snapshot, bit for bit.</summary>
+        public void Restore(CaromSnapshot snapshot) { Native.Check(Native.carom_world_restore(Id, snapshot.Id)); }
+    }
+
+    /// <summary>The state of a world at one moment.</summary>
+    public sealed class CaromSnapshot : IDisposable
+    {
+        readonly Native.Handle handle;
+
+        internal CaromSnapshot(SnapshotId id) { handle = new Native.Handle(0, id.Id); }
+
+        internal SnapshotId Id { get { return new SnapshotId { Id = handle.SnapshotId }; } }
+
+        /// <summary>The snapshot that <see cref="ToBytes"/> has written. Read only bytes that you trust.</summary>
+        public static CaromSnapshot FromBytes(byte[] bytes)
+        {
+            SnapshotId id;
+            Native.Check(Native.carom_snapshot_from_bytes(bytes, (UIntPtr)bytes.Length, out id));
+            return new CaromSnapshot(id);
+        }
+
+        /// <summary>The snapshot as bytes. A force that is a function has none.</summary>
+        public byte[] ToBytes()
+        {
+            UIntPtr size;
+            Native.Check(Native.carom_snapshot_to_bytes(Id, null, UIntPtr.Zero, out size));
+            var bytes = new byte[(int)size];
+            Native.Check(Native.carom_snapshot_to_bytes(Id, bytes, size, out size));
+            return bytes;
+        }
+
+        public void Dispose() { handle.Dispose(); }
+    }
+
+#if UNITY_5_3_OR_NEWER
+    /// <summary>In the coordinates of Unity: z is mirrored.</summary>
+    public sealed partial class CaromWorld
+    {
+        /// <summary>A place or a velocity of Unity in Carom's coordinates.</summary>
+        public static Double3 FromUnity(UnityEngine.Vector3 it) { return new Double3(it.x, it.y, -it.z); }
+
+        /// <summary>A place or a velocity of Carom in Unity's coordinates.</summary>
+        public static UnityEngine.Vector3 ToUnity(Double3 it)
+        {
+            return new UnityEngine.Vector3((float)it.X, (float)it.Y, (float)-it.Z);
+        }
+
+        /// <summary>A rotation of Unity in Carom's coordinates.</summary>
+        public static Double4 FromUnity(UnityEngine.Quaternion it) { return new Double4(-it.x, -it.y, it.z, it.w); }
+
+        /// <summary>A rotation of Carom in Unity's coordinates.</summary>
+        public static UnityEngine.Quaternion ToUnity(Double4 it)
+        {
+            return new UnityEngine.Quaternion((float)-it.X, (float)-it.Y, (float)it.Z, (float)it.W);
+        }
+
+        /// <summary>An angular velocity of Unity in Carom's coordinates: the sense of rotation is mirrored, too.</summary>
+        public static Double3 AngularFromUnity(UnityEngine.Vector3 it) { return new Double3(-it.x, -it.y, it.z); }
+
+        /// <summary>An angular velocity of Carom in Unity's coordinates.</summary>
+        public static UnityEngine.Vector3 AngularToUnity(Double3 it)
+        {
+            return new UnityEngine.Vector3((float)-it.X, (float)-it.Y, (float)it.Z);
+        }
+
+        /// <summary>Adds gravity, as Physics.gravity has it.</summary>
+        public ulong AddGravity(UnityEngine.Vector3 acceleration) { return AddGravity(FromUnity(acceleration)); }
+
+        /// <summary>Adds the floor: everything below y = height.</summary>
+        public ulong AddFloor(float height, float restitution)
+        {
+            var floor = CaromCollider.Default;
+            floor.Position.Y = height;
+            floor.Restitution = restitution;
+            return AddCollider(floor);
+        }
+
+        /// <summary>Adds a box, like a BoxCollider of this size.</summary>
+        public ulong AddBox(
+            UnityEngine.Vector3 center, UnityEngine.Vector3 size, UnityEngine.Quaternion rotation, float restitution)
+        {
+            var box = CaromCollider.Default;
+            box.Shape = CaromShape.Box;
+            box.Size = new Double3(size.x, size.y, size.z);
+            box.Position = FromUnity(center);
+            box.Rotation = FromUnity(rotation);
+            box.Restitution = restitution;
+            return AddCollider(box);
+        }
+
+        /// <summary>Adds a ball of 1 kg at rest. Returns its id.</summary>
+        public ulong AddBall(UnityEngine.Vector3 position, float radius)
+        {
+            return AddBall(position, radius, new UnityEngine.Vector3(0.0f, 0.0f, 0.0f));
+        }
+
+        /// <summary>Adds a ball of 1 kg. Returns its id.</summary>
+        public ulong AddBall(UnityEngine.Vector3 position, float radius, UnityEngine.Vector3 velocity)
+        {
+            var ball = CaromSphere.Default;
+            ball.Position = FromUnity(position);
+            ball.Velocity = FromUnity(velocity);
+            ball.Radius = radius;
+            return AddSphere(ball);
+        }
+
+        /// <summary>Reads where all balls are.</summary>
+        public void ReadPositions(UnityEngine.Vector3[] positions) { Read(CaromQuantity.Positions, positions); }
+
+        /// <summary>Reads the velocities of all balls.</summary>
+        public void ReadVelocities(UnityEngine.Vector3[] velocities) { Read(CaromQuantity.Velocities, velocities); }
+
+        void Read(CaromQuantity quantity, UnityEngine.Vector3[] values)
+        {
+            var count = (UIntPtr)values.Length;
+            Native.Check(Native.carom_world_read_f32(Id, quantity, values, UIntPtr.Zero, count));
+            for (int i = 0; i < values.Length; i++) values[i].z = -values[i].z;
+        }
+
+        /// <summary>Reads how all balls are turned.</summary>
+        public void ReadRotations(UnityEngine.Quaternion[] rotations)
+        {
+            var count = (UIntPtr)rotations.Length;
+            Native.Check(
+                Native.carom_world_read_f32(Id, CaromQuantity.Orientations, rotations, UIntPtr.Zero, count));
+            for (int i = 0; i < rotations.Length; i++)
+            {
+                rotations[i].x = -rotations[i].x;
+                rotations[i].y = -rotations[i].y;
+            }
+        }
+    }
+#endif
+
+    [StructLayout(LayoutKind.Sequential)]
+    struct WorldId
+    {
+        public ulong Id;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    struct SnapshotId
+    {
+        public ulong Id;
+    }
+
+    /// <summary>What marks a function that the library calls, for Unity's compiler to C++.</summary>
+    [AttributeUsage(AttributeTargets.Method)]
+    sealed class MonoPInvokeCallbackAttribute : Attribute
+    {
+        public MonoPInvokeCallbackAttribute(Type type) { }
+    }
+
+    /// <summary>The functions of carom.h.</summary>
+    static class Native
+    {
+        const string Library = "carom_c";
+        const uint AbiVersion = 1;
+
+        static Native() { Check(carom_check_abi(AbiVersion)); }
+
+        /// <summary>Frees a world or a snapshot once.</summary>
+        internal sealed class Handle : SafeHandle
+        {
+            internal readonly ulong Id, SnapshotId;
+
+            internal Handle(ulong world, ulong snapshot) : base(IntPtr.Zero, true)
+            {
+                Id = world;
+                SnapshotId = snapshot;
+                SetHandle(new IntPtr(1));
+            }
+
+            public override bool IsInvalid { get { return Id == 0 && SnapshotId == 0; } }
+
+            protected override bool ReleaseHandle()
+            {
+                if (Id != 0) return carom_world_free(new WorldId { Id = Id }) == CaromStatus.Ok;
+                return carom_snapshot_free(new SnapshotId { Id = SnapshotId }) == CaromStatus.Ok;
+            }
+        }
+
+        /// <summary>Throws unless a call succeeded.</summary>
+        internal static void Check(CaromStatus status)
+        {
+            var cause = thrown;
+            thrown = null;
+            if (status == CaromStatus.Ok && cause == null) return;
+            string message = status == CaromStatus.Ok ? "a function of a force has thrown" : Told(carom_last_error());
+            throw new CaromException(status, cause == null ? message : cause.Message, cause);
+        }
+
+        static string Told(IntPtr text)
+        {
+            int length = 0;
+            while (Marshal.ReadByte(text, length) != 0) length++;
+            var bytes = new byte[length];
+            Marshal.Copy(text, bytes, 0, length);
+            return Encoding.UTF8.GetString(bytes);
+        }
+
+        /// <summary>A text as the library reads it.</summary>
+        internal static byte[] Text(string text) { return Encoding.UTF8.GetBytes(text + "\0"); }
+
+        /// <summary>Texts as the library reads them.</summary>
+        internal sealed class Texts : IDisposable
+        {
+            internal readonly IntPtr[] Pointers;
+
+            internal Texts(string[] texts)
+            {
+                Pointers = new IntPtr[texts.Length];
+                for (int i = 0; i < texts.Length; i++)
+                {
+                    var bytes = Text(texts[i]);
+                    Pointers[i] = Marshal.AllocHGlobal(bytes.Length);
+                    Marshal.Copy(bytes, 0, Pointers[i], bytes.Length);
+                }
+            }
+
+            internal UIntPtr Count { get { return (UIntPtr)Pointers.Length; } }
+
+            public void Dispose() { foreach (var pointer in Pointers) Marshal.FreeHGlobal(pointer); }
+        }
+
+        /// <summary>How many numbers of a quantity a sphere has.</summary>
+        static int Width(CaromQuantity quantity)
+        {
+            switch (quantity)
+            {
+                case CaromQuantity.Positions:
+                case CaromQuantity.Velocities:
+                case CaromQuantity.AngularVelocities:
+                case CaromQuantity.AppliedForces:
+                    return 3;
+                case CaromQuantity.Orientations:
+                    return 4;
+                default:
+                    return 1;
+            }
+        }
+
+        /// <summary>How many rows so many numbers are.</summary>
+        internal static UIntPtr Rows(CaromQuantity quantity, int numbers)
+        {
+            int width = Width(quantity);
+            if (numbers % width != 0) throw new ArgumentException("there are " + width + " numbers for each sphere");
+            return (UIntPtr)(numbers / width);
+        }
+
+        internal static void RequireWidth(CaromQuantity quantity, int width)
+        {
+            if (Width(quantity) != width) throw new ArgumentException(quantity + " has not " + width + " numbers");
+        }
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        delegate void ForceFunction(ref CaromSphereState sphere, double time, out Double3 force, IntPtr data);
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        delegate double PotentialFunction(ref CaromSphereState sphere, double time, IntPtr data);
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        delegate void DestroyFunction(IntPtr data);
+
+        [StructLayout(LayoutKind.Sequential)]
+        struct ForceStructure
+        {
+            public ForceFunction Force;
+            public PotentialFunction PotentialEnergy;
+            public IntPtr Data;
+            public DestroyFunction Destroy;
+        }
+
+        /// <summary>The functions of a force.</summary>
+        sealed class Functions
+        {
+            internal Func<CaromSphereState, double, Double3> Force;
+            internal Func<CaromSphereState, double, double> PotentialEnergy;
+        }
+
+        // Kept here for as long as the library may call them.
+        static readonly ForceFunction forceFunction = OnForce;
+        static readonly PotentialFunction potentialFunction = OnPotentialEnergy;
+        static readonly DestroyFunction destroyFunction = OnDestroy;
+
+        /// <summary>What a function of a force has thrown: an exception must not leave it.</summary>
+        [ThreadStatic] static Exception thrown;
+
+        static Functions FunctionsOf(IntPtr data) { return (Functions)GCHandle.FromIntPtr(data).Target; }
+
+        [MonoPInvokeCallback(typeof(ForceFunction))]
+        static void OnForce(ref CaromSphereState sphere, double time, out Double3 force, IntPtr data)
+        {
+            try
+            {
+                force = FunctionsOf(data).Force(sphere, time);
+            }
+            catch (Exception exception)
+            {
+                // What is not finite has the step refused.
+                force = new Double3(double.NaN, double.NaN, double.NaN);
+                thrown = exception;
+            }
+        }
+
+        [MonoPInvokeCallback(typeof(PotentialFunction))]
+        static double OnPotentialEnergy(ref CaromSphereState sphere, double time, IntPtr data)
+        {
+            try
+            {
+                return FunctionsOf(data).PotentialEnergy(sphere, time);
+            }
+            catch (Exception exception)
+            {
+                thrown = exception;
+                return double.NaN;
+            }
+        }
+
+        [MonoPInvokeCallback(typeof(DestroyFunction))]
+        static void OnDestroy(IntPtr data) { GCHandle.FromIntPtr(data).Free(); }
+
+        internal static ulong AddForce(
+            WorldId world,
+            Func<CaromSphereState, double, Double3> force,
+            Func<CaromSphereState, double, double> potentialEnergy)
+        {
+            if (force == null) throw new ArgumentNullException("force");
+            var held = GCHandle.Alloc(new Functions { Force = force, PotentialEnergy = potentialEnergy });
+            var structure = new ForceStructure
+            {
+                Force = forceFunction,
+                PotentialEnergy = potentialEnergy == null ? null : potentialFunction,
+                Data = GCHandle.ToIntPtr(held),
+                Destroy = destroyFunction,
+            };
+            ulong id;
+            var status = carom_world_add_force(world, ref structure, out id);
+            // Only a force that was added is destroyed.
+            if (status != CaromStatus.Ok) held.Free();
+            Check(status);
+            return id;
+        }
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_check_abi(uint version);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern IntPtr carom_last_error();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_new(out WorldId world);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_copy(WorldId world, out WorldId copy);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_free(WorldId world);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_stop(WorldId world, int stop);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_from_scene(
+            byte[] name, IntPtr[] overrides, UIntPtr count, out WorldId world);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_from_toml(
+            byte[] toml, IntPtr[] overrides, UIntPtr count, out WorldId world);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_add_toml(WorldId world, byte[] toml, out CaromAdded added);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_simulation(WorldId world, byte[] toml);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_step(WorldId world, double dt);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_advance(WorldId world, ulong frames, out ulong taken);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_step_to_next_event(WorldId world, double within);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_time(WorldId world, out double time);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_frame_time(WorldId world, out double frameTime);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_state_hash(WorldId world, out ulong hash);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromSphere carom_sphere();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_add_sphere(WorldId world, ref CaromSphere sphere, out ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_add_spheres(
+            WorldId world, [In] CaromSphere[] spheres, UIntPtr stride, UIntPtr count, [Out] ulong[] ids);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_sphere(WorldId world, ulong id, out CaromSphere sphere);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_sphere(WorldId world, ulong id, ref CaromSphere sphere);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_remove_spheres(WorldId world, [In] ulong[] ids, UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_count(WorldId world, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_read(
+            WorldId world, CaromQuantity quantity, [Out] double[] values, UIntPtr stride, UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_read(
+            WorldId world, CaromQuantity quantity, [Out] Double3[] values, UIntPtr stride, UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_write(
+            WorldId world, CaromQuantity quantity, [In] double[] values, UIntPtr stride, UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_write(
+            WorldId world, CaromQuantity quantity, [In] Double3[] values, UIntPtr stride, UIntPtr count);
+#if UNITY_5_3_OR_NEWER
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_read_f32(
+            WorldId world, CaromQuantity quantity, [Out] UnityEngine.Vector3[] values, UIntPtr stride, UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_read_f32(
+            WorldId world, CaromQuantity quantity, [Out] UnityEngine.Quaternion[] values, UIntPtr stride, UIntPtr count);
+#endif
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromCollider carom_collider();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_add_collider(
+            WorldId world, ref CaromCollider collider, out ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_collider(WorldId world, ulong id, out CaromCollider collider);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_collider(
+            WorldId world, ulong id, ref CaromCollider collider);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_remove_collider(WorldId world, ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        static extern CaromStatus carom_world_add_force(WorldId world, ref ForceStructure force, out ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_add_gravity(
+            WorldId world, ref Double3 acceleration, out ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_add_drag(WorldId world, double coefficient, out ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_remove_force(WorldId world, ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_ids(
+            WorldId world, CaromList list, [Out] ulong[] ids, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_impacts(
+            WorldId world, [Out] CaromImpact[] impacts, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_contacts(
+            WorldId world, [Out] CaromContact[] contacts, UIntPtr stride, UIntPtr capacity, out UIntPtr count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_totals(WorldId world, out CaromTotals totals);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_snapshot(WorldId world, out SnapshotId snapshot);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_restore(WorldId world, SnapshotId snapshot);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_snapshot_free(SnapshotId snapshot);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_snapshot_to_bytes(
+            SnapshotId snapshot, [Out] byte[] bytes, UIntPtr capacity, out UIntPtr size);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_snapshot_from_bytes(
+            [In] byte[] bytes, UIntPtr size, out SnapshotId snapshot);
+    }
+}

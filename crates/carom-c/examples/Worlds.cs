@@ -1,0 +1,172 @@
+// Worlds in C#: what a program does with them, checked as it goes.
+//
+//     mcs Worlds.cs csharp/CaromWorld.cs && LD_LIBRARY_PATH=target/release mono Worlds.exe
+//
+// With arguments, SCENE=HASH: runs these scenes for ten seconds and compares their state hashes.
+
+using System;
+using Carom;
+#if UNITY_5_3_OR_NEWER
+using UnityEngine;
+#endif
+
+static class Worlds
+{
+    static void Expect(bool holds, string what)
+    {
+        if (!holds) throw new Exception("it does not hold that " + what);
+    }
+
+    static CaromException Refused(Action action)
+    {
+        try
+        {
+            action();
+        }
+        catch (CaromException exception)
+        {
+            return exception;
+        }
+        throw new Exception("a call was to be refused");
+    }
+
+    static void Bounce()
+    {
+        using (var world = new CaromWorld())
+        {
+            world.AddGravity(new Double3(0.0, -10.0, 0.0));
+            var floor = world.AddCollider(CaromCollider.Default);
+            var ball = CaromSphere.Default;
+            ball.Position.Y = 6.0;
+            var id = world.AddSphere(ball);
+            world.Step(1.5);
+            var impacts = world.Impacts();
+            Expect(impacts.Length == 1 && impacts[0].Time == 1.0, "it falls 5 m in 1 s");
+            Expect(impacts[0].Bodies.Body1 == floor && impacts[0].Bodies.Body2 == id, "it meets the floor");
+            Expect(impacts[0].ApproachSpeed == 10.0, "it comes with 10 m/s");
+            var totals = world.Totals;
+            Expect(Math.Abs(totals.KineticEnergy + totals.PotentialEnergy - 60.0) < 1e-12, "energy is kept");
+            Console.WriteLine("it bounces after {0} s", impacts[0].Time);
+
+            var velocities = new Double3[1];
+            velocities[0] = new Double3(1.0, 0.0, 0.0);
+            world.Write(CaromQuantity.Velocities, velocities);
+            var numbers = new double[3];
+            world.Read(CaromQuantity.Velocities, numbers);
+            Expect(numbers[0] == 1.0 && numbers[1] == 0.0, "what is written is read");
+
+            using (var snapshot = world.Snapshot())
+            {
+                var bytes = snapshot.ToBytes();
+                var before = world.StateHash;
+                world.Step(1.0);
+                Expect(world.StateHash != before, "a step changes the hash");
+                world.Restore(snapshot);
+                Expect(world.StateHash == before, "a snapshot is returned to");
+                using (var other = new CaromWorld())
+                using (var read = CaromSnapshot.FromBytes(bytes))
+                {
+                    other.Restore(read);
+                    Expect(other.StateHash == before, "bytes hold a world");
+                }
+            }
+            Expect(Refused(() => world.Step(double.NaN)).Status == CaromStatus.Invalid, "NaN is refused");
+            Expect(Refused(() => world.Sphere(7)).Status == CaromStatus.Unknown, "ids are checked");
+            Expect(Refused(() => world.Read(CaromQuantity.Positions, new Double3[2])).Status == CaromStatus.Length,
+                "lengths are checked");
+            var message = Refused(() => CaromWorld.FromToml("name = \"a\"\nspheres = [{ radus = 1 }]")).Message;
+            Expect(message.Contains("scene:2: spheres[0].radus"), "errors name the line: " + message);
+            world.RemoveSpheres(id);
+            Expect(world.Count == 0 && world.Ids(CaromList.Colliders).Length == 1, "spheres are taken out");
+            world.Dispose();
+            Expect(Refused(() => world.Step(1.0)).Status == CaromStatus.Handle, "what was disposed of is refused");
+        }
+    }
+
+    static void Functions()
+    {
+        using (var world = new CaromWorld())
+        {
+            var ball = CaromSphere.Default;
+            ball.Position.X = 1.0;
+            var id = world.AddSphere(ball);
+            var spring = world.AddForce(
+                (sphere, time) => new Double3(-sphere.Position.X, -sphere.Position.Y, -sphere.Position.Z),
+                (sphere, time) => 0.5 * sphere.Position.X * sphere.Position.X);
+            GC.Collect();
+            for (int i = 0; i < 100; i++) world.Step(Math.PI / 100.0);
+            Expect(Math.Abs(world.Sphere(id).Position.X + 1.0) < 1e-3, "a spring takes it to the other side");
+            Expect(Math.Abs(world.Totals.KineticEnergy + world.Totals.PotentialEnergy - 0.5) < 1e-3, "energy is kept");
+            Console.WriteLine("after half a period: {0}", world.Sphere(id).Position.X.ToString("F4"));
+            world.RemoveForce(spring);
+            world.AddForce((sphere, time) => { throw new InvalidOperationException("not in this world"); });
+            var refused = Refused(() => world.Step(0.1));
+            Expect(refused.InnerException is InvalidOperationException, "what a function throws is thrown");
+        }
+    }
+
+    static void Scenes(string[] hashes)
+    {
+        foreach (var pair in hashes)
+        {
+            var parts = pair.Split('=');
+            using (var world = CaromWorld.FromScene(parts[0]))
+            {
+                world.Advance((ulong)Math.Round(10.0 / world.FrameTime));
+                var hash = world.StateHash.ToString("x16");
+                Expect(hash == parts[1], parts[0] + " has the hash " + parts[1] + ", not " + hash);
+            }
+        }
+        Console.WriteLine("{0} scenes have their hashes", hashes.Length);
+    }
+
+#if UNITY_5_3_OR_NEWER
+    static void Unity()
+    {
+        using (var world = new CaromWorld())
+        {
+            world.AddGravity(new Vector3(0.0f, -9.81f, 0.0f));
+            world.AddFloor(0.0f, 1.0f);
+            world.AddBox(new Vector3(5.0f, 1.0f, 5.0f), new Vector3(1.0f, 2.0f, 1.0f), new Quaternion(0, 0, 0, 1), 1.0f);
+            var ball = world.AddBall(new Vector3(0.0f, 0.5f, 3.0f), 0.5f, new Vector3(0.0f, 0.0f, 2.0f));
+            // A quarter turn about y takes forward to the right in Unity, to the left in a right-handed system.
+            var turned = world.Sphere(ball);
+            turned.Orientation = CaromWorld.FromUnity(new Quaternion(0.0f, 0.6f, 0.0f, 0.8f));
+            turned.AngularVelocity = CaromWorld.AngularFromUnity(new Vector3(0.0f, 1.0f, 0.0f));
+            Expect(turned.Position.Z == -3.0 && turned.Orientation.Y < 0.0 && turned.AngularVelocity.Y == -1.0,
+                "z is mirrored");
+            world.SetSphere(ball, turned);
+            world.Step(0.5);
+            var positions = new Vector3[1];
+            var velocities = new Vector3[1];
+            var rotations = new Quaternion[1];
+            world.ReadPositions(positions);
+            world.ReadVelocities(velocities);
+            world.ReadRotations(rotations);
+            Expect(positions[0].z == 4.0f && velocities[0].z == 2.0f, "it goes on forward");
+            var angle = 2.0 * Math.Atan2(rotations[0].y, rotations[0].w);
+            Expect(Math.Abs(angle - (2.0 * Math.Atan2(0.6, 0.8) + 0.5)) < 1e-6, "it turns on in its sense");
+            Console.WriteLine("Unity: it is at z = {0} m", positions[0].z);
+        }
+    }
+#endif
+
+    static int Main(string[] arguments)
+    {
+        try
+        {
+            Bounce();
+            Functions();
+            Scenes(arguments);
+#if UNITY_5_3_OR_NEWER
+            Unity();
+#endif
+            return 0;
+        }
+        catch (Exception exception)
+        {
+            Console.Error.WriteLine(exception);
+            return 1;
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Ids: which spheres, colliders, forces and emitters there are.
+
+use carom::{EmitterId, SphereId};
+
+use crate::pointer::{Room, Strided};
+use crate::status::{CaromStatus, Failure, call};
+use crate::world::{CaromWorld, Inner};
+
+/// A list of ids.
+#[repr(i32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CaromList {
+    /// Spheres, ascending: the order of all arrays.
+    Spheres = 0,
+    /// Colliders, in their order.
+    Colliders = 1,
+    /// Forces, in the order in which they add up.
+    Forces = 2,
+    /// Emitters, in the order in which they emit.
+    Emitters = 3,
+    /// Spheres that emitters put into the world in the last step, ascending.
+    Emitted = 4,
+    /// Spheres that emitters took out of the world in the last step.
+    Retired = 5,
+    /// Ids of spheres that emitters left out in the last step, for there was no room: no sphere ever has them.
+    LeftOut = 6,
+}
+
+/// Reads a list of ids (CaromList), `stride` bytes from one to the next (0: no gaps), and their number to `count`. Null for
+/// `ids` reads the number only. Ids that do not fit into `capacity` places are an error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_ids(
+    world: CaromWorld,
+    list: i32,
+    ids: *mut u64,
+    stride: usize,
+    capacity: usize,
+    count: *mut usize,
+) -> CaromStatus {
+    call(|| {
+        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        let room = unsafe { Room::new(ids, Strided { stride, count: capacity }, count, "ids") }?;
+        world.with(|inner| room.fill(of_list(inner, list)?.into_iter()))
+    })
+}
+
+fn of_list(inner: &Inner, list: i32) -> Result<Vec<u64>, Failure> {
+    let (world, report) = (&inner.world, inner.world.report());
+    let of_spheres = |ids: &[SphereId]| ids.iter().map(|id| id.number()).collect();
+    let lists = [
+        CaromList::Spheres,
+        CaromList::Colliders,
+        CaromList::Forces,
+        CaromList::Emitters,
+        CaromList::Emitted,
+        CaromList::Retired,
+        CaromList::LeftOut,
+    ];
+    let found = lists.into_iter().find(|it| *it as i32 == list);
+    Ok(match found {
+        Some(CaromList::Spheres) => of_spheres(world.spheres().ids()),
+        Some(CaromList::Colliders) => world.colliders().map(|(id, _)| id.number()).collect(),
+        Some(CaromList::Forces) => world.forces().map(|(id, _)| id.number()).collect(),
+        Some(CaromList::Emitters) => world.emitters().map(|(id, _)| id.number()).collect(),
+        Some(CaromList::Emitted) => of_spheres(&report.emitted),
+        Some(CaromList::Retired) => of_spheres(&report.retired),
+        Some(CaromList::LeftOut) => of_spheres(&report.left_out),
+        None => {
+            let problem = format!("there is no list {list}");
+            return Err(Failure::new(CaromStatus::Argument, problem));
+        }
+    })
+}
+
+/// Takes an emitter out of a world; its spheres stay.
+#[unsafe(no_mangle)]
+pub extern "C" fn carom_world_remove_emitter(world: CaromWorld, id: u64) -> CaromStatus {
+    call(|| {
+        world.with(|inner| {
+            let place = inner.world.emitters().position(|(own, _)| own.number() == id);
+            let place = place.ok_or_else(|| Failure::unknown("emitter", id))?;
+            inner.world.remove_emitter(EmitterId::from_number(id))?;
+            let time = inner.world.time();
+            inner.described.palette_mut().remove_emitter(place, time);
+            inner.described.scene_mut().emitters.remove(place);
+            Ok(())
+        })
+    })
+}

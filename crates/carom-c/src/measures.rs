@@ -1,0 +1,61 @@
+//! What is measured of a world: energies, momenta, overlaps.
+
+use crate::pointer::{Out, Room, Strided};
+use crate::report::{CaromOverlap, overlap};
+use crate::status::{CaromStatus, Failure, call};
+use crate::world::CaromWorld;
+
+/// Sums over all spheres.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CaromTotals {
+    /// Kinetic energy [J], that of rotation included.
+    pub kinetic_energy: f64,
+    /// Kinetic energy of rotation [J].
+    pub rotational_energy: f64,
+    /// Potential energy [J] in all forces that have one.
+    pub potential_energy: f64,
+    /// Momentum [kg m/s].
+    pub momentum: [f64; 3],
+    /// Angular momentum about the origin [kg m^2/s], that of spin included.
+    pub angular_momentum: [f64; 3],
+}
+
+/// Energies and momenta of all spheres together.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_totals(
+    world: CaromWorld,
+    totals: *mut CaromTotals,
+) -> CaromStatus {
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    world.measure(unsafe { Out::new(totals, "totals") }, |inner| CaromTotals {
+        kinetic_energy: inner.world.kinetic_energy(),
+        rotational_energy: inner.world.rotational_energy(),
+        potential_energy: inner.world.potential_energy(),
+        momentum: inner.world.momentum().to_array(),
+        angular_momentum: inner.world.angular_momentum().to_array(),
+    })
+}
+
+/// Reads which spheres overlap each other (where spheres collide) or a solid collider by more than `tolerance` [m], as
+/// carom_world_ids() reads ids.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_overlaps(
+    world: CaromWorld,
+    tolerance: f64,
+    overlaps: *mut CaromOverlap,
+    stride: usize,
+    capacity: usize,
+    count: *mut usize,
+) -> CaromStatus {
+    call(|| {
+        let array = Strided { stride, count: capacity };
+        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        let room = unsafe { Room::new(overlaps, array, count, "overlaps") }?;
+        if tolerance.is_nan() || tolerance < 0.0 {
+            let problem = format!("`tolerance` must be zero or positive, not {tolerance}");
+            return Err(Failure::new(CaromStatus::Invalid, problem));
+        }
+        world.with(|inner| room.fill(inner.world.overlaps(tolerance).iter().map(overlap)))
+    })
+}

@@ -1,0 +1,241 @@
+//! What happened in the last step, and which contacts persist.
+
+use carom::{BodyPair, Impact, Overlap, PersistentContact, TriggerContact};
+
+use crate::pointer::{Out, Room, Strided};
+use crate::status::{CaromStatus, call};
+use crate::world::CaromWorld;
+
+/// Two bodies: two spheres, or a collider and a sphere.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct CaromBodyPair {
+    /// Id of body 1: a collider, or the sphere with the smaller id.
+    pub body_1: u64,
+    /// Id of body 2: a sphere.
+    pub body_2: u64,
+    /// 1 if body 1 is a collider, 0 if it is a sphere.
+    pub body_1_is_collider: u64,
+}
+
+impl From<BodyPair> for CaromBodyPair {
+    fn from(pair: BodyPair) -> Self {
+        match pair {
+            BodyPair::Spheres(first, second) => {
+                Self { body_1: first.number(), body_2: second.number(), body_1_is_collider: 0 }
+            }
+            BodyPair::Collider { collider, sphere } => {
+                Self { body_1: collider.number(), body_2: sphere.number(), body_1_is_collider: 1 }
+            }
+        }
+    }
+}
+
+/// One impact.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CaromImpact {
+    /// Time since the start of the step [s].
+    pub time: f64,
+    /// The two bodies.
+    pub bodies: CaromBodyPair,
+    /// Where on the surface of body 1 [m].
+    pub point: [f64; 3],
+    /// Unit normal from body 1 to body 2.
+    pub normal: [f64; 3],
+    /// Speed of approach along the normal before the impact [m/s], > 0.
+    pub approach_speed: f64,
+    /// Speed of separation along the normal after it, and after all others at the same instant in its group [m/s].
+    pub separation_speed: f64,
+    /// Impulse on body 2 along the normal, and against it on body 1 [N s].
+    pub impulse: f64,
+    /// Impulse of friction on body 2, and against it on body 1, across the normal [N s].
+    pub tangential_impulse: [f64; 3],
+}
+
+fn impact(impact: &Impact) -> CaromImpact {
+    CaromImpact {
+        time: impact.time,
+        bodies: impact.between.into(),
+        point: impact.point.to_array(),
+        normal: impact.normal.to_array(),
+        approach_speed: impact.approach_speed,
+        separation_speed: impact.separation_speed,
+        impulse: impact.impulse,
+        tangential_impulse: impact.tangential_impulse.to_array(),
+    }
+}
+
+/// A contact that persists from step to step.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CaromContact {
+    /// The two bodies.
+    pub bodies: CaromBodyPair,
+    /// Where on the surface of body 1 [m].
+    pub point: [f64; 3],
+    /// Unit normal from body 1 to body 2.
+    pub normal: [f64; 3],
+    /// Distance of the two surfaces [m], negative where they overlap.
+    pub gap: f64,
+    /// Force along the normal on body 2 [N], >= 0; body 1 feels the opposite one.
+    pub normal_force: f64,
+    /// Force of friction on body 2, across the normal [N].
+    pub tangential_force: [f64; 3],
+    /// 1 if the surfaces slide on each other, or would at the least touch; or 0.
+    pub is_sliding: u64,
+}
+
+fn contact(contact: &PersistentContact) -> CaromContact {
+    CaromContact {
+        bodies: contact.between.into(),
+        point: contact.point.to_array(),
+        normal: contact.normal.to_array(),
+        gap: contact.gap,
+        normal_force: contact.normal_force,
+        tangential_force: contact.tangential_force.to_array(),
+        is_sliding: contact.is_sliding.into(),
+    }
+}
+
+/// A sphere inside a trigger at the end of the last step.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CaromTrigger {
+    /// Id of the trigger.
+    pub collider: u64,
+    /// Id of the sphere.
+    pub sphere: u64,
+    /// Unit normal from the trigger's surface to the sphere.
+    pub normal: [f64; 3],
+    /// Where on the trigger's surface [m].
+    pub point: [f64; 3],
+}
+
+fn trigger(trigger: &TriggerContact) -> CaromTrigger {
+    CaromTrigger {
+        collider: trigger.collider.number(),
+        sphere: trigger.sphere.number(),
+        normal: trigger.normal.to_array(),
+        point: trigger.point.to_array(),
+    }
+}
+
+/// Two bodies that overlap.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CaromOverlap {
+    /// The two bodies.
+    pub bodies: CaromBodyPair,
+    /// How far their surfaces overlap [m], > 0.
+    pub depth: f64,
+}
+
+/// An overlap as C reads it.
+pub(crate) fn overlap(overlap: &Overlap) -> CaromOverlap {
+    CaromOverlap { bodies: overlap.between.into(), depth: overlap.depth }
+}
+
+/// The last step in numbers.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CaromReport {
+    /// Impacts.
+    pub impacts: u64,
+    /// Under the rule `exact`: spheres that were in a stepped zone at the end of the step, not moved from impact to
+    /// impact.
+    pub zone_spheres: u64,
+    /// Under the rule `exact`: 1 if spheres were in stepped zones in any step so far, or 0.
+    pub was_stepped: u64,
+    /// Under the rule `bisect`: groups of spheres in which two bodies met as often as they may in a frame.
+    pub unfinished_islands: u64,
+    /// Under the rule `contact`: spheres that sleep at the end of the step.
+    pub asleep: u64,
+    /// Under the rule `contact`: what the impulses of all contacts did to kinetic energy [J].
+    pub impulse_work: f64,
+    /// Under the rule `contact`: work of moving colliders [J].
+    pub surface_work: f64,
+    /// Under the rule `contact`: energy that the correction of overlaps added [J].
+    pub correction_work: f64,
+    /// Under the rule `contact`: largest change of an impulse in the last sweep, as a part of the largest impulse.
+    pub residual: f64,
+    /// Under the rule `contact`: largest overlap before it was corrected, as a part of the sum of radii.
+    pub largest_overlap: f64,
+}
+
+/// The last step in numbers: counts, and what became of energy. It is empty after carom_world_restore().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_report(
+    world: CaromWorld,
+    report: *mut CaromReport,
+) -> CaromStatus {
+    // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+    world.measure(unsafe { Out::new(report, "report") }, |inner| {
+        let report = inner.world.report();
+        let account = report.contact_account;
+        CaromReport {
+            impacts: report.impacts.len() as u64,
+            zone_spheres: report.zone_account.spheres.into(),
+            was_stepped: inner.world.was_stepped().into(),
+            unfinished_islands: report.unfinished_islands.into(),
+            asleep: account.asleep.into(),
+            impulse_work: account.impulse_work,
+            surface_work: account.surface_work,
+            correction_work: account.correction_work,
+            residual: account.residual,
+            largest_overlap: account.largest_overlap,
+        }
+    })
+}
+
+/// Reads the impacts of the last step in order of time, as carom_world_ids() reads ids.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_impacts(
+    world: CaromWorld,
+    impacts: *mut CaromImpact,
+    stride: usize,
+    capacity: usize,
+    count: *mut usize,
+) -> CaromStatus {
+    call(|| {
+        let array = Strided { stride, count: capacity };
+        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        let room = unsafe { Room::new(impacts, array, count, "impacts") }?;
+        world.with(|inner| room.fill(inner.world.report().impacts.iter().map(impact)))
+    })
+}
+
+/// Reads the contacts that persist, with their forces, as carom_world_ids() reads ids. They are known under the rules
+/// `exact` and `contact` after a step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_contacts(
+    world: CaromWorld,
+    contacts: *mut CaromContact,
+    stride: usize,
+    capacity: usize,
+    count: *mut usize,
+) -> CaromStatus {
+    call(|| {
+        let array = Strided { stride, count: capacity };
+        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        let room = unsafe { Room::new(contacts, array, count, "contacts") }?;
+        world.with(|inner| room.fill(inner.world.contacts().iter().map(contact)))
+    })
+}
+
+/// Reads which spheres are inside triggers at the end of the last step, as carom_world_ids() reads ids.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_triggers(
+    world: CaromWorld,
+    triggers: *mut CaromTrigger,
+    stride: usize,
+    capacity: usize,
+    count: *mut usize,
+) -> CaromStatus {
+    call(|| {
+        let array = Strided { stride, count: capacity };
+        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        let room = unsafe { Room::new(triggers, array, count, "triggers") }?;
+        world.with(|inner| room.fill(inner.world.report().triggers.iter().map(trigger)))
+    })
+}

@@ -1,0 +1,177 @@
+//! Scenes: worlds of built-in scenes and of the text of scene files, and what text adds to worlds.
+
+use std::ffi::{CString, c_char};
+use std::sync::OnceLock;
+
+use carom_scene::{BUILT_IN_FILES, Library, Override, Palette, Scene, SceneError, part};
+
+use crate::described::Described;
+use crate::pointer::{Out, tell, text, texts};
+use crate::status::{CaromStatus, Failure, call};
+use crate::world::{CaromWorld, Inner};
+
+/// What carom_world_add_toml() has added. Ids of each kind follow one another: those of the spheres are
+/// first_sphere, first_sphere + 1, ...
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct CaromAdded {
+    /// Id of the first sphere.
+    pub first_sphere: u64,
+    /// Number of spheres.
+    pub spheres: u64,
+    /// Id of the first collider.
+    pub first_collider: u64,
+    /// Number of colliders.
+    pub colliders: u64,
+    /// Id of the first force.
+    pub first_force: u64,
+    /// Number of forces.
+    pub forces: u64,
+    /// Id of the first emitter.
+    pub first_emitter: u64,
+    /// Number of emitters.
+    pub emitters: u64,
+}
+
+impl CaromAdded {
+    /// Counts something that was added with this id.
+    fn count(first: &mut u64, count: &mut u64, id: u64) {
+        if *count == 0 {
+            *first = id;
+        }
+        *count += 1;
+    }
+}
+
+/// The name of a built-in scene, in the order in which `carom scenes` lists them; null past the last one.
+#[unsafe(no_mangle)]
+pub extern "C" fn carom_scene_name(index: usize) -> *const c_char {
+    static NAMES: OnceLock<Vec<CString>> = OnceLock::new();
+    let names = NAMES.get_or_init(|| {
+        let names = BUILT_IN_FILES.iter().map(|(file, _)| file.trim_end_matches(".toml"));
+        names.map(|name| CString::new(name).unwrap_or_default()).collect()
+    });
+    names.get(index).map_or(std::ptr::null(), |name| name.as_ptr())
+}
+
+/// Makes the world of a scene: a built-in one by its name or title, or a scene file by its path. Overrides
+/// are texts like "simulation.rule=contact", which change values of the scene; null for none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_from_scene(
+    name: *const c_char,
+    overrides: *const *const c_char,
+    override_count: usize,
+    world: *mut CaromWorld,
+) -> CaromStatus {
+    call(|| {
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+        let mut world = unsafe { Out::new(world, "world") }?;
+        // SAFETY: the caller's text is null or ends in a zero, as the header demands.
+        let name = unsafe { text(name, "name") }?;
+        // SAFETY: the caller's texts are null or so many, as the header demands.
+        let overrides = unsafe { texts(overrides, override_count, "overrides") }?;
+        let (scene, _) = Library::new().find(name, &parsed(&overrides)?)?;
+        world.set(made(scene)?);
+        Ok(())
+    })
+}
+
+/// Makes the world of the text of a scene file (TOML), with overrides as carom_world_from_scene() takes them. The
+/// message of an error has the line of what is wrong.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_from_toml(
+    toml: *const c_char,
+    overrides: *const *const c_char,
+    override_count: usize,
+    world: *mut CaromWorld,
+) -> CaromStatus {
+    call(|| {
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+        let mut world = unsafe { Out::new(world, "world") }?;
+        // SAFETY: the caller's text is null or ends in a zero, as the header demands.
+        let toml = unsafe { text(toml, "toml") }?;
+        // SAFETY: the caller's texts are null or so many, as the header demands.
+        let overrides = unsafe { texts(overrides, override_count, "overrides") }?;
+        world.set(made(Scene::from_toml_with(toml, "scene", &parsed(&overrides)?)?)?);
+        Ok(())
+    })
+}
+
+fn parsed(overrides: &[&str]) -> Result<Vec<Override>, SceneError> {
+    overrides.iter().map(|text| text.parse()).collect()
+}
+
+fn made(scene: Scene) -> Result<CaromWorld, Failure> {
+    let (world, described) = Described::of(scene)?;
+    Ok(CaromWorld::hold(Inner { world, described }))
+}
+
+/// Adds the spheres, generators, colliders, forces and emitters that a text describes as scene files do (TOML).
+/// Spheres may overlap others. What was added goes to `added`, which may be null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_add_toml(
+    world: CaromWorld,
+    toml: *const c_char,
+    added: *mut CaromAdded,
+) -> CaromStatus {
+    call(|| {
+        // SAFETY: the caller's text is null or ends in a zero, as the header demands.
+        let toml = unsafe { text(toml, "toml") }?;
+        let part = part::read(toml)?;
+        let all = world.with(|inner| add(inner, part))?;
+        // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
+        unsafe { tell(added, all) };
+        Ok(())
+    })
+}
+
+/// Adds what a part of a scene describes.
+fn add(inner: &mut Inner, mut part: Scene) -> Result<CaromAdded, Failure> {
+    let Inner { world, described } = inner;
+    part.colors.clone_from(&described.scene().colors);
+    let (source, palette) = (part.world()?, Palette::new(&part)?);
+    let mut added = CaromAdded::default();
+    // All is checked by now: nothing below is refused.
+    for force in &part.forces {
+        let id = force.add_to(world)?.number();
+        CaromAdded::count(&mut added.first_force, &mut added.forces, id);
+    }
+    described.scene_mut().forces.extend(part.forces.iter().cloned());
+    for (_, collider) in source.colliders() {
+        let id = world.add_collider(*collider)?.number();
+        CaromAdded::count(&mut added.first_collider, &mut added.colliders, id);
+    }
+    let colliders = part.all_colliders().into_owned();
+    described.change_colliders(|all| all.extend(colliders));
+    for (index, &own) in source.spheres().ids().iter().enumerate() {
+        let id = world.add_sphere(source.spheres().get(index))?.number();
+        described.palette_mut().add_sphere(id, palette.own(own.number()));
+        CaromAdded::count(&mut added.first_sphere, &mut added.spheres, id);
+    }
+    for ((_, emitter), told) in source.emitters().zip(&part.emitters) {
+        let (id, time) = (world.add_emitter(*emitter)?.number(), world.time());
+        described.palette_mut().add_emitter(told, time);
+        described.scene_mut().emitters.push(told.clone());
+        CaromAdded::count(&mut added.first_emitter, &mut added.emitters, id);
+    }
+    Ok(added)
+}
+
+/// Steps a world from now on as the table `[simulation]` of a scene file says (TOML): "[simulation]\nrule =
+/// \"contact\"". What the text does not say is as in a scene file that does not say it.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_world_set_simulation(
+    world: CaromWorld,
+    toml: *const c_char,
+) -> CaromStatus {
+    call(|| {
+        // SAFETY: the caller's text is null or ends in a zero, as the header demands.
+        let toml = unsafe { text(toml, "toml") }?;
+        let part = part::read_simulation(toml)?;
+        world.with(|inner| {
+            inner.world.set_settings(part.settings())?;
+            inner.described.scene_mut().simulation = part.simulation;
+            Ok(())
+        })
+    })
+}

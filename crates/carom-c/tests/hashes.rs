@@ -1,0 +1,107 @@
+//! Worlds through the C interface are, to the bit, worlds of the engine: built-in scenes step by step, and a world that
+//! is put together call by call.
+
+use std::ffi::CString;
+use std::ptr;
+
+use carom::{Collider, DVec3, Gravity, Pose, Settings, Shape, Sphere, World};
+use carom_c::*;
+use carom_scene::Library;
+
+#[track_caller]
+fn ok(status: CaromStatus) {
+    // SAFETY: the message is a text that ends in a zero.
+    let message = unsafe { std::ffi::CStr::from_ptr(carom_last_error()) };
+    assert_eq!(status, CaromStatus::Ok, "{message:?}");
+}
+
+fn hash(world: CaromWorld) -> u64 {
+    let mut hash = 0;
+    // SAFETY: a place for a hash.
+    ok(unsafe { carom_world_state_hash(world, &raw mut hash) });
+    hash
+}
+
+fn from_scene(name: &str) -> CaromWorld {
+    let (name, mut world) = (CString::new(name).unwrap(), CaromWorld::default());
+    // SAFETY: a text, no overrides, and a place for a world.
+    ok(unsafe { carom_world_from_scene(name.as_ptr(), ptr::null(), 0, &raw mut world) });
+    world
+}
+
+#[test]
+fn scenes_have_the_hashes_of_the_engine_in_every_frame() {
+    // Of each rule, with emitters, friction, a periodic box.
+    let names = ["simtest1", "simtest3", "tutorial3", "cradle", "billiards", "masse", "pour"];
+    for name in names {
+        let (scene, _) = Library::new().find(name, &[]).unwrap();
+        let (mut native, world) = (scene.world().unwrap(), from_scene(name));
+        assert_eq!(hash(world), native.state_hash().0, "{name}");
+        for frame in 0..20 {
+            native.step(scene.simulation.frame_time).unwrap();
+            ok(carom_world_step(world, scene.simulation.frame_time));
+            assert_eq!(hash(world), native.state_hash().0, "{name}, frame {frame}");
+        }
+        ok(carom_world_free(world));
+    }
+}
+
+#[test]
+fn a_world_put_together_by_calls_has_the_hash_of_one_put_together_in_rust() {
+    let mut native = World::new(Settings::default()).unwrap();
+    native.add_force(Gravity::new(DVec3::new(0.0, -9.81, 0.0))).unwrap();
+    native.add_collider(Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO))).unwrap();
+    let mut world = CaromWorld::default();
+    // SAFETY: a place for a world.
+    ok(unsafe { carom_world_new(&raw mut world) });
+    let gravity = [0.0, -9.81, 0.0];
+    // SAFETY: three numbers.
+    ok(unsafe { carom_world_add_gravity(world, gravity.as_ptr(), ptr::null_mut()) });
+    let floor = carom_collider();
+    // SAFETY: a collider.
+    ok(unsafe { carom_world_add_collider(world, &raw const floor, ptr::null_mut()) });
+    for i in 0..30 {
+        let place = DVec3::new(0.1 * f64::from(i % 7), 1.0 + f64::from(i), 0.2 * f64::from(i % 3));
+        let sphere = Sphere::new(place, 0.4).with_density(2.0).with_restitution(0.9);
+        native.add_sphere(sphere).unwrap();
+        let own = CaromSphere {
+            position: place.to_array(),
+            radius: 0.4,
+            density: 2.0,
+            restitution: 0.9,
+            ..carom_sphere()
+        };
+        // SAFETY: a sphere.
+        ok(unsafe { carom_world_add_sphere(world, &raw const own, ptr::null_mut()) });
+    }
+    for _ in 0..120 {
+        native.step(1.0 / 60.0).unwrap();
+        ok(carom_world_step(world, 1.0 / 60.0));
+        assert_eq!(hash(world), native.state_hash().0);
+    }
+    ok(carom_world_free(world));
+}
+
+#[test]
+fn bytes_of_c_are_snapshots_of_rust() {
+    let world = from_scene("simtest3");
+    // SAFETY: null is allowed there.
+    ok(unsafe { carom_world_advance(world, 30, ptr::null_mut()) });
+    let (mut snapshot, mut size) = (CaromSnapshot::default(), 0);
+    // SAFETY: a place for a snapshot.
+    ok(unsafe { carom_world_snapshot(world, &raw mut snapshot) });
+    // SAFETY: a place for a size.
+    ok(unsafe { carom_snapshot_to_bytes(snapshot, ptr::null_mut(), 0, &raw mut size) });
+    let mut bytes = vec![0; size];
+    // SAFETY: room for all bytes.
+    ok(unsafe { carom_snapshot_to_bytes(snapshot, bytes.as_mut_ptr(), size, &raw mut size) });
+    let checkpoint = carom_scene::Checkpoint::from_bytes(&bytes).unwrap();
+    let mut native = World::default();
+    native.restore(&checkpoint.snapshot);
+    assert_eq!(native.state_hash().0, hash(world));
+    assert_eq!(checkpoint.scene.name, "simtest3");
+    assert_eq!(checkpoint.scene.colliders.len(), native.colliders().len());
+    assert_eq!(checkpoint.scene.emitters.len(), native.emitters().len());
+    ok(carom_snapshot_free(snapshot));
+    ok(carom_world_free(world));
+}

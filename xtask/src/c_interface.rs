@@ -1,0 +1,181 @@
+//! The C interface: its libraries, its header, and programs in C, C++ and C# that use them.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::shell::{Outcome, cargo, cargo_with, finish, output, root, succeeds, target_folder};
+use crate::{native_hashes, setup};
+
+/// Makes the libraries for programs, and says where they are.
+pub fn build() -> Outcome {
+    cargo(&["build", "--release", "--package", "carom-c"])?;
+    eprintln!("\n{}", target_folder().join("release").display());
+    eprintln!("{}", root().join("crates/carom-c/include/carom.h").display());
+    Ok(())
+}
+
+/// Writes the header anew; a test in `carom-c` tells when that is due.
+pub fn write_header() -> Outcome {
+    let test = ["test", "--quiet", "--package", "carom-c", "--test", "header", "the_header_is"];
+    cargo_with(&test, &[("CAROM_WRITE_HEADER", "1")])
+}
+
+/// Runs the tests of the C interface, then its programs.
+pub fn test() -> Outcome {
+    cargo(&["test", "--quiet", "--package", "carom-c"])?;
+    run_programs(&["--package", "carom-c"])
+}
+
+/// Runs the programs with the library that the tests of all crates have left.
+pub fn test_built() -> Outcome {
+    run_programs(&["--workspace"])
+}
+
+/// Compiles the programs in a folder among what is built, and runs them. `packages` are those that the library was built
+/// with.
+fn run_programs(packages: &[&str]) -> Outcome {
+    if cfg!(windows) {
+        eprintln!("xtask: the programs of the C interface are not compiled on Windows");
+        return Ok(());
+    }
+    setup::c_interface()?;
+    let programs = Programs::new()?;
+    for name in ["bouncing_ball", "state_hashes", "every_function"] {
+        programs.compile_c(name)?;
+    }
+    programs.compile_cpp("cradle")?;
+    programs.compile_statically("bouncing_ball", "bouncing_ball_static")?;
+    for name in ["bouncing_ball", "bouncing_ball_static", "cradle"] {
+        finish(name, &mut programs.program(name))?;
+    }
+    programs.compare_hashes()?;
+    programs.check_memory(packages)?;
+    programs.run_csharp()
+}
+
+/// Options of compilers: all that they warn of is an error.
+const STRICT: [&str; 5] = ["-Wall", "-Wextra", "-Werror", "-pedantic", "-g"];
+/// A checker of memory, which fails for whatever it finds, memory that is never freed among it.
+const VALGRIND: &str = "valgrind --quiet --error-exitcode=9 --leak-check=full \
+                        --show-leak-kinds=definite --errors-for-leak-kinds=definite";
+
+/// Programs on the C interface, and the library that they use.
+struct Programs {
+    /// Where they are.
+    folder: PathBuf,
+    /// Where the libraries are.
+    libraries: PathBuf,
+    sources: PathBuf,
+}
+
+impl Programs {
+    fn new() -> Outcome<Self> {
+        let folder = target_folder().join("c");
+        fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        // Tests link against the library, which lies there then.
+        let libraries = target_folder().join("debug/deps");
+        Ok(Self { folder, libraries, sources: root().join("crates/carom-c") })
+    }
+
+    /// A program that is compiled.
+    fn program(&self, name: &str) -> Command {
+        Command::new(self.folder.join(name))
+    }
+
+    fn compile_c(&self, name: &str) -> Outcome {
+        let mut command = self.compiler("cc", "-std=c99", &format!("{name}.c"));
+        self.link(&mut command);
+        finish("cc", command.arg("-o").arg(self.folder.join(name)))
+    }
+
+    fn compile_cpp(&self, name: &str) -> Outcome {
+        let mut command = self.compiler("c++", "-std=c++17", &format!("{name}.cpp"));
+        self.link(&mut command);
+        finish("c++", command.arg("-o").arg(self.folder.join(name)))
+    }
+
+    fn compile_statically(&self, name: &str, program: &str) -> Outcome {
+        let mut command = self.compiler("cc", "-std=c99", &format!("{name}.c"));
+        command.arg(self.libraries.join("libcarom_c.a")).args(["-lm", "-lpthread", "-ldl"]);
+        finish("cc", command.arg("-o").arg(self.folder.join(program)))
+    }
+
+    /// A compiler of a program, without what it links to.
+    fn compiler(&self, program: &str, standard: &str, source: &str) -> Command {
+        let mut command = Command::new(program);
+        command.arg(standard).args(STRICT).arg("-I").arg(self.sources.join("include"));
+        command.arg(self.sources.join("examples").join(source));
+        command
+    }
+
+    /// Links to the shared library, where it is.
+    fn link(&self, command: &mut Command) {
+        command.arg("-L").arg(&self.libraries).args(["-lcarom_c", "-lm"]);
+        command.arg(format!("-Wl,-rpath,{}", self.libraries.display()));
+    }
+
+    /// Compares the state hashes of all scenes with those of the native engine.
+    fn compare_hashes(&self) -> Outcome {
+        let pinned = native_hashes::pinned()?;
+        let mut command = self.program("state_hashes");
+        command.arg("10").args(pinned.iter().map(|(scene, _)| scene));
+        eprintln!("\n== state_hashes 10 ... ({} scenes)", pinned.len());
+        let output = command.output().map_err(|error| format!("state_hashes: {error}"))?;
+        let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+        let wanted: String =
+            pinned.iter().map(|(scene, hash)| format!("{scene} {hash}\n")).collect();
+        if !output.status.success() || printed != wanted {
+            let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+            return Err(format!("state hashes through C:\n{printed}{errors}but pinned:\n{wanted}"));
+        }
+        Ok(())
+    }
+
+    /// Calls every function of the header, and makes ten thousand wrong calls, under a checker of memory.
+    fn check_memory(&self, packages: &[&str]) -> Outcome {
+        if !cfg!(target_os = "linux") {
+            return finish("every_function", &mut self.program("every_function"));
+        }
+        let mut words = VALGRIND.split_whitespace();
+        let mut command = Command::new(words.next().unwrap_or_default());
+        finish("valgrind", command.args(words).arg(self.folder.join("every_function")))?;
+        let test = [&["test", "--quiet"], packages, &["--test", "misuse"]].concat();
+        let about = output("rustc", &["-vV"]).unwrap_or_default();
+        let target = about.lines().find_map(|line| line.strip_prefix("host: "));
+        let target = target.ok_or("rustc does not say what it compiles for")?;
+        let target = target.to_uppercase().replace('-', "_");
+        cargo_with(&test, &[(&format!("CARGO_TARGET_{target}_RUNNER"), VALGRIND)])
+    }
+
+    /// Compiles and runs the program in C#, with the part for Unity and without.
+    fn run_csharp(&self) -> Outcome {
+        if !cfg!(target_os = "linux") && !succeeds("mcs", &["--version"]) {
+            eprintln!("xtask: there is no mono, so the program in C# is not run");
+            return Ok(());
+        }
+        let pinned = native_hashes::pinned()?;
+        let is_short = |scene: &str| scene.starts_with("simtest") || scene.starts_with("tutorial");
+        let own = pinned.iter().filter(|(scene, _)| is_short(scene));
+        let hashes: Vec<String> = own.map(|(scene, hash)| format!("{scene}={hash}")).collect();
+        let (class, examples) =
+            (self.sources.join("csharp/CaromWorld.cs"), self.sources.join("examples"));
+        let unity = ["-define:UNITY_5_3_OR_NEWER"];
+        for (name, options) in [("Worlds.exe", &[][..]), ("Unity.exe", &unity[..])] {
+            let program = self.folder.join(name);
+            let mut compiler = Command::new("mcs");
+            compiler.args(["-warnaserror", "-warn:4"]).args(options);
+            compiler.arg(format!("-out:{}", program.display())).arg(&class);
+            compiler.args(["Worlds.cs", "UnityEngine.cs"].map(|file| examples.join(file)));
+            finish("mcs", &mut compiler)?;
+            let mut mono = Command::new("mono");
+            mono.arg(&program).args(&hashes).env(LIBRARY_PATH, &self.libraries);
+            finish("mono", &mut mono)?;
+        }
+        Ok(())
+    }
+}
+
+/// What names the folder of shared libraries to a program that loads them.
+const LIBRARY_PATH: &str =
+    if cfg!(target_os = "macos") { "DYLD_LIBRARY_PATH" } else { "LD_LIBRARY_PATH" };
