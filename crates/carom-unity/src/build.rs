@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use carom_scene::import::{Omission, legible, omit};
 use carom_scene::scene::{Collider, Color, Emitter, Force, Scene, Shape, Sphere};
 
 use crate::document::Document;
@@ -13,7 +14,6 @@ use crate::material;
 use crate::parts::Parts;
 use crate::pose::{mirrored, mirrored_rotation};
 use crate::project::Project;
-use crate::report::{Omission, omit};
 use crate::script::Script;
 use crate::shape::{Mesh, Placed, of_collider};
 use crate::value::Value;
@@ -316,7 +316,7 @@ impl<'a> Building<'a> {
             let name = box_name(&node.path);
             let collider = &mut self.scene.colliders[group[0]];
             collider.name = name;
-            collider.shape = Shape::Box { size: crate::pose::shortened(size.to_array()) };
+            collider.shape = Shape::Box { size: carom_scene::import::shortened(size.to_array()) };
             collider.position = mirrored(center);
             collider.rotation = mirrored_rotation(frame);
             absorbed.extend(&group[1..]);
@@ -347,9 +347,4 @@ fn box_name(path: &str) -> String {
     let mut names: Vec<&str> = path.rsplit('/').skip(1).take(2).collect();
     names.reverse();
     if names.is_empty() { "box".to_owned() } else { legible(&names.join("/")) }
-}
-
-/// A name without characters that steer a terminal, of 200 characters at most.
-pub(crate) fn legible(name: &str) -> String {
-    name.chars().map(|it| if it.is_control() { ' ' } else { it }).take(200).collect()
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use carom_scene::import::omit;
 use carom_scene::scene::{Collider, CombineRule, Force, Sphere};
 
 use crate::build::Building;
@@ -11,7 +12,6 @@ use crate::graph::Node;
 use crate::material::Surface;
 use crate::parts::{Parts, is_set, is_trigger};
 use crate::pose::mirrored;
-use crate::report::omit;
 use crate::shape::{Placed, of_collider};
 use crate::value::Value;
 
