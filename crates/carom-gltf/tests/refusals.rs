@@ -161,3 +161,28 @@ fn broken_containers_are_refused() {
     assert!(refusal(b"glTF\x02\0\0\0\x0c\0\0\0").contains("has no JSON"));
     assert!(import_bytes("scene.glb", &whole).is_ok());
 }
+
+#[test]
+fn many_meshes_of_the_same_bytes_and_deep_trees_end_in_time() {
+    // Each mesh would read 30,000 numbers: in all a billion.
+    let vertices = vec![[0.0; 3]; 10_000];
+    let mut file = Gltf::with_nodes(json!([])).with_mesh(&vertices, &[0, 1, 2], None);
+    let mesh = file.json["meshes"][0].clone();
+    file.json["meshes"] = json!(vec![mesh; 30_000]);
+    let nodes: Vec<_> = (0..30_000).map(|i| json!({ "mesh": i })).collect();
+    (file.json["nodes"], file.json["scenes"]) = (json!(nodes), Value::Array(Vec::new()));
+    let imported = file.imported();
+    let report = files::report(&imported);
+    assert!(report.iter().any(|it| it.contains("100,000,000 numbers")), "{report:?}");
+
+    let collider = json!({ "collider": { "geometry": { "shape": 0 } } });
+    let body = json!({ "KHR_physics_rigid_bodies": collider });
+    let nodes: Vec<_> = (0..30_000)
+        .map(|i| json!({ "name": "A long name", "children": [i + 1], "extensions": body }))
+        .chain([json!({})])
+        .collect();
+    let shapes = json!({ "KHR_implicit_shapes": { "shapes": [{ "type": "sphere" }] } });
+    let mut file = Gltf::with_nodes(json!([{}])).with("extensions", shapes);
+    (file.json["nodes"], file.json["scenes"]) = (json!(nodes), json!([{ "nodes": [0] }]));
+    assert_eq!(file.imported().scene.colliders.len(), 30_000);
+}

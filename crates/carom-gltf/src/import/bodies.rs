@@ -23,6 +23,8 @@ pub(super) struct Bodies<'a> {
     nodes: &'a [Placed],
     /// Of each node, the one whose body it belongs to: itself, or the nearest above it that moves.
     owners: Vec<Option<usize>>,
+    /// The mesh that each node shows: its own, or that of one above it in its body.
+    shown: Vec<Option<usize>>,
     /// Nodes that colliders are at or below.
     with_colliders: BTreeSet<usize>,
     /// Owners whose sphere is in the scene.
@@ -40,6 +42,7 @@ impl<'a> Bodies<'a> {
             document,
             nodes,
             owners: Vec::new(),
+            shown: Vec::new(),
             with_colliders: BTreeSet::new(),
             added: BTreeSet::new(),
             combine: BTreeSet::new(),
@@ -51,6 +54,9 @@ impl<'a> Bodies<'a> {
             let has_collider = body.is_some_and(|it| it.collider.is_some() || it.trigger.is_some());
             let above = node.parent.and_then(|parent| bodies.owners[parent]);
             bodies.owners.push(if moves { Some(i) } else { above });
+            let is_part = |parent: &usize| bodies.owners[*parent] == bodies.owners[i];
+            let inherited = node.parent.filter(is_part).and_then(|parent| bodies.shown[parent]);
+            bodies.shown.push(document.nodes[node.index].mesh.or(inherited));
             let mut marked = has_collider.then_some(i);
             while let Some(node) = marked.filter(|&it| bodies.with_colliders.insert(it)) {
                 marked = nodes[node].parent;
@@ -269,24 +275,11 @@ impl<'a> Bodies<'a> {
 
     /// The mesh that shows a collider: of its node, of one above it in its body, or of one right below it.
     fn mesh(&self, index: usize) -> Option<usize> {
-        let of = |index: usize| self.document.nodes[self.nodes[index].index].mesh;
-        let owner = self.owners[index];
-        let above = || {
-            let mut at = self.nodes[index].parent;
-            while let Some(node) = at {
-                let is_part = owner.is_none() || self.owners[node] == owner;
-                if is_part && of(node).is_some() {
-                    return of(node);
-                }
-                at = self.nodes[node].parent.filter(|_| is_part);
-            }
-            None
-        };
         let below = || {
             let children = &self.document.nodes[self.nodes[index].index].children;
             children.iter().find_map(|&child| self.document.nodes.get(child)?.mesh)
         };
-        of(index).or_else(above).or_else(below)
+        self.shown[index].or_else(below)
     }
 
     fn look(&self, index: usize) -> Result<Look, Malformed> {

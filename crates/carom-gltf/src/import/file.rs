@@ -1,6 +1,6 @@
 //! Files: the JSON, and the buffers it refers to.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::path::{Component, Path, PathBuf};
 
 use base64::Engine;
@@ -12,8 +12,10 @@ use super::error::{ImportError, Malformed};
 use crate::document::Document;
 use crate::glb;
 
-/// The largest file that is read \[bytes\].
+/// The largest file that is read, and most of all buffers \[bytes\].
 const LARGEST: u64 = 1 << 30;
+/// Most numbers that are read of all meshes: many may refer to the same bytes.
+const MOST_NUMBERS: usize = 100_000_000;
 
 /// A glTF file, and the files beside it that its buffers lie in, each read when it is first needed.
 pub(super) struct File {
@@ -22,6 +24,9 @@ pub(super) struct File {
     /// The binary part of a .glb file.
     binary: Option<Vec<u8>>,
     buffers: Vec<OnceCell<Vec<u8>>>,
+    /// Bytes and numbers that may still be read.
+    bytes_left: Cell<u64>,
+    numbers_left: Cell<usize>,
 }
 
 impl File {
@@ -29,7 +34,7 @@ impl File {
     pub fn read(path: &Path) -> Result<Self, ImportError> {
         let unreadable = |source| ImportError::Unreadable { path: path.to_path_buf(), source };
         let whole = path.canonicalize().map_err(unreadable)?;
-        let bytes = read_bounded(&whole).map_err(unreadable)?;
+        let bytes = read_bounded(&whole, LARGEST).map_err(unreadable)?;
         let malformed = |place: &str, problem: String| Malformed::at(place, problem).in_file(path);
         let (json, binary) = if glb::is_glb(&bytes) {
             glb::read(&bytes).map_err(|problem| malformed("container", problem))?
@@ -40,7 +45,15 @@ impl File {
         let buffers = document.buffers.iter().map(|_| OnceCell::new()).collect();
         let folder = whole.parent().unwrap_or(Path::new("/")).to_path_buf();
         let binary = binary.map(ToOwned::to_owned);
-        Ok(Self { document, folder, binary, buffers })
+        let (bytes_left, numbers_left) = (Cell::new(LARGEST), Cell::new(MOST_NUMBERS));
+        Ok(Self { document, folder, binary, buffers, bytes_left, numbers_left })
+    }
+
+    /// Takes so many numbers of those that may be read; whether there are as many.
+    pub fn take_numbers(&self, count: usize) -> bool {
+        let left = self.numbers_left.get().checked_sub(count);
+        self.numbers_left.set(left.unwrap_or(0));
+        left.is_some()
     }
 
     /// The bytes of a buffer, as many as it says it has.
@@ -83,18 +96,22 @@ impl File {
         if !whole.starts_with(&self.folder) {
             return Err(format!("{} is no file in the folder of the scene", legible(&name)));
         }
-        read_bounded(&whole).map_err(unreadable)
+        let bytes = read_bounded(&whole, self.bytes_left.get()).map_err(unreadable)?;
+        self.bytes_left.set(self.bytes_left.get().saturating_sub(bytes.len() as u64));
+        Ok(bytes)
     }
 }
 
-fn read_bounded(path: &Path) -> std::io::Result<Vec<u8>> {
+/// Reads a file of so many bytes at most.
+fn read_bounded(path: &Path, most: u64) -> std::io::Result<Vec<u8>> {
     let data = std::fs::metadata(path)?;
-    let problem = match data.len() {
-        _ if !data.is_file() => "is no file",
-        LARGEST.. => "is larger than 1 GiB",
-        _ => return std::fs::read(path),
-    };
-    Err(std::io::Error::other(problem))
+    if !data.is_file() {
+        return Err(std::io::Error::other("is no file"));
+    }
+    if data.len() > most {
+        return Err(std::io::Error::other("is larger than 1 GiB, or all buffers together are"));
+    }
+    std::fs::read(path)
 }
 
 fn parse(json: &[u8]) -> Result<Document, Malformed> {

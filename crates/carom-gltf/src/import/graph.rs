@@ -29,7 +29,7 @@ impl Placed {
 }
 
 /// Longest path of names that is kept \[bytes\].
-const LONGEST: usize = 1000;
+const LONGEST: usize = 200;
 
 /// The nodes of the scene that is shown first, parents before their children.
 ///

@@ -129,6 +129,9 @@ fn numbers(
     };
     let count = count.filter(|&it| fits(it).is_some());
     let count = count.ok_or_else(|| at("is beyond its bufferView"))?;
+    if !file.take_numbers(count * width) {
+        return Ok(Err("the meshes of the file have more than 100,000,000 numbers"));
+    }
     let elements = (0..count).flat_map(|i| {
         let element = &bytes[i * stride..i * stride + size];
         element.chunks_exact(component.size).map(component.read)
