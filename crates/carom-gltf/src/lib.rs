@@ -8,7 +8,7 @@
 //!                                      meshes -> forms
 //! ```
 //!
-//! [`Animation`] records a run. [`import`] reads a scene; what has no counterpart is listed
+//! [`Animation`] records a run. [`import()`] reads a scene; what has no counterpart is listed
 //! ([`Omission`]), broken files are refused with the place ([`ImportError`]). Both coordinate systems are right-handed, y
 //! up, in m: nothing is turned.
 

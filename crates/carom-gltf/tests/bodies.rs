@@ -100,6 +100,17 @@ fn colliders_without_motion_stay() {
 }
 
 #[test]
+fn triggers_say_nothing_of_how_materials_combine() {
+    let nodes = json!([
+        node(json!({}), json!({ "collider": collider(1) })),
+        node(json!({}), json!({ "trigger": { "geometry": { "shape": 1 } } })),
+    ]);
+    let imported = file(shapes(), rubber(), nodes).imported();
+    assert_eq!(imported.scene.simulation.combine_rule, CombineRule::Product);
+    assert_eq!(report(&imported), [""; 0]);
+}
+
+#[test]
 fn kinematic_bodies_are_colliders_that_move() {
     let motion =
         json!({ "isKinematic": true, "linearVelocity": [0, 0, 2], "angularVelocity": [0, 1, 0] });

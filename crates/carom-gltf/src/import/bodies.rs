@@ -92,8 +92,8 @@ impl<'a> Bodies<'a> {
         if body.motion.is_some() && !self.with_colliders.contains(&index) {
             omit(&mut building.report, &node.path, "motion", "it has no collider");
         }
-        let parts = [(&body.collider, "collider", false), (&body.trigger, "trigger", true)];
-        for (collider, component, is_trigger) in parts {
+        let described = [(&body.collider, "collider", false), (&body.trigger, "trigger", true)];
+        for (collider, component, is_trigger) in described {
             let Some(collider) = collider else { continue };
             if collider.collision_filter.is_some() {
                 let reason = "its collision filter has no counterpart: it meets all bodies";
@@ -117,13 +117,16 @@ impl<'a> Bodies<'a> {
                 omit(&mut building.report, &node.path, component, reason);
             }
             let material = self.material(collider, node, building)?;
+            if !is_trigger {
+                self.combine.insert((material.restitution_combine, material.friction_combine));
+            }
             let look = self.look(index)?;
-            let fixed = Fixed { solid, double_sided, is_trigger, material, look };
+            let part = Part { solid, double_sided, is_trigger, material, look };
             match self.owners[index] {
                 Some(owner) if !self.is_kinematic(owner) => {
-                    self.add_moving(index, owner, &fixed, building);
+                    self.add_moving(index, owner, &part, building);
                 }
-                owner => self.add_fixed(index, owner, fixed, building),
+                owner => self.add_fixed(index, owner, part, building),
             }
         }
         Ok(())
@@ -138,15 +141,15 @@ impl<'a> Bodies<'a> {
         self.body(&self.nodes[owner]).and_then(|body| body.motion.clone()).unwrap_or_default()
     }
 
-    fn add_moving(&mut self, index: usize, owner: usize, fixed: &Fixed, building: &mut Building) {
+    fn add_moving(&mut self, index: usize, owner: usize, part: &Part, building: &mut Building) {
         let (node, moving) = (&self.nodes[index], &self.nodes[owner]);
         let mut list = |component: &str, reason: &str| {
             omit(&mut building.report, &node.path, component, reason);
         };
-        let scene::Shape::Sphere { radius } = fixed.solid.shape else {
+        let scene::Shape::Sphere { radius } = part.solid.shape else {
             return list("collider", "only spheres move");
         };
-        if fixed.is_trigger {
+        if part.is_trigger {
             return list("trigger", "moves with a body; triggers that move so have no counterpart");
         }
         if !self.added.insert(owner) {
@@ -159,14 +162,14 @@ impl<'a> Bodies<'a> {
             }
             None => [0.0; 3],
         };
-        let mut sphere = Sphere::at(fixed.solid.position, radius);
+        let mut sphere = Sphere::at(part.solid.position, radius);
         sphere.velocity = world(motion.linear_velocity);
         sphere.angular_velocity = world(motion.angular_velocity);
-        sphere.orientation = fixed.solid.rotation;
+        sphere.orientation = part.solid.rotation;
         sphere.mass = motion.mass.map(written);
-        sphere.restitution = fixed.material.restitution;
-        sphere.friction = Some(fixed.material.dynamic_friction);
-        (sphere.color, sphere.finish) = (fixed.look.color, fixed.look.finish);
+        sphere.restitution = part.material.restitution;
+        sphere.friction = Some(part.material.dynamic_friction);
+        (sphere.color, sphere.finish) = (part.look.color, part.look.finish);
         if let Some(inertia) = motion.inertia_diagonal {
             match inertia_factor(inertia, motion.mass.unwrap_or(1.0), radius) {
                 Some(factor) => sphere.inertia_factor = factor,
@@ -183,9 +186,9 @@ impl<'a> Bodies<'a> {
         building.push_sphere(sphere, node);
     }
 
-    fn add_fixed(&self, index: usize, owner: Option<usize>, fixed: Fixed, building: &mut Building) {
+    fn add_fixed(&self, index: usize, owner: Option<usize>, part: Part, building: &mut Building) {
         let node = &self.nodes[index];
-        let Fixed { solid, double_sided, is_trigger, material, look } = fixed;
+        let Part { solid, double_sided, is_trigger, material, look } = part;
         let mut collider = scene::Collider::new(solid.shape.clone());
         (collider.position, collider.rotation) = (solid.position, solid.rotation);
         (collider.color, collider.finish) = (look.color, look.finish);
@@ -251,7 +254,7 @@ impl<'a> Bodies<'a> {
     }
 
     fn material(
-        &mut self,
+        &self,
         collider: &Collider,
         node: &Placed,
         building: &mut Building,
@@ -269,7 +272,6 @@ impl<'a> Bodies<'a> {
             let reason = "its friction at rest differs; that of sliding is taken";
             omit(&mut building.report, &node.path, "physics material", reason);
         }
-        self.combine.insert((material.restitution_combine, material.friction_combine));
         Ok(material)
     }
 
@@ -321,7 +323,7 @@ impl<'a> Bodies<'a> {
 }
 
 /// A collider that is read.
-struct Fixed {
+struct Part {
     solid: Solid,
     double_sided: bool,
     is_trigger: bool,
