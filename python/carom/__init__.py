@@ -62,6 +62,7 @@ from carom._zone_account import ZoneAccount
 from carom.errors import (
     CaromError,
     GraphicsError,
+    OmissionWarning,
     RunError,
     SceneError,
     StepError,
@@ -101,6 +102,7 @@ __all__ = [
     "HalfSpace",
     "Lattice",
     "Listed",
+    "OmissionWarning",
     "Periodic",
     "Points",
     "RandomFill",

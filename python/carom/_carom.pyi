@@ -22,6 +22,8 @@ __all__ = [
     "canonical_toml",
     "film_scene",
     "find_scene",
+    "import_gltf",
+    "import_unity",
     "list_scenes",
     "pair_histogram",
     "pairs_within",
@@ -319,6 +321,10 @@ def film_scene(
     frame_rate: int,
     view: View,
 ) -> int: ...
+def import_unity(
+    path: str | PathLike[str], scene: str | None, mapping: str | PathLike[str] | None
+) -> tuple[str, list[str]]: ...
+def import_gltf(path: str | PathLike[str]) -> tuple[str, list[str]]: ...
 def pair_histogram(
     points: NDArray[np.float64], sides: Sequence[float], r_max: float, bins: int
 ) -> NDArray[np.uint64]: ...

@@ -6,6 +6,7 @@ import json
 import math
 import os
 import subprocess
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -17,14 +18,20 @@ from numpy.typing import DTypeLike, NDArray
 
 from carom import _parts as parts
 from carom import _pictures as pictures
-from carom._carom import canonical_toml, read_scene, read_scene_file
+from carom._carom import (
+    canonical_toml,
+    import_gltf,
+    import_unity,
+    read_scene,
+    read_scene_file,
+)
 from carom._film import Film, filmed
 from carom._points import Points
 from carom._recording import Out
 from carom._text import fields_of, toml_of, toml_value
 from carom._trajectory import Recorded, Trajectory
 from carom._world import World
-from carom.errors import CaromError
+from carom.errors import CaromError, OmissionWarning
 
 if TYPE_CHECKING:
     from carom._still import Still
@@ -125,6 +132,55 @@ class Scene(parts.Part):
         with Path(path).open("rb"):
             pass  # An error of the system stays one.
         return cls(**fields_of(json.loads(read_scene_file(path, overrides(changes)))))
+
+    @classmethod
+    def from_unity(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        scene: str | None = None,
+        mapping: str | os.PathLike[str] | None = None,
+    ) -> Scene:
+        """Imports a scene of Unity, as ``carom import`` does.
+
+        What has no counterpart is an `OmissionWarning`, one for each line of the report.
+
+        Args:
+            path: A scene (.unity, saved as text), or a folder such as ``Assets``.
+            scene: Which scene of the folder, by its name or its path there; it may be missing
+                where there is one only.
+            mapping: A file that says what the fields of scripts mean.
+
+        Raises:
+            OSError: If the path cannot be read.
+            SceneError: With the file and line of what is wrong.
+            CaromError: If the folder has no such scene, or several.
+        """
+        Path(path).stat()  # An error of the system stays one.
+        if mapping is not None:
+            Path(mapping).stat()
+        return cls._imported(import_unity(path, scene, mapping))
+
+    @classmethod
+    def from_gltf(cls, path: str | os.PathLike[str]) -> Scene:
+        """Imports a glTF file (.gltf, .glb), as ``carom import`` does.
+
+        What has no counterpart is an `OmissionWarning`, one for each line of the report.
+
+        Raises:
+            OSError: If it cannot be read.
+            SceneError: With the file and place of what is wrong.
+        """
+        with Path(path).open("rb"):
+            pass  # An error of the system stays one.
+        return cls._imported(import_gltf(path))
+
+    @classmethod
+    def _imported(cls, imported: tuple[str, list[str]]) -> Scene:
+        scene, omissions = imported
+        for line in omissions:
+            warnings.warn(line, OmissionWarning, stacklevel=3)
+        return cls(**fields_of(json.loads(scene)))
 
     def to_toml(self) -> str:
         """The text of a scene file, every default written out.

@@ -25,6 +25,10 @@ class UnknownError(CaromError, LookupError):
     """A name or an id that names nothing."""
 
 
+class OmissionWarning(UserWarning):
+    """What an import of another program's scene leaves out, or takes for something else."""
+
+
 class GraphicsError(CaromError, RuntimeError):
     """Nothing can be drawn here: there is no graphics driver, or this build has no pictures."""
 

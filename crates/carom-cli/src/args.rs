@@ -107,7 +107,7 @@ pub enum Command {
     },
     /// Write a scene file to start from: balls fall into a box, with a comment on every part.
     New(New),
-    /// Make a scene file of a scene of Unity; lists what has no counterpart.
+    /// Make a scene file of a scene of Unity, or of a glTF file; lists what has no counterpart.
     Import(Import),
     /// Check scene files; says what is wrong, and in which line.
     Check {
@@ -167,22 +167,24 @@ pub struct New {
     pub replacing: Replacing,
 }
 
-/// Make scene files of scenes of Unity.
+/// Make scene files of scenes of Unity, or of a glTF file.
 #[derive(Debug, clap::Args)]
 pub struct Import {
-    /// A scene of Unity (.unity, saved as text), or a folder such as Assets: every scene in it.
+    /// A scene of Unity (.unity, saved as text), a folder such as Assets: every scene of Unity in it, or a
+    /// glTF file (.gltf, .glb).
     pub path: PathBuf,
     /// The scene file to write, without it the standard output; for a folder the folder to write into, without
     /// it the current one.
     #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,
-    /// A file that says what the fields of other scripts than the course's mean.
+    /// A file that says what the fields of other scripts of Unity than the course's mean.
     #[arg(long, value_name = "FILE")]
     pub map: Option<PathBuf>,
     /// Step rule; by default `discrete` where scripts move the spheres, as in the course, `exact` else.
     #[arg(long, short, value_parser = RULES)]
     pub rule: Option<String>,
-    /// Length of a frame in s; by default the fixed time step of the project, or 0.02.
+    /// Length of a frame in s; by default the fixed time step of a project of Unity, or 0.02; of glTF, that
+    /// of a new scene.
     #[arg(long, value_name = "S", value_parser = positive)]
     pub frame_time: Option<f64>,
     /// Time worth watching in s; 10 by default.
@@ -232,8 +234,9 @@ pub struct Run {
     /// How long, in which frames.
     #[command(flatten)]
     pub length: Length,
-    /// Write the trajectory; the ending tells the format: .csv, .npz (NumPy), or .pvd (a series
-    /// of .vtp files for ParaView, in a folder beside it). `-` writes CSV to the standard output, and
+    /// Write the trajectory; the ending tells the format: .csv, .npz (NumPy), .pvd (a series
+    /// of .vtp files for ParaView, in a folder beside it), or .glb (an animation in glTF, for Blender, three.js
+    /// and Unity). `-` writes CSV to the standard output, and
     /// the summary to the standard error stream.
     #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,

@@ -80,7 +80,10 @@ impl From<RecordingError> for Failure {
     fn from(error: RecordingError) -> Self {
         let message = error.to_string();
         match error {
-            RecordingError::UnknownFormat { .. } => Self::Usage(message),
+            // The command line knows one more.
+            RecordingError::UnknownFormat { .. } => {
+                Self::Usage(format!("{message}, or .glb (an animation in glTF)"))
+            }
             // The reader of the standard output has seen enough.
             RecordingError::Unwritable { source, .. }
                 if source.kind() == io::ErrorKind::BrokenPipe =>

@@ -1,29 +1,30 @@
-//! Scenes of Unity to scene files.
+//! Scenes of Unity, and glTF, to scene files.
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::Path;
 
+use carom_gltf::Imported;
+use carom_scene::Scene;
+use carom_scene::import::Omission;
 use carom_scene::scene::Rule;
-use carom_unity::{ImportError, Imported, Mapping, Options, Project};
+use carom_unity::{ImportError, Mapping, Options, Project};
 
 use crate::args::Import;
 use crate::failure::{Failure, complain};
 use crate::replacing::Replacing;
 
-/// Imports a scene, or every scene in a folder.
+/// Imports a scene, or every scene of Unity in a folder.
 pub fn import(import: &Import) -> Result<(), Failure> {
+    if is_gltf(&import.path) {
+        let Imported { scene, omissions } = of_gltf(import)?;
+        list(&import.path, &omissions);
+        return one(import, &scene);
+    }
     let options = options(import)?;
     let project = Project::around(&import.path).map_err(refused)?;
     if !import.path.is_dir() {
-        let imported = one(&import.path, &project, &options)?;
-        return match &import.out {
-            Some(file) => {
-                write(file, &imported, import.replacing)?;
-                Ok(writeln!(io::stdout(), "{} is there", file.display())?)
-            }
-            None => Ok(io::stdout().lock().write_all(imported.scene.to_toml().as_bytes())?),
-        };
+        return one(import, &of_unity(&import.path, &project, &options)?);
     }
     let folder = import.out.as_deref().unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
@@ -32,7 +33,7 @@ pub fn import(import: &Import) -> Result<(), Failure> {
     for scene in &scenes {
         let file = folder.join(scene.with_extension("toml").file_name().unwrap_or_default());
         let written = if files.insert(file.clone()) {
-            one(scene, &project, &options)
+            of_unity(scene, &project, &options)
                 .and_then(|imported| write(&file, &imported, import.replacing))
         } else {
             let scene = scene.display();
@@ -53,28 +54,65 @@ pub fn import(import: &Import) -> Result<(), Failure> {
     }
 }
 
+/// Writes the one scene of an import where it is to be.
+fn one(import: &Import, scene: &Scene) -> Result<(), Failure> {
+    match &import.out {
+        Some(file) => {
+            write(file, scene, import.replacing)?;
+            Ok(writeln!(io::stdout(), "{} is there", file.display())?)
+        }
+        None => Ok(io::stdout().lock().write_all(scene.to_toml().as_bytes())?),
+    }
+}
+
+/// Whether a file is glTF, by its ending.
+fn is_gltf(path: &Path) -> bool {
+    let is = |ending: &str| path.extension().is_some_and(|it| it.eq_ignore_ascii_case(ending));
+    is("gltf") || is("glb")
+}
+
+fn of_gltf(import: &Import) -> Result<Imported, Failure> {
+    if import.map.is_some() {
+        let message = "--map says what scripts of Unity mean; glTF has none";
+        return Err(Failure::Usage(message.to_owned()));
+    }
+    let (frame_time, duration) = (import.frame_time, import.seconds);
+    let options = carom_gltf::Options { rule: rule(import), frame_time, duration };
+    carom_gltf::import(&import.path, &options).map_err(|error| match error {
+        carom_gltf::ImportError::Unreadable { .. } => Failure::Usage(error.to_string()),
+        _ => Failure::Fault(error.to_string()),
+    })
+}
+
 fn options(import: &Import) -> Result<Options, Failure> {
     let mapping = import.map.as_deref().map(Mapping::from_file).transpose().map_err(refused)?;
-    let rule = import.rule.as_deref().and_then(|name| {
-        let rules = [Rule::Exact, Rule::Contact, Rule::Bisect, Rule::Discrete];
-        rules.into_iter().find(|rule| rule.name() == name)
-    });
     let mapping = mapping.unwrap_or_else(Mapping::course);
-    Ok(Options { mapping, rule, frame_time: import.frame_time, duration: import.seconds })
+    let (frame_time, duration) = (import.frame_time, import.seconds);
+    Ok(Options { mapping, rule: rule(import), frame_time, duration })
 }
 
-/// Imports a scene, and lists on the standard error stream what it leaves out.
-fn one(scene: &Path, project: &Project, options: &Options) -> Result<Imported, Failure> {
+fn rule(import: &Import) -> Option<Rule> {
+    let rules = [Rule::Exact, Rule::Contact, Rule::Bisect, Rule::Discrete];
+    rules.into_iter().find(|rule| import.rule.as_deref() == Some(rule.name()))
+}
+
+/// Imports a scene of Unity, and lists on the standard error stream what it leaves out.
+fn of_unity(scene: &Path, project: &Project, options: &Options) -> Result<Scene, Failure> {
     let imported = carom_unity::import(scene, project, options).map_err(refused)?;
-    for omission in &imported.omissions {
-        complain(&format!("{}: {omission}", scene.display()));
-    }
-    Ok(imported)
+    list(scene, &imported.omissions);
+    Ok(imported.scene)
 }
 
-fn write(file: &Path, imported: &Imported, replacing: Replacing) -> Result<(), Failure> {
+/// Lists what an import leaves out on the standard error stream.
+fn list(path: &Path, omissions: &[Omission]) {
+    for omission in omissions {
+        complain(&format!("{}: {omission}", path.display()));
+    }
+}
+
+fn write(file: &Path, scene: &Scene, replacing: Replacing) -> Result<(), Failure> {
     replacing.check([file])?;
-    std::fs::write(file, imported.scene.to_toml()).map_err(|error| unwritable(file, &error))
+    std::fs::write(file, scene.to_toml()).map_err(|error| unwritable(file, &error))
 }
 
 fn unwritable(path: &Path, error: &io::Error) -> Failure {

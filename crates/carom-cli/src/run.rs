@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use carom::{StopRequest, World};
-use carom_scene::recording::{ImpactTable, LedgerTable, RecordingError, Trajectory};
+use carom_gltf::{Animation, ExportError};
+use carom_scene::recording::{ImpactTable, LedgerTable, Trajectory};
 use carom_scene::scene::Rule;
 use carom_scene::{Budget, ChangedFile, Library, Source};
 use carom_session::Replay;
@@ -85,7 +86,7 @@ fn once(
         (None, scene) => begin(library, scene.as_deref().unwrap_or_default(), args)?,
     };
 
-    let mut outputs = Outputs::create(args, replay.simulation().rule)?;
+    let mut outputs = Outputs::create(args, &replay)?;
     replay.set_stop_request(Some(StopRequest::from(interrupted.clone())));
     let mut observer = Observer::new(replay.world());
     let progress = Progress::new(frames);
@@ -163,11 +164,20 @@ fn is_standard(path: Option<&Path>) -> bool {
     path.is_some_and(|path| path.as_os_str() == STANDARD)
 }
 
-fn trajectory(path: &Path) -> Result<Trajectory, RecordingError> {
+/// The file of a trajectory; what its ending means, `recording` says, but for animations.
+fn trajectory(path: &Path, replay: &Replay) -> Result<Trajectory, Failure> {
     if is_standard(Some(path)) {
         return Ok(Trajectory::csv(io::stdout(), STANDARD));
     }
-    Trajectory::create(path)
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("glb")) {
+        let animation = Animation::create(path, replay.scene(), replay.world());
+        let animation = animation.map_err(|error| match error {
+            ExportError::Scene(error) => error.into(),
+            error => Failure::Fault(format!("cannot write {}: {error}", path.display())),
+        })?;
+        return Ok(Trajectory::in_format(path, Box::new(animation)));
+    }
+    Ok(Trajectory::create(path)?)
 }
 
 /// Where a file is or will be, the same for all paths to it.
@@ -189,7 +199,7 @@ struct Outputs {
 }
 
 impl Outputs {
-    fn create(args: &Run, rule: Rule) -> Result<Self, Failure> {
+    fn create(args: &Run, replay: &Replay) -> Result<Self, Failure> {
         let files =
             [("--out", &args.out), ("--impacts", &args.impacts), ("--ledger", &args.ledger)];
         let named = files.iter().filter_map(|(name, file)| Some((*name, file.as_deref()?)));
@@ -200,17 +210,17 @@ impl Outputs {
                 return Err(Failure::Usage(format!("{other} and {name} are the same file")));
             }
             let ending = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-            if *name != "--out" && ["npz", "pvd", "vtp"].contains(&ending.as_str()) {
+            if *name != "--out" && ["npz", "pvd", "vtp", "glb"].contains(&ending.as_str()) {
                 let text = format!("{name} {}: it is a table, .csv", file.display());
                 return Err(Failure::Usage(text));
             }
         }
-        if args.ledger.is_some() && rule != Rule::Exact {
+        if args.ledger.is_some() && replay.simulation().rule != Rule::Exact {
             let message = "--ledger needs the rule exact: the other rules keep no ledger";
             return Err(Failure::Usage(message.to_owned()));
         }
         Ok(Self {
-            trajectory: args.out.as_deref().map(trajectory).transpose()?,
+            trajectory: args.out.as_deref().map(|path| trajectory(path, replay)).transpose()?,
             impacts: args.impacts.as_deref().map(ImpactTable::create).transpose()?,
             ledger: args.ledger.as_deref().map(LedgerTable::create).transpose()?,
             every: args.every,

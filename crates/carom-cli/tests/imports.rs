@@ -59,3 +59,49 @@ fn what_is_not_there_or_broken_is_one_line() {
     std::fs::remove_file(&file).unwrap();
     assert!(bad_line(&["import", &empty], 1).contains("holds no scene of Unity"));
 }
+
+/// A file that `carom-gltf` is tested with.
+fn gltf(file: &str) -> String {
+    format!("{}/../carom-gltf/tests/fixtures/{file}", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn gltf_is_imported_and_what_it_leaves_out_is_listed() {
+    let folder = TempDir::new().unwrap();
+    let file = path(&folder, "bodies.toml");
+    let output = run(&["import", &gltf("bodies.gltf"), "--out", &file]);
+    assert!(output.status.success());
+    let report = String::from_utf8(output.stderr).unwrap();
+    assert!(report.contains("Pill: collider: a capsule has no counterpart"), "{report}");
+    good(&["run", &file, "--seconds", "1"]);
+    let meshes = run(&["import", &gltf("meshes.gltf"), "--rule", "contact", "--seconds", "3"]);
+    let scene = String::from_utf8(meshes.stdout).unwrap();
+    assert!(scene.contains("rule = \"contact\"") && scene.contains("duration = 3.0"), "{scene}");
+    assert!(
+        String::from_utf8(meshes.stderr).unwrap().contains("Egg: mesh: is scaled to an ellipsoid")
+    );
+    assert!(bad_line(&["import", &gltf("bodies.gltf"), "--map", &file], 2).contains("--map"));
+    assert!(bad_line(&["import", "nowhere.glb"], 2).contains("nowhere.glb"));
+    std::fs::write(path(&folder, "broken.gltf"), "{\n\"nodes\": 1}").unwrap();
+    let error = bad_line(&["import", &path(&folder, "broken.gltf")], 1);
+    assert!(error.contains("broken.gltf: line 2, nodes: "), "{error}");
+}
+
+#[test]
+fn a_recorded_animation_is_a_scene_that_runs_as_the_first() {
+    let folder = TempDir::new().unwrap();
+    let (animation, file) = (path(&folder, "cradle.glb"), path(&folder, "cradle.toml"));
+    let again = ["run", "cradle", "--seconds", "1", "--out", &animation];
+    let first = good(&again);
+    assert!(run(&["import", &animation, "--out", &file]).status.success());
+    let second = good(&["run", &file, "--seconds", "1"]);
+    let hash =
+        |table: &str| table.lines().find(|it| it.starts_with("state hash")).map(str::to_owned);
+    assert_eq!(hash(&second), hash(&first));
+    assert!(bad_line(&again, 2).contains("cradle.glb"), "it is not written over");
+    let nowhere = path(&folder, "no/run.glb");
+    assert!(bad_line(&["run", "cradle", "--out", &nowhere], 1).contains("run.glb"));
+    assert!(
+        bad_line(&["run", "cradle", "--out", "run.mov"], 2).contains(".glb (an animation in glTF)")
+    );
+}

@@ -95,6 +95,11 @@ impl Failure {
         Self::new(Kind::Graphics, problem)
     }
 
+    /// Why a file of another program is not imported.
+    pub fn of_import(error: impl std::error::Error) -> Self {
+        Self::new(Kind::Scene, error)
+    }
+
     /// What is wrong with a scene that was described in code: it has no lines, and no name.
     pub fn of_part(error: SceneError) -> Self {
         PartError::from(error).into()

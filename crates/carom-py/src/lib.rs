@@ -28,6 +28,7 @@ mod failure;
 mod film;
 #[cfg(feature = "pictures")]
 mod graphics_failure;
+mod imports;
 #[cfg(feature = "pictures")]
 mod look;
 mod maze;
@@ -80,6 +81,8 @@ mod _carom {
     #[cfg(feature = "pictures")]
     #[pymodule_export]
     use crate::film::film_scene;
+    #[pymodule_export]
+    use crate::imports::{import_gltf, import_unity};
     #[pymodule_export]
     use crate::pairs::{pair_histogram, pairs_within};
     #[pymodule_export]

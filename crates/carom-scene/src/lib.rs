@@ -3,7 +3,8 @@
 //! A [`Scene`] is what a TOML file says ([`scene`]), checked; [`Scene::world`] makes a
 //! [`carom::World`] of it. A [`Library`] finds scenes by name: built-in ones, those in folders,
 //! and those registered from code. [`part`] reads what is added to worlds. `recording` (feature `recording`) writes trajectories and
-//! impacts, and plays trajectories again. A [`Palette`] says in which colours a scene is drawn.
+//! impacts, and plays trajectories again. A [`Palette`] says in which colours a scene is drawn. [`import`] is
+//! what imports from other formats have in common.
 //!
 //! ```
 //! let (scene, _) = carom_scene::Library::new().find("simtest1", &[])?;
@@ -28,6 +29,7 @@ mod expand;
 mod force;
 mod formula;
 mod generate;
+pub mod import;
 mod legible;
 mod library;
 mod load;

@@ -2,18 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use carom_scene::scene::{Collider, Color, Emitter, Force, Scene, Shape, Sphere};
+use carom_scene::import::{Omission, legible, omit};
+use carom_scene::scene::{Collider, Emitter, Finish, Force, Scene, Shape, Sphere};
 
 use crate::document::Document;
 use crate::error::{ImportError, Place};
 use crate::graph::Node;
 use crate::look;
 use crate::mapping::{EmitterFields, ForceFields, SphereFields};
-use crate::material;
+use crate::material::{self, Look};
 use crate::parts::Parts;
 use crate::pose::{mirrored, mirrored_rotation};
 use crate::project::Project;
-use crate::report::{Omission, omit};
 use crate::script::Script;
 use crate::shape::{Mesh, Placed, of_collider};
 use crate::value::Value;
@@ -32,8 +32,8 @@ pub(crate) struct Building<'a> {
     forces: Option<Vec<Force>>,
     /// Mass of spheres whose script does not say it, in kg.
     mass: Option<f64>,
-    /// Colours by their materials' guids.
-    colors: BTreeMap<String, Option<(Color, bool)>>,
+    /// Looks by their materials' guids.
+    looks: BTreeMap<String, Option<Look>>,
 }
 
 impl<'a> Building<'a> {
@@ -47,7 +47,7 @@ impl<'a> Building<'a> {
             placed: Vec::new(),
             forces: None,
             mass: None,
-            colors: BTreeMap::new(),
+            looks: BTreeMap::new(),
         }
     }
 
@@ -148,7 +148,8 @@ impl<'a> Building<'a> {
         sphere.mass = script.some_number(mass.as_ref())?;
         sphere.velocity = mirrored(script.some_vector(velocity.as_ref())?.unwrap_or_default());
         sphere.restitution = script.some_number(restitution.as_ref())?.unwrap_or(1.0);
-        sphere.color = self.color(node, parts)?.0;
+        let look = self.look(node, parts)?;
+        (sphere.color, sphere.finish) = (look.color, look.finish);
         self.push_sphere(sphere, script.document);
         Ok(())
     }
@@ -191,7 +192,9 @@ impl<'a> Building<'a> {
             }
             collider.restitution = restitution;
         }
-        (collider.color, collider.visible) = self.color(node, parts)?;
+        let look = self.look(node, parts)?;
+        (collider.color, collider.finish, collider.visible) =
+            (look.color, look.finish, look.visible);
         self.push_collider(collider, placed, node, script.document);
         Ok(())
     }
@@ -260,30 +263,38 @@ impl<'a> Building<'a> {
         self.placed.push((placed, node.clone()));
     }
 
-    /// The colour of an object by its first material, and whether it is seen.
-    pub fn color(
-        &mut self,
-        node: &Node,
-        parts: &Parts<'_>,
-    ) -> Result<(Option<Color>, bool), ImportError> {
+    /// What an object looks like by its first material.
+    pub fn look(&mut self, node: &Node, parts: &Parts<'_>) -> Result<Look, ImportError> {
         /// Guids of files that come with Unity begin so.
         const BUILT_IN: &str = "0000000000000000";
-        let Some(renderer) = parts.renderer else { return Ok((None, false)) };
+        let plain = |visible| Look { color: None, finish: Finish::default(), visible };
+        let Some(renderer) = parts.renderer else { return Ok(plain(false)) };
         let enabled = renderer.fields.get("m_Enabled").and_then(Value::text) != Some("0");
-        let material = renderer.fields.get("m_Materials").and_then(|it| it.items().first());
+        let materials = renderer.fields.get("m_Materials").map(Value::items).unwrap_or_default();
+        if materials.len() > 1 {
+            let reason = "the first of its materials is taken";
+            omit(&mut self.report, &node.path, &renderer.class_name, reason);
+        }
+        let material = materials.first();
         let guid = material.and_then(Value::reference).and_then(|it| it.guid);
-        let (Some(material), Some(guid)) = (material, guid) else { return Ok((None, enabled)) };
-        let color = match self.colors.get(&guid) {
-            Some(color) => *color,
-            None => material::color(material, self.project)?,
+        let (Some(material), Some(guid)) = (material, guid) else { return Ok(plain(enabled)) };
+        let look = match self.looks.get(&guid) {
+            Some(look) => look.clone(),
+            None => {
+                let found = material::appearance(material, self.project)?;
+                for reason in found.iter().flat_map(|it| &it.left_out) {
+                    omit(&mut self.report, &node.path, "Material", *reason);
+                }
+                found.map(|it| it.look)
+            }
         };
-        if color.is_none() && !guid.starts_with(BUILT_IN) {
+        if look.is_none() && !guid.starts_with(BUILT_IN) {
             let reason = "its material is not in the project, or has no colour";
             omit(&mut self.report, &node.path, &renderer.class_name, reason);
         }
-        self.colors.insert(guid, color);
-        let (color, seen) = color.map_or((None, true), |(color, seen)| (Some(color), seen));
-        Ok((color, enabled && seen))
+        self.looks.insert(guid, look.clone());
+        let look = look.unwrap_or_else(|| plain(true));
+        Ok(Look { visible: enabled && look.visible, ..look })
     }
 
     /// Puts together what needs the whole scene: forces, masses, and planes that enclose a box.
@@ -316,7 +327,7 @@ impl<'a> Building<'a> {
             let name = box_name(&node.path);
             let collider = &mut self.scene.colliders[group[0]];
             collider.name = name;
-            collider.shape = Shape::Box { size: crate::pose::shortened(size.to_array()) };
+            collider.shape = Shape::Box { size: carom_scene::import::shortened(size.to_array()) };
             collider.position = mirrored(center);
             collider.rotation = mirrored_rotation(frame);
             absorbed.extend(&group[1..]);
@@ -347,9 +358,4 @@ fn box_name(path: &str) -> String {
     let mut names: Vec<&str> = path.rsplit('/').skip(1).take(2).collect();
     names.reverse();
     if names.is_empty() { "box".to_owned() } else { legible(&names.join("/")) }
-}
-
-/// A name without characters that steer a terminal, of 200 characters at most.
-pub(crate) fn legible(name: &str) -> String {
-    name.chars().map(|it| if it.is_control() { ' ' } else { it }).take(200).collect()
 }

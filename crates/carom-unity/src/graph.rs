@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use carom::{DQuat, DVec3};
+use carom_scene::import::{Omission, omit};
 
 use crate::class;
 use crate::document::Document;
 use crate::error::ImportError;
 use crate::pose::{Pose, rounded};
-use crate::report::{Omission, omit};
 use crate::value::Value;
 
 /// A game object.

@@ -25,15 +25,14 @@ mod physics;
 mod pose;
 mod prefab;
 mod project;
-mod report;
 mod scene;
 mod script;
 mod shape;
 mod value;
 mod walls;
 
+pub use carom_scene::import::Omission;
 pub use error::ImportError;
 pub use mapping::Mapping;
 pub use project::Project;
-pub use report::Omission;
 pub use scene::{Imported, Options, import};

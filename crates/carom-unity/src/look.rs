@@ -1,12 +1,12 @@
 //! Cameras and lights.
 
+use carom_scene::import::{Omission, omit};
 use carom_scene::scene::{Camera, Colors, Scene, Sun};
 
 use crate::document::Document;
 use crate::error::ImportError;
 use crate::graph::Node;
 use crate::pose::{mirrored, mirrored_rotation};
-use crate::report::{Omission, omit};
 use crate::value::Value;
 
 /// Takes a camera over, the first one or the main one.

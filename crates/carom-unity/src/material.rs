@@ -1,6 +1,6 @@
-//! Materials: colours, and how surfaces bounce and rub.
+//! Materials: colours and finishes, and how surfaces bounce and rub.
 
-use carom_scene::scene::{Color, CombineRule};
+use carom_scene::scene::{Color, CombineRule, Finish};
 
 use crate::class;
 use crate::document;
@@ -8,19 +8,67 @@ use crate::error::ImportError;
 use crate::project::Project;
 use crate::value::Value;
 
-/// The colour of a material file, and whether it is seen at all; `None` where the reference leads to
-/// no material of the project.
-pub(crate) fn color(
+/// What an object looks like.
+#[derive(Debug, Clone)]
+pub(crate) struct Look {
+    /// `None` where its material says none.
+    pub color: Option<Color>,
+    /// How its surface takes light.
+    pub finish: Finish,
+    /// Whether it is seen at all.
+    pub visible: bool,
+}
+
+/// What a material file says of a look, and what of it has no counterpart.
+#[derive(Debug, Clone)]
+pub(crate) struct Appearance {
+    pub look: Look,
+    pub left_out: Vec<&'static str>,
+}
+
+/// The appearance of a material file; `None` where the reference leads to no material of the project, or
+/// it has no colour.
+pub(crate) fn appearance(
     reference: &Value,
     project: &Project,
-) -> Result<Option<(Color, bool)>, ImportError> {
+) -> Result<Option<Appearance>, ImportError> {
     let Some(fields) = asset(reference, class::MATERIAL, project)? else { return Ok(None) };
-    let colors = fields.get("m_SavedProperties").and_then(|it| it.get("m_Colors"));
+    let saved = fields.get("m_SavedProperties");
     // Each is a table of one name; in files of Unity 5 and before, `first` and `second`.
-    let named = |name: &str| colors.and_then(|it| it.items().iter().find_map(|it| it.get(name)));
-    let Some(color) = named("_Color").or_else(|| named("_BaseColor")) else { return Ok(None) };
-    let [r, g, b, a] = color.numbers("the colour", ["r", "g", "b", "a"])?;
-    Ok(Some(([r, g, b].map(|part| part.clamp(0.0, 1.0)), a > 0.0)))
+    let named = |list: &str, name: &str| {
+        saved?.get(list)?.items().iter().find_map(|it| it.get(name)).cloned()
+    };
+    let color = |name: &str| named("m_Colors", name);
+    let Some(base) = color("_Color").or_else(|| color("_BaseColor")) else { return Ok(None) };
+    let [r, g, b, opacity] = base.numbers("the colour", ["r", "g", "b", "a"])?;
+    let float = |name: &str| named("m_Floats", name).map(|it| it.number(name)).transpose();
+    // By the standard shader, and by that of the Universal Render Pipeline.
+    let smoothness = float("_Glossiness")?.or(float("_Smoothness")?);
+    let is_transparent = float("_Mode")?.unwrap_or(0.0) >= 2.0 || float("_Surface")? == Some(1.0);
+    let finish = match (float("_Metallic")?, smoothness) {
+        _ if is_transparent && opacity < 1.0 => Finish::Glass,
+        (None, None) => Finish::default(),
+        (metallic, smoothness) => {
+            let roughness = 1.0 - smoothness.unwrap_or(0.5);
+            Finish::of_metallic_roughness([metallic.unwrap_or(0.0), roughness])
+        }
+    };
+    let mut left_out = Vec::new();
+    let textures = saved.and_then(|it| it.get("m_TexEnvs")).map(Value::items).unwrap_or_default();
+    let is_there = |texture: &Value| {
+        texture.values().any(|it| it.get("m_Texture").is_some_and(|it| it.reference().is_some()))
+    };
+    if textures.iter().any(is_there) {
+        left_out.push("its textures have no counterpart; its plain colour is taken");
+    }
+    if let Some(glow) = color("_EmissionColor")
+        && glow.numbers("the colour", ["r", "g", "b"])? != [0.0; 3]
+    {
+        left_out.push("its glow has no counterpart");
+    }
+    let color = Some([r, g, b].map(|part| part.clamp(0.0, 1.0)));
+    let look = Look { color, finish, visible: opacity > 0.0 };
+    Ok(Some(Appearance { look, left_out }))
 }
 
 /// How a surface bounces and rubs.

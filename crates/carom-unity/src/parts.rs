@@ -1,11 +1,12 @@
 //! The components of a game object by what they are.
 
+use carom_scene::import::{Omission, omit};
+
 use crate::class;
 use crate::document::Document;
 use crate::graph::Node;
 use crate::mapping::Mapping;
 use crate::project::Project;
-use crate::report::{Omission, omit};
 use crate::script::Script;
 use crate::value::Value;
 

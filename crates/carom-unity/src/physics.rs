@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use carom_scene::import::omit;
 use carom_scene::scene::{Collider, CombineRule, Force, Sphere};
 
 use crate::build::Building;
@@ -11,7 +12,6 @@ use crate::graph::Node;
 use crate::material::Surface;
 use crate::parts::{Parts, is_set, is_trigger};
 use crate::pose::mirrored;
-use crate::report::omit;
 use crate::shape::{Placed, of_collider};
 use crate::value::Value;
 
@@ -89,7 +89,8 @@ impl Physics {
         sphere.mass = Some(mass);
         sphere.restitution = surface.bounciness;
         sphere.friction = Some(surface.friction);
-        sphere.color = building.color(node, parts)?.0;
+        let look = building.look(node, parts)?;
+        (sphere.color, sphere.finish) = (look.color, look.finish);
         building.push_sphere(sphere, body);
         // Unity's drag is a rate: the force is that times mass and velocity.
         let drag = mass * fields.number_at_either(["m_Drag", "m_LinearDamping"], 0.0)?;
@@ -201,7 +202,8 @@ fn add_collider(
     collider.trigger = is_trigger(document);
     collider.restitution = surface.bounciness;
     collider.friction = Some(surface.friction);
-    (collider.color, collider.visible) = building.color(node, parts)?;
+    let look = building.look(node, parts)?;
+    (collider.color, collider.finish, collider.visible) = (look.color, look.finish, look.visible);
     building.push_collider(collider, placed, node, document);
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Where things are: Unity's left-handed frame, and how it becomes a right-handed one.
 
 use carom::{DQuat, DVec3};
+use carom_scene::import::shortened;
 
 /// Place, rotation and scale of an object in the world, in Unity's frame.
 #[derive(Debug, Clone, Copy)]
@@ -70,18 +71,6 @@ pub(crate) fn mirrored_rotation(rotation: DQuat) -> [f64; 4] {
     let DQuat { x, y, z, w } = rotation;
     // Two decimals more than Unity's numbers have.
     [-x, -y, z, w].map(|part| rounded(part, 1e9))
-}
-
-/// Numbers with the 9 digits that tell any two 32-bit numbers apart, which Unity computes with: 0.3
-/// for 0.30000000000000004. What is nothing beside the largest of them becomes 0.
-pub(crate) fn shortened<const N: usize>(numbers: [f64; N]) -> [f64; N] {
-    let largest = numbers.iter().fold(0.0_f64, |largest, number| largest.max(number.abs()));
-    numbers.map(|number| {
-        if number.abs() <= 1e-12 * largest {
-            return 0.0;
-        }
-        format!("{number:.8e}").parse().unwrap_or(number)
-    })
 }
 
 /// A number with so many steps per unit.

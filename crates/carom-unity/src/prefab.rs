@@ -4,12 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use carom_scene::import::{Omission, omit};
+
 use crate::class;
 use crate::document::{self, Document};
 use crate::error::{ImportError, Place};
 use crate::modification::Modification;
 use crate::project::Project;
-use crate::report::{Omission, omit};
 use crate::value::{Kind, Value};
 
 /// Reads scenes and prefabs, each file once.

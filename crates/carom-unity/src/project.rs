@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use carom_scene::import::{Omission, omit};
+
 use crate::document;
 use crate::error::{ImportError, read_text};
-use crate::report::{Omission, omit};
 
 /// The files of a project.
 #[derive(Debug, Default)]

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use carom_scene::SceneError;
+use carom_scene::import::{Omission, legible, made_runnable, omit};
 use carom_scene::scene::{Rule, Scene};
 
-use crate::build::{Building, legible};
+use crate::build::Building;
 use crate::class;
 use crate::document::Document;
 use crate::error::{ImportError, Place};
@@ -16,7 +17,6 @@ use crate::parts::Parts;
 use crate::physics::Physics;
 use crate::prefab::Loader;
 use crate::project::Project;
-use crate::report::{Omission, omit};
 
 /// What a scene of Unity does not say.
 #[derive(Debug, Clone)]
@@ -166,24 +166,19 @@ fn fixed_time_step(project: &Project) -> Result<Option<f64>, ImportError> {
         None => step.number(field)?,
         Some((count, rate)) => {
             let [seconds, ticks] = rate.numbers("m_Rate", ["m_Denominator", "m_Numerator"])?;
-            crate::pose::shortened([count.number("m_Count")? * seconds / ticks])[0]
+            carom_scene::import::shortened([count.number("m_Count")? * seconds / ticks])[0]
         }
     };
     Ok(Some(step))
 }
 
-/// The scene, if it makes a world. Spheres that overlap at the start may, as they may in Unity, and are
-/// listed.
+/// The scene, if it makes a world.
 fn checked(building: Building<'_>, path: &Path) -> Result<Imported, ImportError> {
     let Building { mut scene, places, mut report, .. } = building;
-    if let Err(refused) = scene.world() {
-        scene.simulation.allow_overlap = true;
-        if let Err(error) = scene.world() {
-            return Err(at_place(error, &places, path));
-        }
-        omit(&mut report, &scene.name, "start", format!("`allow_overlap` is set, for {refused}"));
+    match made_runnable(&mut scene, &mut report) {
+        Ok(()) => Ok(Imported { scene, omissions: report }),
+        Err(error) => Err(at_place(error, &places, path)),
     }
-    Ok(Imported { scene, omissions: report })
 }
 
 /// A refusal of a scene, at the line of Unity's file where that is known.

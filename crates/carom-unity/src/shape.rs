@@ -1,12 +1,13 @@
 //! Forms of colliders: built-in meshes, and the colliders of Unity's own physics.
 
 use carom::{DQuat, DVec3};
+use carom_scene::import::shortened;
 use carom_scene::scene::Shape;
 
 use crate::class;
 use crate::document::Document;
 use crate::error::ImportError;
-use crate::pose::{Pose, shortened};
+use crate::pose::Pose;
 use crate::value::Value;
 
 /// A form at a place, in Unity's frame.

@@ -54,6 +54,15 @@ impl Value {
         }
     }
 
+    /// The values of a map; none where it is no map.
+    pub fn values(&self) -> impl Iterator<Item = &Value> {
+        let fields = match &self.kind {
+            Kind::Map(fields) => &fields[..],
+            _ => &[],
+        };
+        fields.iter().map(|(_, value)| value)
+    }
+
     /// The text as it is written.
     pub fn text(&self) -> Option<&str> {
         match &self.kind {

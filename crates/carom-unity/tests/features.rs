@@ -4,7 +4,7 @@ mod fixtures;
 
 use std::fs;
 
-use carom_scene::scene::{Collider, CombineRule, Force, Rule, Scene, Shape};
+use carom_scene::scene::{Collider, CombineRule, Finish, Force, Rule, Scene, Shape};
 use carom_unity::{Mapping, Options, Project, import};
 use fixtures::{Copy, imported, project, reasons, scene};
 
@@ -82,7 +82,7 @@ fn rigid_bodies_that_are_spheres_move_under_the_project_s_gravity() {
     let [ball] = &scene.spheres[..] else { panic!("{:?}", scene.spheres) };
     assert_eq!((ball.position, ball.radius, ball.mass), ([0.0, 4.0, -3.0], Some(1.0), Some(2.5)));
     assert_eq!((ball.restitution, ball.friction), (0.75, Some(0.25)));
-    assert_eq!(ball.color, Some([0.75, 0.25, 0.125]));
+    assert_eq!((ball.color, ball.finish), (Some([0.75, 0.25, 0.125]), Finish::Glossy));
     assert_eq!(
         scene.forces,
         [
@@ -211,4 +211,35 @@ fn lines_of_windows_make_no_difference() {
     let text = fs::read_to_string(&path).unwrap();
     fs::write(&path, text.replace('\n', "\r\n")).unwrap();
     assert_eq!(copy.import("First").unwrap().scene, imported("First").scene);
+}
+
+#[test]
+fn metalness_smoothness_and_opacity_give_the_finish() {
+    let copy = Copy::new();
+    let finish = |old: &str, new: &str| {
+        copy.change("Assets/Materials/Red.mat", old, new);
+        copy.import("Bodies").unwrap().scene.spheres[0].finish
+    };
+    assert_eq!(finish("_Glossiness: 0.9", "_Smoothness: 0.5"), Finish::Satin);
+    assert_eq!(finish("_Smoothness: 0.5", "_Smoothness: 0.1"), Finish::Matte);
+    assert_eq!(finish("_Metallic: 0", "_Metallic: 1"), Finish::Metal);
+    assert_eq!(finish("_Mode: 0", "_Mode: 3"), Finish::Metal, "it is opaque");
+    assert_eq!(finish("b: 0.125, a: 1", "b: 0.125, a: 0.3"), Finish::Glass);
+}
+
+#[test]
+fn textures_and_glow_of_materials_are_listed_once() {
+    let copy = Copy::new();
+    let material = "Assets/Materials/Red.mat";
+    copy.change(
+        material,
+        "m_Texture: {fileID: 0}",
+        "m_Texture: {fileID: 2800000, guid: 77, type: 3}",
+    );
+    copy.change(material, "_EmissionColor: {r: 0", "_EmissionColor: {r: 2");
+    let reasons = reasons(&copy.import("Bodies").unwrap());
+    for reason in ["its textures have no counterpart", "its glow has no counterpart"] {
+        let lines = reasons.iter().filter(|it| it.contains(&format!("Material: {reason}")));
+        assert_eq!(lines.count(), 1, "{reasons:#?}");
+    }
 }

@@ -22,6 +22,7 @@ use std::path::{Path, PathBuf};
 use carom::World;
 
 pub use error::RecordingError;
+pub use format::Format;
 pub use impacts::ImpactTable;
 pub use ledger::LedgerTable;
 pub use playback::Playback;
@@ -29,7 +30,6 @@ pub use replay::{LineProblem, Replay, ReplayBall, ReplayError, ReplayFrame};
 
 use each_second::EachSecond;
 use error::unwritable;
-use format::Format;
 
 /// Writes the states of a world, frame by frame.
 ///
@@ -77,6 +77,11 @@ impl Trajectory {
         };
         let format = format.map_err(|source| unwritable(path, source))?;
         Ok(Self { path: path.to_owned(), format, clock: EachSecond::new() })
+    }
+
+    /// Writes in a format of another crate to the file at `path`, which errors name.
+    pub fn in_format(path: &Path, format: Box<dyn Format>) -> Self {
+        Self { path: path.to_owned(), format, clock: EachSecond::new() }
     }
 
     /// Writes CSV to `out`, which errors call `name`.

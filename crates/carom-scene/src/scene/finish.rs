@@ -19,3 +19,40 @@ pub enum Finish {
     /// Clear, in a tint of its colour.
     Glass,
 }
+
+impl Finish {
+    /// Metalness and roughness, each in \[0, 1\], of a physically based material that looks like it; of
+    /// glass, those of its surface.
+    pub fn metallic_roughness(self) -> [f64; 2] {
+        match self {
+            Self::Matte => [0.0, 1.0],
+            Self::Satin => [0.0, 0.5],
+            Self::Glossy => [0.0, 0.1],
+            Self::Metal => [1.0, 0.15],
+            Self::Glass => [0.0, 0.0],
+        }
+    }
+
+    /// The opaque finish that looks most like a physically based material of this metalness and roughness, each in
+    /// \[0, 1\].
+    pub fn of_metallic_roughness([metallic, roughness]: [f64; 2]) -> Self {
+        match (metallic, roughness) {
+            (0.5.., _) => Self::Metal,
+            (_, 0.8..) => Self::Matte,
+            (_, ..0.3) => Self::Glossy,
+            _ => Self::Satin,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Finish;
+
+    #[test]
+    fn an_opaque_finish_is_found_again_from_its_metalness_and_roughness() {
+        for finish in [Finish::Matte, Finish::Satin, Finish::Glossy, Finish::Metal] {
+            assert_eq!(Finish::of_metallic_roughness(finish.metallic_roughness()), finish);
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! What bodies look like: meshes of size 1, which nodes scale.
+
+use carom::Sides;
+
+use super::arrays::Arrays;
+use crate::document::{Attributes, Primitive};
+
+/// Form of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Form {
+    /// A sphere of radius 1.
+    Sphere,
+    /// A sphere of radius 1 in two tones: a band and two caps show how it turns.
+    BandedSphere,
+    /// 1 by 1 in the xz plane, facing +y.
+    Square,
+    /// With edges of 1.
+    Cube,
+    /// The walls of a hollow box with edges of 1, seen from within.
+    Walls {
+        /// Where there is none.
+        open: Sides,
+    },
+}
+
+/// Slices of a sphere about its axis, and stacks along it.
+const SLICES: usize = 32;
+const STACKS: usize = 16;
+/// The stacks of the band, and of one cap; half a ball's height each way is about 0.2.
+const BAND: std::ops::Range<usize> = STACKS / 2 - 1..STACKS / 2 + 1;
+const CAP: usize = 3;
+
+/// Vertices and indices that are in a file already.
+#[derive(Debug, Default)]
+pub(super) struct Geometry {
+    /// Vertices of a sphere, which are its normals, too.
+    sphere: Option<usize>,
+    /// Indices of a sphere in one tone, and of one in two.
+    plain: Option<usize>,
+    banded: Option<[usize; 2]>,
+    square: Option<[usize; 3]>,
+    cube: Option<[usize; 3]>,
+}
+
+impl Geometry {
+    /// The triangles of a form: in the colour of the body, and, of a banded sphere, in the other tone.
+    pub fn triangles(&mut self, form: Form, arrays: &mut Arrays) -> Vec<Primitive> {
+        match form {
+            Form::Sphere => {
+                let vertices = self.sphere(arrays);
+                let all = || arrays.push_indices(&sphere_indices(|_| true));
+                vec![primitive(vertices, vertices, *self.plain.get_or_insert_with(all))]
+            }
+            Form::BandedSphere => {
+                let vertices = self.sphere(arrays);
+                let both = || {
+                    let plain = sphere_indices(|stack| !is_mark(stack));
+                    [plain, sphere_indices(is_mark)].map(|it| arrays.push_indices(&it))
+                };
+                let indices = *self.banded.get_or_insert_with(both);
+                indices.map(|indices| primitive(vertices, vertices, indices)).to_vec()
+            }
+            Form::Square => {
+                let [vertices, normals, indices] =
+                    *self.square.get_or_insert_with(|| square(arrays));
+                vec![primitive(vertices, normals, indices)]
+            }
+            Form::Cube => {
+                let [vertices, normals, indices] =
+                    *self.cube.get_or_insert_with(|| cube(arrays, Sides::NONE, 1.0));
+                vec![primitive(vertices, normals, indices)]
+            }
+            Form::Walls { open } if open == Sides::ALL => Vec::new(),
+            Form::Walls { open } => {
+                let [vertices, normals, indices] = cube(arrays, open, -1.0);
+                vec![primitive(vertices, normals, indices)]
+            }
+        }
+    }
+
+    fn sphere(&mut self, arrays: &mut Arrays) -> usize {
+        *self.sphere.get_or_insert_with(|| arrays.push_vertices(&sphere_vertices()))
+    }
+}
+
+fn primitive(position: usize, normal: usize, indices: usize) -> Primitive {
+    let attributes = Attributes { position: Some(position), normal: Some(normal) };
+    Primitive { attributes, indices: Some(indices), material: None, mode: 4, targets: Vec::new() }
+}
+
+/// Places on a sphere of radius 1, whose axis is x.
+fn sphere_vertices() -> Vec<[f32; 3]> {
+    let mut vertices = Vec::new();
+    for stack in 0..=STACKS {
+        let (height, radius) = circle_point(stack, 2 * STACKS);
+        for slice in 0..=SLICES {
+            let (z, y) = circle_point(slice % SLICES, SLICES);
+            vertices.push([height, radius * y, radius * z].map(|it| it as f32));
+        }
+    }
+    vertices
+}
+
+/// Indices of the triangles of some stacks of a sphere.
+fn sphere_indices(is_chosen: impl Fn(usize) -> bool) -> Vec<u16> {
+    let corner = |stack: usize, slice: usize| (stack * (SLICES + 1) + slice) as u16;
+    let mut indices = Vec::new();
+    for stack in (0..STACKS).filter(|&stack| is_chosen(stack)) {
+        for slice in 0..SLICES {
+            let [a, b] = [corner(stack, slice), corner(stack, slice + 1)];
+            let [c, d] = [corner(stack + 1, slice), corner(stack + 1, slice + 1)];
+            // At a pole, one side of the quad is a point.
+            if stack > 0 {
+                indices.extend([a, b, d]);
+            }
+            if stack + 1 < STACKS {
+                indices.extend([a, d, c]);
+            }
+        }
+    }
+    indices
+}
+
+/// Whether a stack is part of the band or of a cap.
+fn is_mark(stack: usize) -> bool {
+    BAND.contains(&stack) || !(CAP..STACKS - CAP).contains(&stack)
+}
+
+/// Cosine and sine of a part of the full angle.
+fn circle_point(part: usize, of: usize) -> (f64, f64) {
+    let angle = 2.0 * std::f64::consts::PI * part as f64 / of as f64;
+    // At quarters, where round-off would be seen, they are exact.
+    match 4 * part {
+        quarters if quarters == of => (0.0, 1.0),
+        quarters if quarters == 2 * of => (-1.0, 0.0),
+        quarters if quarters == 3 * of => (0.0, -1.0),
+        _ => (libm::cos(angle), libm::sin(angle)),
+    }
+}
+
+fn square(arrays: &mut Arrays) -> [usize; 3] {
+    let corners = [[-0.5, 0.0, 0.5], [0.5, 0.0, 0.5], [0.5, 0.0, -0.5], [-0.5, 0.0, -0.5]];
+    let vertices = arrays.push_vertices(&corners);
+    let normals = arrays.push_vertices(&[[0.0, 1.0, 0.0]; 4]);
+    [vertices, normals, arrays.push_indices(&[0, 1, 2, 0, 2, 3])]
+}
+
+/// The faces of a cube that are not open: seen from outside, or, where `outward` is -1, from within.
+fn cube(arrays: &mut Arrays, open: Sides, outward: f32) -> [usize; 3] {
+    let (mut vertices, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
+    let is_open = open.to_array();
+    for side in (0..6).filter(|&side| !is_open[side]) {
+        let (axis, sign) = (side / 2, if side % 2 == 0 { -1.0 } else { 1.0 });
+        let [across, along] = [(axis + 1) % 3, (axis + 2) % 3];
+        let first = vertices.len() as u16;
+        for [u, v] in [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]] {
+            let mut corner = [0.0; 3];
+            (corner[axis], corner[across], corner[along]) = (0.5 * sign, u, v);
+            vertices.push(corner);
+            let mut normal = [0.0; 3];
+            normal[axis] = sign * outward;
+            normals.push(normal);
+        }
+        // Across, along and axis are right-handed.
+        let front = if sign * outward > 0.0 { [0, 1, 2, 0, 2, 3] } else { [0, 2, 1, 0, 3, 2] };
+        indices.extend(front.map(|it| first + it));
+    }
+    [arrays.push_vertices(&vertices), arrays.push_vertices(&normals), arrays.push_indices(&indices)]
+}

@@ -1,0 +1,205 @@
+//! The nodes of a file: colliders, camera, light and balls, with their meshes and materials.
+
+use carom::{Collider, DQuat, DVec3, Shape, Sides, Sphere, World};
+use carom_scene::scene::Scene;
+use carom_scene::{Coat, Palette};
+
+use super::arrays::Arrays;
+use super::bodies::{Bodies, place_of};
+use super::geometry::{Form, Geometry};
+use super::look;
+use super::tracks::Placement;
+use crate::document::{Camera, Document, LightReference, Lights, Mesh, Node, NodeExtensions};
+
+/// How many nodes a mesh of one coat has, and which.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct MeshKey {
+    form: Form,
+    coat: Coat,
+}
+
+/// A file on its way: everything but arrays.
+pub(super) struct Nodes {
+    pub document: Document,
+    pub bodies: Bodies,
+    geometry: Geometry,
+    /// Of the document's meshes.
+    meshes: Vec<MeshKey>,
+    /// How far the scene reaches from the origin \[m\]: half-spaces are drawn beyond that.
+    extent: f64,
+}
+
+impl Nodes {
+    /// The nodes of a scene's camera and light.
+    pub fn new(scene: &Scene, world: &World) -> Self {
+        let mut nodes = Self {
+            document: Document::default(),
+            bodies: Bodies::new(scene),
+            geometry: Geometry::default(),
+            meshes: Vec::new(),
+            extent: extent(world),
+        };
+        if let Some(camera) = &scene.camera {
+            let (position, rotation) = (camera.position, DQuat::from_array(camera.rotation));
+            nodes.document.cameras.push(look::camera(camera) as Camera);
+            nodes.push(Node {
+                camera: Some(0),
+                ..placed("camera", DVec3::from_array(position), rotation, [1.0; 3])
+            });
+        }
+        let sun = look::sun(scene);
+        nodes.document.extensions.lights = Some(Lights { lights: vec![look::light(&sun)] });
+        let rotation = DQuat::from_array(sun.rotation);
+        let extensions =
+            NodeExtensions { light: Some(LightReference { light: 0 }), ..Default::default() };
+        nodes.push(Node { extensions, ..placed("sun", DVec3::ZERO, rotation, [1.0; 3]) });
+        nodes
+    }
+
+    /// Adds a collider: its node, which may have walls as children. Returns the index of the node.
+    pub fn push_collider(
+        &mut self,
+        name: &str,
+        collider: &Collider,
+        coat: Option<Coat>,
+        arrays: &mut Arrays,
+    ) -> usize {
+        let place = self.collider_place(collider);
+        let form = match collider.shape {
+            Shape::Sphere { .. } => Form::Sphere,
+            Shape::Box { .. } => Form::Cube,
+            Shape::Container { open, .. } => Form::Walls { open },
+            _ => Form::Square,
+        };
+        let body = self.bodies.collider(collider);
+        let walls = match collider.shape {
+            Shape::Container { open, .. } => self.push_walls(collider, open),
+            _ => Vec::new(),
+        };
+        let mesh = coat.and_then(|coat| self.mesh(MeshKey { form, coat }, arrays));
+        let extensions = NodeExtensions { body, ..Default::default() };
+        let Placement { position, rotation, scale } = place;
+        let node = placed(name, position, rotation, scale);
+        self.push(Node { children: walls, mesh, extensions, ..node })
+    }
+
+    /// Where the node of a collider is, and how its mesh of size 1 is scaled.
+    pub fn collider_place(&self, collider: &Collider) -> Placement {
+        let scale = match collider.shape {
+            Shape::Sphere { radius } => [radius; 3],
+            Shape::Rectangle { size_x, size_z } => [size_x, 1.0, size_z],
+            Shape::Box { size } | Shape::Container { size, .. } => size.to_array(),
+            _ => [8.0 * self.extent, 1.0, 8.0 * self.extent],
+        };
+        let (position, rotation) = (collider.pose.position, collider.pose.rotation.normalize());
+        Placement { position, rotation, scale }
+    }
+
+    /// Adds a ball; `is_there` at the start, `banded` to show how it turns. Returns the index of its node.
+    pub fn push_ball(
+        &mut self,
+        number: u64,
+        sphere: &Sphere,
+        look: (Coat, bool),
+        is_there: bool,
+        arrays: &mut Arrays,
+    ) -> usize {
+        let (coat, banded) = look;
+        let form = if banded { Form::BandedSphere } else { Form::Sphere };
+        let mesh = self.mesh(MeshKey { form, coat }, arrays);
+        // What is not there yet is no body of the start.
+        let body = is_there.then(|| self.bodies.sphere(sphere));
+        let radius = if is_there { sphere.radius } else { 0.0 };
+        let rotation = sphere.orientation.normalize();
+        let node = placed(&format!("ball {number}"), sphere.position, rotation, [radius; 3]);
+        let extensions = NodeExtensions { body, ..Default::default() };
+        self.push(Node { mesh, extensions, ..node })
+    }
+
+    /// The walls of a container, each in the frame of a box of size 1.
+    fn push_walls(&mut self, container: &Collider, open: Sides) -> Vec<usize> {
+        let is_open = open.to_array();
+        let names = ["left", "right", "bottom", "top", "back", "front"];
+        let outward = [DVec3::NEG_X, DVec3::X, DVec3::NEG_Y, DVec3::Y, DVec3::NEG_Z, DVec3::Z];
+        let closed = (0..6).filter(|&side| !is_open[side]);
+        let walls: Vec<Node> = closed
+            .map(|side| {
+                let inward = DQuat::from_rotation_arc(DVec3::Y, -outward[side]);
+                let body = Some(self.bodies.wall(container));
+                let extensions = NodeExtensions { body, ..Default::default() };
+                Node { extensions, ..placed(names[side], 0.5 * outward[side], inward, [1.0; 3]) }
+            })
+            .collect();
+        walls
+            .into_iter()
+            .map(|wall| {
+                self.document.nodes.push(wall);
+                self.document.nodes.len() - 1
+            })
+            .collect()
+    }
+
+    /// The mesh of a form in a coat; none where there is nothing to see.
+    fn mesh(&mut self, key: MeshKey, arrays: &mut Arrays) -> Option<usize> {
+        if let Some(known) = self.meshes.iter().position(|it| *it == key) {
+            return Some(known);
+        }
+        let double_sided = key.form == Form::Square;
+        let mut primitives = self.geometry.triangles(key.form, arrays);
+        for (i, primitive) in primitives.iter_mut().enumerate() {
+            let material = look::material(key.coat, double_sided, i == 1);
+            primitive.material = Some(place_of(&mut self.document.materials, material));
+        }
+        if primitives.is_empty() {
+            return None;
+        }
+        self.meshes.push(key);
+        self.document.meshes.push(Mesh { name: String::new(), primitives });
+        Some(self.meshes.len() - 1)
+    }
+
+    /// Adds a node that hangs on no other.
+    fn push(&mut self, node: Node) -> usize {
+        if self.document.scenes.is_empty() {
+            self.document.scenes.push(Default::default());
+            self.document.scene = Some(0);
+        }
+        let index = self.document.nodes.len();
+        self.document.nodes.push(node);
+        self.document.scenes[0].nodes.push(index);
+        index
+    }
+}
+
+/// The coat of a sphere of a world.
+pub(super) fn coat_of(palette: &Palette, number: u64, sphere: &Sphere) -> Coat {
+    palette.sphere(number, sphere.radius, sphere.kilograms())
+}
+
+fn placed(name: &str, position: DVec3, rotation: DQuat, scale: [f64; 3]) -> Node {
+    let rotation = rotation.normalize();
+    Node {
+        name: name.to_owned(),
+        translation: (position != DVec3::ZERO).then_some(position.to_array()),
+        rotation: (rotation != DQuat::IDENTITY).then_some(rotation.to_array()),
+        scale: (scale != [1.0; 3]).then_some(scale),
+        ..Node::default()
+    }
+}
+
+/// How far spheres and finite colliders reach from the origin \[m\]; 1 at least.
+fn extent(world: &World) -> f64 {
+    let spheres = world.spheres();
+    let balls = spheres.positions().iter().zip(spheres.radii());
+    let balls = balls.map(|(position, radius)| position.length() + radius);
+    let colliders = world.colliders().map(|(_, collider)| {
+        let half = match collider.shape {
+            Shape::Sphere { radius } => radius,
+            Shape::Rectangle { size_x, size_z } => DVec3::new(size_x, 0.0, size_z).length() / 2.0,
+            Shape::Box { size } | Shape::Container { size, .. } => size.length() / 2.0,
+            _ => 0.0,
+        };
+        collider.pose.position.length() + half
+    });
+    balls.chain(colliders).fold(1.0, f64::max)
+}

@@ -1,0 +1,37 @@
+//! A scene on its way.
+
+use std::collections::BTreeMap;
+
+use carom_scene::import::{Omission, legible};
+use carom_scene::scene::{Collider, Scene, Sphere};
+
+use super::graph::Placed;
+
+/// A scene on its way.
+#[derive(Debug)]
+pub(super) struct Building {
+    pub scene: Scene,
+    /// Where parts of the scene are in the file, by their paths in the scene.
+    pub places: BTreeMap<String, String>,
+    pub report: Vec<Omission>,
+}
+
+impl Building {
+    /// A scene without anything in it.
+    pub fn new(name: &str) -> Self {
+        Self { scene: Scene::new(legible(name)), places: BTreeMap::new(), report: Vec::new() }
+    }
+
+    /// Adds a sphere.
+    pub fn push_sphere(&mut self, sphere: Sphere, node: &Placed) {
+        self.places.insert(format!("spheres[{}]", self.scene.spheres.len()), node.place());
+        self.scene.spheres.push(sphere);
+    }
+
+    /// Adds a collider.
+    pub fn push_collider(&mut self, mut collider: Collider, node: &Placed) {
+        collider.name.clone_from(&node.name);
+        self.places.insert(format!("colliders[{}]", self.scene.colliders.len()), node.place());
+        self.scene.colliders.push(collider);
+    }
+}

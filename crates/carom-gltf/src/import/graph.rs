@@ -1,0 +1,85 @@
+//! The nodes of a scene, placed in the world.
+
+use carom_scene::import::legible;
+
+use super::error::Malformed;
+use super::pose::Pose;
+use crate::document::Document;
+
+/// A node with its place.
+#[derive(Debug)]
+pub(super) struct Placed {
+    /// Its index in the file.
+    pub index: usize,
+    /// Names from the root of the scene, like `Maze/Wall`.
+    pub path: String,
+    /// Its own name.
+    pub name: String,
+    /// Where it is.
+    pub pose: Pose,
+    /// Where its parent is among the placed nodes.
+    pub parent: Option<usize>,
+}
+
+impl Placed {
+    /// Where it is in the file.
+    pub fn place(&self) -> String {
+        format!("nodes[{}] ({})", self.index, self.name)
+    }
+}
+
+/// Longest path of names that is kept \[bytes\].
+const LONGEST: usize = 200;
+
+/// The nodes of the scene that is shown first, parents before their children.
+///
+/// # Errors
+/// For nodes that are not there, hang on two others or on themselves, or have numbers that make no place.
+pub(super) fn nodes(document: &Document) -> Result<Vec<Placed>, Malformed> {
+    let mut seen = vec![false; document.nodes.len()];
+    let mut placed: Vec<Placed> = Vec::new();
+    // Those whose places are still to be found; the last one first, so that the order is that of the file.
+    let mut waiting: Vec<(usize, Option<usize>)> =
+        roots(document)?.into_iter().rev().map(|root| (root, None)).collect();
+    while let Some((index, parent)) = waiting.pop() {
+        let place = || format!("nodes[{index}]");
+        let node = document.nodes.get(index);
+        let node = node.ok_or_else(|| Malformed::at(place(), "is not there"))?;
+        if std::mem::replace(&mut seen[index], true) {
+            return Err(Malformed::at(place(), "hangs on two nodes, or on itself"));
+        }
+        let name = match node.name.as_str() {
+            "" => format!("node {index}"),
+            name => legible(name),
+        };
+        let above = parent.map(|parent| &placed[parent]);
+        let path = match above {
+            Some(above) if above.path.len() < LONGEST => format!("{}/{name}", above.path),
+            Some(above) => above.path.clone(),
+            None => name.clone(),
+        };
+        let pose = above.map_or(Pose::WORLD, |above| above.pose).child(node);
+        let no_pose =
+            || Malformed::at(place(), "has a place, rotation or scale that makes no sense");
+        let pose = pose.ok_or_else(no_pose)?;
+        let itself = placed.len();
+        placed.push(Placed { index, path, name, pose, parent });
+        waiting.extend(node.children.iter().rev().map(|&child| (child, Some(itself))));
+    }
+    Ok(placed)
+}
+
+/// The nodes that hang on no other.
+fn roots(document: &Document) -> Result<Vec<usize>, Malformed> {
+    if document.scenes.is_empty() {
+        let mut is_child = vec![false; document.nodes.len()];
+        for &child in document.nodes.iter().flat_map(|node| &node.children) {
+            if let Some(is_child) = is_child.get_mut(child) {
+                *is_child = true;
+            }
+        }
+        return Ok((0..document.nodes.len()).filter(|&node| !is_child[node]).collect());
+    }
+    let scene = document.scenes.get(document.scene.unwrap_or(0));
+    scene.map(|scene| scene.nodes.clone()).ok_or_else(|| Malformed::at("scene", "is not there"))
+}

@@ -1,0 +1,27 @@
+//! Runs of Carom as animations in glTF 2.0, and scenes of glTF to scenes of Carom.
+//!
+//! ```text
+//!  Scene, World -> nodes, meshes, bodies -+-> JSON   -+-> .glb
+//!  World of each frame -> tracks ---------+-> binary -+
+//!
+//!  .gltf, .glb -> document, buffers -> nodes (placed in the world) -> Scene and omissions
+//!                                      meshes -> forms
+//! ```
+//!
+//! [`Animation`] records a run. [`import()`] reads a scene; what has no counterpart is listed
+//! ([`Omission`]), broken files are refused with the place ([`ImportError`]). Both coordinate systems are right-handed, y
+//! up, in m: nothing is turned.
+
+#![warn(clippy::unwrap_used)]
+
+mod color;
+mod document;
+mod export;
+mod extensions;
+mod glb;
+mod import;
+mod rigid_body;
+
+pub use carom_scene::import::Omission;
+pub use export::{Animation, ExportError};
+pub use import::{ImportError, Imported, Options, import};
