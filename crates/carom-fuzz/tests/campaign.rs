@@ -45,7 +45,17 @@ fn mazes_with_mistakes_are_read_or_refused() {
 
 #[test]
 fn unity_scenes_with_mistakes_are_imported_or_refused() {
-    holds("unity", 500);
+    holds("unity", 1000);
+}
+
+#[test]
+fn gltf_scenes_with_mistakes_are_imported_or_refused() {
+    holds("gltf", 1000);
+}
+
+#[test]
+fn submissions_with_mistakes_are_read_or_refused() {
+    holds("submissions", 500);
 }
 
 #[test]

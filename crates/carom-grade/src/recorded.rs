@@ -1,7 +1,8 @@
 //! The run that a student recorded: reading its table.
 
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -117,10 +118,13 @@ impl Recorded {
     /// Files that cannot be read, and what makes no sense in them, with the line.
     pub fn read(path: &Path, reading: &Reading) -> Result<Self, GradeError> {
         let unreadable = |source| GradeError::Unreadable { path: path.to_owned(), source };
-        if fs::metadata(path).map_err(unreadable)?.len() > MOST_BYTES {
+        let mut bytes = Vec::new();
+        // Devices have no end.
+        let mut file = File::open(path).map_err(unreadable)?.take(MOST_BYTES + 1);
+        file.read_to_end(&mut bytes).map_err(unreadable)?;
+        if bytes.len() as u64 > MOST_BYTES {
             return Err(refused(path, "is larger than 512 MiB"));
         }
-        let bytes = fs::read(path).map_err(unreadable)?;
         Self::parse(path, &bytes, reading)
     }
 

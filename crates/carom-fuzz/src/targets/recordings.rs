@@ -26,7 +26,7 @@ fn scene() -> Option<Scene> {
 }
 
 /// Tables of its run, a short one and one with balls that come later.
-fn tables() -> Vec<Vec<u8>> {
+pub fn tables() -> Vec<Vec<u8>> {
     [2, 40].into_iter().filter_map(table).collect()
 }
 
