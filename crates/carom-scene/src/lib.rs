@@ -44,6 +44,7 @@ mod schema;
 mod settings;
 mod table;
 mod text;
+pub mod unfinished;
 mod units;
 mod wording;
 mod world;
