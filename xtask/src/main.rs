@@ -47,6 +47,7 @@ Usage: cargo xtask COMMAND
   schema    write scenes/scene.schema.json anew from the scene types
   soak      a day of simulated time of several scenes: pinned states, hour by hour, and flat memory
             (an hour; `soak --hours H` for another time)
+  kills     kills a hundred runs in each format of recordings: what is lost (some minutes)
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
             pictures and of the interface, `bench web` the JavaScript package against the native
             engine";
@@ -57,7 +58,9 @@ fn main() -> ExitCode {
     let result = match arguments[..] {
         ["demo"] => demo::demo(),
         ["test"] => test::test(),
-        ["test", "--full"] => test::test().and_then(|()| test::long_tests()),
+        ["test", "--full"] => {
+            test::test().and_then(|()| test::long_tests()).and_then(|()| test::kills())
+        }
         ["web"] => web::build().and_then(|()| js_package::build()).map(drop),
         ["web", "--serve"] => web::serve(web::PORT),
         ["web", "--serve", port] => web::serve(port),
@@ -74,6 +77,7 @@ fn main() -> ExitCode {
         ["schema"] => schema::write(),
         ["soak"] => test::soak("24"),
         ["soak", "--hours", hours] => test::soak(hours),
+        ["kills"] => test::kills(),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "web"] => js_package::bench(),
         ["bench", "pictures"] => {

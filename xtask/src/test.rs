@@ -71,6 +71,12 @@ pub fn soak(hours: &str) -> Outcome {
     cargo_with(&[&OPTIMISED[..], &soak].concat(), &[("SOAK_HOURS", hours)])
 }
 
+/// Kills runs that record, a hundred in each format.
+pub fn kills() -> Outcome {
+    let test = ["--features", "rayon", "--test", "killed", "--", "--nocapture"];
+    cargo_with(&[&["test"], &PLAIN[..], &test].concat(), &[("KILLS", "100")])
+}
+
 /// Checks what needs no build: formats, words, names in documents, the order of modules.
 pub fn lint() -> Outcome {
     cargo(&["fmt", "--all", "--check"])?;
