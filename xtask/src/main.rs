@@ -54,6 +54,7 @@ Usage: cargo xtask COMMAND
             (an hour; `soak --hours H` for another time)
   fuzz      hostile input for every reader, and worlds that are hard to step: the campaign of
             docs/reliability.md (half an hour); `fuzz --help` says how to choose
+  kills     kills a hundred runs in each format of recordings: what is lost (some minutes)
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
             pictures and of the interface, `bench web` the JavaScript package against the native
             engine";
@@ -64,7 +65,9 @@ fn main() -> ExitCode {
     let result = match arguments[..] {
         ["demo"] => demo::demo(),
         ["test"] => test::test(),
-        ["test", "--full"] => test::test().and_then(|()| test::long_tests()),
+        ["test", "--full"] => {
+            test::test().and_then(|()| test::long_tests()).and_then(|()| test::kills())
+        }
         ["web"] => web::build().and_then(|()| js_package::build()).map(drop),
         ["web", "--serve"] => web::serve(web::PORT),
         ["web", "--serve", port] => web::serve(port),
@@ -85,6 +88,7 @@ fn main() -> ExitCode {
         ["soak"] => test::soak("24"),
         ["soak", "--hours", hours] => test::soak(hours),
         ["fuzz", ref options @ ..] => test::fuzz(options),
+        ["kills"] => test::kills(),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "web"] => js_package::bench(),
         ["bench", "pictures"] => {

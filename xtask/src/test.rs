@@ -79,6 +79,12 @@ pub fn fuzz(options: &[&str]) -> Outcome {
     cargo(&[&["run", "--release", "--package", "carom-fuzz", "--"], options].concat())
 }
 
+/// Kills runs that record, a hundred in each format.
+pub fn kills() -> Outcome {
+    let test = ["--features", "rayon", "--test", "killed", "--", "--nocapture"];
+    cargo_with(&[&["test"], &PLAIN[..], &test].concat(), &[("KILLS", "100")])
+}
+
 /// Checks what needs no build: formats, words, names in documents, the order of modules.
 pub fn lint() -> Outcome {
     cargo(&["fmt", "--all", "--check"])?;

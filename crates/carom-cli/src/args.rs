@@ -119,6 +119,9 @@ pub enum Command {
     Show(Show),
     /// Run a scene, or what a link leads to, and print what became of it.
     Run(Box<Run>),
+    /// Make the complete file of what a killed run left: an .npz file of NAME.npz.0.unfinished. Of a .csv
+    /// table, take out a last line that is cut short.
+    Recover(Recover),
     /// Print a link that opens a run of a scene in a browser; `carom run --link` runs it here.
     Link(Link),
     /// Grade recorded runs of students against the course's rule: where a run departs, and which known mistake
@@ -263,6 +266,19 @@ pub struct Run {
     /// Print the summary as JSON.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Make the complete file of what a killed run left.
+#[derive(Debug, clap::Args)]
+pub struct Recover {
+    /// The unfinished file, or the name of the file that it was to become.
+    pub file: PathBuf,
+    /// Write here, instead of under the name that the file was to have.
+    #[arg(long, short, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// Whether a file that is there is replaced.
+    #[command(flatten)]
+    pub replacing: Replacing,
 }
 
 /// Check this build against physics.

@@ -25,6 +25,7 @@ mod numbers;
 #[cfg(feature = "pictures")]
 pub mod pictures;
 mod progress;
+mod recover;
 mod replacing;
 mod run;
 mod scenes;
@@ -86,6 +87,7 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
         Command::Check { files } => scenes::check(files, sources.budget(Budget::FILE, &config)?),
         Command::Show(show) => scenes::show(&library()?, show),
         Command::Run(run) => run::run(&library()?, run, sources.budget(Budget::LINK, &config)?),
+        Command::Recover(it) => recover::recover(it),
         Command::Link(link) => link::link(&library()?, link, &config),
         Command::Grade(grade) => grade::grade(&library()?, grade),
         Command::Verify(verify) => verify::verify(verify),

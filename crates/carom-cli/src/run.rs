@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use carom::{StopRequest, World};
 use carom_gltf::{Animation, ExportError};
-use carom_scene::recording::{ImpactTable, LedgerTable, Trajectory};
+use carom_scene::recording::{ImpactTable, LedgerTable, RecordingError, Trajectory};
 use carom_scene::scene::Rule;
 use carom_scene::{Budget, ChangedFile, Library, Source};
 use carom_session::Replay;
@@ -109,8 +109,7 @@ fn once(
     drop(progress);
     // Whatever happened, what was written so far is made readable.
     let finished = outputs.finish();
-    result?;
-    finished?;
+    both(result, finished)?;
     check_energy(replay.world())?;
     let summary = Summary::new(&replay, observer);
     if is_standard(args.out.as_deref()) {
@@ -129,6 +128,17 @@ fn once(
         return Err(Failure::Fault(format!("the run did not keep what the rule {rule} keeps")));
     }
     Ok(())
+}
+
+/// Two results as one: if both failed, one line says so.
+fn both(first: Result<(), Failure>, second: Result<(), Failure>) -> Result<(), Failure> {
+    match (first, second) {
+        (Err(Failure::Fault(first)), Err(Failure::Fault(second))) => {
+            Err(Failure::Fault(format!("{first}; {second}")))
+        }
+        (Ok(()), second) => second,
+        (first, _) => first,
+    }
 }
 
 /// Refuses to sum up a run whose numbers have grown too large for a computer.
@@ -190,6 +200,16 @@ fn place_of(file: &Path) -> PathBuf {
     file.canonicalize().ok().or_else(in_folder).unwrap_or_else(|| file.to_owned())
 }
 
+/// Why a trajectory cannot go on, and what there is of it.
+fn with_kept(error: RecordingError, frames: u64) -> Failure {
+    match Failure::from(error) {
+        Failure::Fault(message) => {
+            Failure::Fault(format!("{message}; kept are the {frames} frames before"))
+        }
+        failure => failure,
+    }
+}
+
 /// The files of a run.
 struct Outputs {
     trajectory: Option<Trajectory>,
@@ -238,7 +258,7 @@ impl Outputs {
         if let Some(trajectory) = &mut self.trajectory
             && frame.is_multiple_of(self.every)
         {
-            trajectory.write(world)?;
+            trajectory.write(world).map_err(|error| with_kept(error, trajectory.frames()))?;
         }
         Ok(())
     }

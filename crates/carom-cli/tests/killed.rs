@@ -3,6 +3,7 @@
 
 mod command;
 
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
@@ -65,4 +66,182 @@ fn a_killed_run_leaves_the_rows_of_its_tables() {
             assert!(lines.all(|line| width(line) == header), "only the last line may be cut short");
         }
     }
+}
+
+/// How many runs are killed in each format.
+fn kills() -> u64 {
+    std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(4)
+}
+
+/// Records a gas to a file until it is killed, some milliseconds after its first impact; returns the time of the last
+/// impact that it told of before \[s\].
+fn killed_gas(file: &str, milliseconds: u64) -> f64 {
+    let run = ["run", "gas", "--seconds", "1e6", "--impacts", "/dev/stdout", "--out", file];
+    let mut child = carom().args(run).stdout(Stdio::piped()).spawn().unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    lines.next().unwrap().unwrap();
+    let first = Instant::now();
+    let mut last = 0.0;
+    while let Some(Ok(line)) = lines.next() {
+        last = line.split(',').next().unwrap().parse().unwrap();
+        if first.elapsed() >= Duration::from_millis(milliseconds) {
+            break;
+        }
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    last
+}
+
+/// The state of the gas, frame by frame, as numbers of 17 digits.
+struct Gas {
+    world: carom::World,
+    frame_time: f64,
+    frames: Vec<(f64, Vec<f64>)>,
+}
+
+impl Gas {
+    fn new() -> Self {
+        let (scene, _) = carom_scene::Library::new().find("gas", &[]).unwrap();
+        let frame_time = scene.simulation.frame_time;
+        Self { world: scene.world().unwrap(), frame_time, frames: Vec::new() }
+    }
+
+    fn frame(&mut self, frame: usize) -> &(f64, Vec<f64>) {
+        while self.frames.len() <= frame {
+            self.world.step(self.frame_time).unwrap();
+            let positions = self.world.spheres().positions();
+            let positions = positions.iter().flat_map(|it| it.to_array()).collect();
+            self.frames.push((self.world.time(), positions));
+        }
+        &self.frames[frame]
+    }
+
+    /// Whether a recording has all frames but the one at work, to the bit.
+    fn check(&mut self, recorded: &[(f64, Vec<f64>)], told: f64) {
+        for (i, (time, positions)) in recorded.iter().enumerate() {
+            let (expected_time, expected) = self.frame(i);
+            assert_eq!(time.to_bits(), expected_time.to_bits(), "frame {i}");
+            assert!(positions == expected, "frame {i}");
+        }
+        // The frame of the last impact may be the one that was at work.
+        let last = recorded.last().map_or(0.0, |frame| frame.0);
+        assert!(last >= told - 1.001 * self.frame_time, "{last} s of {told} s");
+    }
+}
+
+/// Moments of kills \[ms\], spread over the first two seconds without order.
+fn moments() -> impl Iterator<Item = u64> {
+    (1..=kills()).map(|k| k * 7919 % 1999)
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_killed_run_leaves_all_frames_of_an_archive_but_the_one_at_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "run.npz");
+    let mut gas = Gas::new();
+    for moment in moments() {
+        let told = killed_gas(&file, moment);
+        assert!(!Path::new(&file).exists());
+        command::good(&["recover", &file]);
+        let mut zip = zip::ZipArchive::new(std::fs::File::open(&file).unwrap()).unwrap();
+        let mut array = |name: &str| {
+            let mut bytes = Vec::new();
+            zip.by_name(&format!("{name}.npy")).unwrap().read_to_end(&mut bytes).unwrap();
+            npyz::NpyFile::new(&bytes[..]).unwrap().into_vec::<f64>().unwrap()
+        };
+        let (times, positions) = (array("time"), array("position"));
+        let width = positions.len() / times.len().max(1);
+        let frames = times.into_iter().zip(positions.chunks(width.max(1)).map(<[f64]>::to_vec));
+        gas.check(&frames.collect::<Vec<_>>(), told);
+        std::fs::remove_file(&file).unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing else is left");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_killed_run_leaves_all_frames_of_a_table_but_the_one_at_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "run.csv");
+    let mut gas = Gas::new();
+    for moment in moments() {
+        let told = killed_gas(&file, moment);
+        command::good(&["recover", &file]);
+        let mut frames: Vec<(f64, Vec<f64>)> = Vec::new();
+        for line in read(&file).lines().skip(1) {
+            let row: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
+            if frames.last().is_none_or(|frame| frame.0 != row[0]) {
+                frames.push((row[0], Vec::new()));
+            }
+            frames.last_mut().unwrap().1.extend(&row[2..5]);
+        }
+        // The last one may have lost balls.
+        let whole = gas.frame(0).1.len();
+        frames.pop_if(|frame| frame.1.len() < whole);
+        gas.check(&frames, told);
+        std::fs::remove_file(&file).unwrap();
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_write_that_fails_is_one_line_and_what_was_written_before_is_kept() {
+    for blocks in [1, 2, 3, 8, 21, 64] {
+        for name in ["t.csv", "t.npz"] {
+            let folder = tempfile::tempdir().unwrap();
+            let file = path(&folder, name);
+            // Files of this many blocks are full.
+            let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
+            let mut shell = std::process::Command::new("sh");
+            shell.args(["-c", &script, "sh", command::CAROM, "run", "gas", "--out", &file]);
+            let output = shell.env("XDG_CONFIG_HOME", "/nowhere").output().unwrap();
+            let errors = String::from_utf8(output.stderr).unwrap();
+            assert_eq!(output.status.code(), Some(1), "{errors}");
+            assert_eq!(errors.lines().count(), 1, "{errors}");
+            assert!(errors.contains(&format!("cannot write {file}: File too large")), "{errors}");
+            let kept = errors.split("kept are the ").nth(1).and_then(|it| it.split(' ').next());
+            let kept: usize = kept.map_or(0, |text| text.parse().unwrap());
+            if name == "t.csv" {
+                let text = read(&file);
+                let mut times: Vec<_> = text.lines().skip(1).map(|it| &it[..22]).collect();
+                times.dedup();
+                assert_eq!(times.len(), kept, "{errors}");
+            } else if !Path::new(&file).exists() {
+                let told = command::good(&["recover", &file]);
+                assert!(told.contains(&format!(" {kept} frames")), "{told} {errors}");
+            }
+        }
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn what_is_damaged_stays_and_what_is_foreign_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, "run.npz");
+    killed_gas(&file, 200);
+    let unfinished = format!("{file}.0.unfinished");
+    let mut bytes = std::fs::read(&unfinished).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    std::fs::write(&unfinished, &bytes).unwrap();
+    let told = command::good(&["recover", &file]);
+    assert!(told.contains("are damaged, and stay in"), "{told}");
+    assert!(Path::new(&unfinished).exists() && Path::new(&file).exists());
+    assert!(command::bad_line(&["recover", &file], 2).contains("--force"));
+    std::fs::write(&unfinished, "something else").unwrap();
+    let refused = command::bad_line(&["recover", &file, "--force"], 2);
+    assert!(refused.contains("is no unfinished recording"), "{refused}");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_recording_without_ends_of_lines_is_refused() {
+    use carom_scene::recording::Replay;
+
+    let (scene, _) = carom_scene::Library::new().find("simtest1", &[]).unwrap();
+    let error = Replay::open(Path::new("/dev/zero"), &scene).unwrap_err();
+    assert!(error.to_string().starts_with("/dev/zero:1: longer than 65536 bytes"), "{error}");
 }

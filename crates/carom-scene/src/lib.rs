@@ -47,6 +47,7 @@ mod schema;
 mod settings;
 mod table;
 mod text;
+pub mod unfinished;
 mod units;
 mod wording;
 mod world;

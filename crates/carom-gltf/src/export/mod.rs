@@ -192,11 +192,6 @@ impl Format for Animation {
         self.push(world)
     }
 
-    fn flush(&mut self) -> io::Result<()> {
-        // Its rows lie in files without names until the end.
-        Ok(())
-    }
-
     fn finish(mut self: Box<Self>) -> io::Result<()> {
         let mut document = self.document();
         let Self { file, arrays, balls, colliders, .. } = *self;

@@ -1,14 +1,13 @@
 //! Trajectories as CSV: one row per sphere and frame.
 
-use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 
 use carom::World;
 
-use super::csv_file::digits;
 use super::format::Format;
 use super::rotation;
+use super::table_file::{TableFile, digits};
 
 /// Columns: time at the end of the frame \[s\], number of the sphere in order of appearance,
 /// position \[m\], velocity \[m/s\].
@@ -21,18 +20,22 @@ pub(super) const ORIENTATION: [&str; 4] = ["qx", "qy", "qz", "qw"];
 const ANGULAR_VELOCITY: [&str; 3] = ["wx", "wy", "wz"];
 
 pub(super) struct CsvTable {
-    writer: csv::Writer<Box<dyn Write + Send>>,
+    writer: csv::Writer<TableFile>,
     /// Whether there are the columns of rotation; unknown before the first frame.
     has_rotation: Option<bool>,
 }
 
 impl CsvTable {
     pub fn create(path: &Path) -> io::Result<Self> {
-        Ok(Self::new(Box::new(File::create(path)?)))
+        Ok(Self::of(TableFile::create(path)?))
     }
 
     pub fn new(out: Box<dyn Write + Send>) -> Self {
-        Self { writer: csv::Writer::from_writer(out), has_rotation: None }
+        Self::of(TableFile::new(out))
+    }
+
+    fn of(file: TableFile) -> Self {
+        Self { writer: csv::Writer::from_writer(file), has_rotation: None }
     }
 
     /// Writes the names of the columns, unless they are there; returns whether rotation is among
@@ -69,10 +72,6 @@ impl Format for CsvTable {
             }
             self.writer.write_record(None::<&[u8]>)?;
         }
-        Ok(())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
         self.writer.flush()
     }
 

@@ -1,10 +1,8 @@
-//! When a recording is put on the disk.
+//! When the list of a series is put on the disk.
 
-use std::io;
 use std::time::{Duration, Instant};
 
-/// Tells once a second that what was written is to be put on the disk: what stops a run then, even
-/// the end of its process, costs the last second at most.
+/// Strikes once a second: what is written then is a second old at most when a process is killed.
 #[derive(Debug)]
 pub(super) struct EachSecond {
     last: Instant,
@@ -15,13 +13,12 @@ impl EachSecond {
         Self { last: Instant::now() }
     }
 
-    /// Puts it there where the last time is a second ago.
-    pub fn flush(&mut self, flush: impl FnOnce() -> io::Result<()>) -> io::Result<()> {
-        if self.last.elapsed() < Duration::from_secs(1) {
-            return Ok(());
+    /// Whether the last time that it struck is a second ago.
+    pub fn strikes(&mut self) -> bool {
+        let strikes = self.last.elapsed() >= Duration::from_secs(1);
+        if strikes {
+            self.last = Instant::now();
         }
-        flush()?;
-        self.last = Instant::now();
-        Ok(())
+        strikes
     }
 }

@@ -1,14 +1,12 @@
 //! Impacts as CSV: one row per impact.
 
-use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use carom::{BodyPair, Impact};
 
-use super::csv_file::{csv_file, digits};
-use super::each_second::EachSecond;
 use super::error::{RecordingError, unwritable};
+use super::table_file::{TableFile, csv_file, digits};
 
 /// Columns: time \[s\]; kind and number of body 1 (`sphere` or `collider`) and number of body 2, a
 /// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; impulse along the normal, and of friction
@@ -35,8 +33,7 @@ const HEADER: [&str; 15] = [
 #[derive(Debug)]
 pub struct ImpactTable {
     path: PathBuf,
-    writer: csv::Writer<File>,
-    clock: EachSecond,
+    writer: csv::Writer<TableFile>,
 }
 
 impl ImpactTable {
@@ -46,7 +43,7 @@ impl ImpactTable {
     /// For a place that cannot be written to.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
         let writer = csv_file(path, &HEADER).map_err(|source| unwritable(path, source))?;
-        Ok(Self { path: path.to_owned(), writer, clock: EachSecond::new() })
+        Ok(Self { path: path.to_owned(), writer })
     }
 
     /// Writes the impacts of a step that started at `start` \[s\].
@@ -55,9 +52,12 @@ impl ImpactTable {
     /// If the disk is full or gone.
     pub fn write(&mut self, start: f64, impacts: &[Impact]) -> Result<(), RecordingError> {
         let result = impacts.iter().try_for_each(|impact| self.write_row(start, impact));
-        let Self { path, writer, clock } = self;
-        let result = result.and_then(|()| clock.flush(|| writer.flush()));
-        result.map_err(|source| unwritable(path, source))
+        let result = result.and_then(|()| self.flush(!impacts.is_empty()));
+        result.map_err(|source| unwritable(&self.path, source))
+    }
+
+    fn flush(&mut self, has_rows: bool) -> io::Result<()> {
+        if has_rows { self.writer.flush() } else { Ok(()) }
     }
 
     fn write_row(&mut self, start: f64, impact: &Impact) -> io::Result<()> {

@@ -1,15 +1,13 @@
 //! The ledger as CSV: one row per impact, with the account of the group it was answered in.
 
-use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use carom::{LedgerEntry, StepReport};
 
-use super::csv_file::{csv_file, digits};
-use super::each_second::EachSecond;
 use super::error::{RecordingError, unwritable};
 use super::impacts::impact_fields;
+use super::table_file::{TableFile, csv_file, digits};
 
 /// Columns: those of the impacts up to the normal; speeds of approach and separation \[m/s\] and
 /// impulse \[N s\]; that of friction \[N s\]; the law, the number of the group in the run and how many impacts it has; momentum
@@ -50,8 +48,7 @@ const HEADER: [&str; 28] = [
 #[derive(Debug)]
 pub struct LedgerTable {
     path: PathBuf,
-    writer: csv::Writer<File>,
-    clock: EachSecond,
+    writer: csv::Writer<TableFile>,
     /// Groups of the steps written so far.
     groups: usize,
 }
@@ -63,7 +60,7 @@ impl LedgerTable {
     /// For a place that cannot be written to.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
         let writer = csv_file(path, &HEADER).map_err(|source| unwritable(path, source))?;
-        Ok(Self { path: path.to_owned(), writer, clock: EachSecond::new(), groups: 0 })
+        Ok(Self { path: path.to_owned(), writer, groups: 0 })
     }
 
     /// Writes the impacts of a step that started at `start` \[s\].
@@ -79,8 +76,10 @@ impl LedgerTable {
             written.map_err(|source| unwritable(&self.path, source))?;
         }
         self.groups += report.groups.len();
-        let Self { path, writer, clock, .. } = self;
-        clock.flush(|| writer.flush()).map_err(|source| unwritable(path, source))
+        if report.groups.is_empty() {
+            return Ok(());
+        }
+        self.writer.flush().map_err(|source| unwritable(&self.path, source))
     }
 
     /// Completes the file.

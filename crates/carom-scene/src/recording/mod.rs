@@ -2,7 +2,6 @@
 //! played again. Where spheres turn, or friction can make them turn, trajectories have orientations
 //! and angular velocities, too; the first frame decides.
 
-mod csv_file;
 mod csv_table;
 mod each_second;
 mod error;
@@ -11,9 +10,13 @@ mod format;
 mod impacts;
 mod ledger;
 mod npz;
+mod npz_journal;
 mod playback;
+mod recovery;
 mod replay;
 mod rotation;
+mod short_lines;
+mod table_file;
 mod vtk;
 
 use std::io;
@@ -26,9 +29,9 @@ pub use format::Format;
 pub use impacts::ImpactTable;
 pub use ledger::LedgerTable;
 pub use playback::Playback;
+pub use recovery::{Recovered, RecoveryError, recover, recover_table};
 pub use replay::{LineProblem, Replay, ReplayBall, ReplayError, ReplayFrame};
 
-use each_second::EachSecond;
 use error::unwritable;
 
 /// Writes the states of a world, frame by frame.
@@ -53,7 +56,7 @@ use error::unwritable;
 pub struct Trajectory {
     path: PathBuf,
     format: Box<dyn Format>,
-    clock: EachSecond,
+    frames: u64,
 }
 
 impl std::fmt::Debug for Trajectory {
@@ -76,18 +79,18 @@ impl Trajectory {
             _ => return Err(RecordingError::UnknownFormat { path: path.to_owned() }),
         };
         let format = format.map_err(|source| unwritable(path, source))?;
-        Ok(Self { path: path.to_owned(), format, clock: EachSecond::new() })
+        Ok(Self { path: path.to_owned(), format, frames: 0 })
     }
 
     /// Writes in a format of another crate to the file at `path`, which errors name.
     pub fn in_format(path: &Path, format: Box<dyn Format>) -> Self {
-        Self { path: path.to_owned(), format, clock: EachSecond::new() }
+        Self { path: path.to_owned(), format, frames: 0 }
     }
 
     /// Writes CSV to `out`, which errors call `name`.
     pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Self {
         let format = Box::new(csv_table::CsvTable::new(Box::new(out)));
-        Self { path: PathBuf::from(name), format, clock: EachSecond::new() }
+        Self { path: PathBuf::from(name), format, frames: 0 }
     }
 
     /// Writes the spheres as they are now, in order of their numbers.
@@ -95,13 +98,18 @@ impl Trajectory {
     /// # Errors
     /// If the disk is full or gone.
     pub fn write(&mut self, world: &World) -> Result<(), RecordingError> {
-        let Self { path, format, clock } = self;
-        let written = format.write(world).and_then(|()| clock.flush(|| format.flush()));
-        written.map_err(|source| unwritable(path, source))
+        self.format.write(world).map_err(|source| unwritable(&self.path, source))?;
+        self.frames += 1;
+        Ok(())
     }
 
-    /// Completes the file. Until then an archive is not readable; tables and series are, but for
-    /// their last second.
+    /// Frames that are written.
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// Completes the file. Until then there is no archive, but what [`recover`] makes one of; tables and
+    /// series are readable, series but for their last second.
     ///
     /// # Errors
     /// If the disk is full or gone.

@@ -7,8 +7,8 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, BufWriter, Seek, Write};
+use std::path::Path;
 
 use carom::World;
 use npyz::WriterBuilder;
@@ -16,168 +16,160 @@ use zip::write::SimpleFileOptions;
 
 use super::failing_once::FailingOnce;
 use super::format::Format;
-use super::rotation::{angular_velocity, orientation};
+use super::npz_journal::{Column, Head, Journal, JournalWriter};
+use crate::unfinished::Unfinished;
 
-/// An NPZ file holds one array after the other, frames come one after the other: columns wait in
-/// temporary files (beside the result, where there is room for it) until all frames are known.
+/// An NPZ file holds one array after the other, frames come one after the other: they go to a
+/// journal beside the file, of which that is made at the end.
 pub(super) struct Npz {
-    file: File,
-    time: Column,
-    ball: Column,
-    position: Column,
-    velocity: Column,
-    /// Where spheres turn.
-    rotation: Option<Rotation>,
-    /// For temporary files.
-    folder: PathBuf,
-    frame_start: Vec<u64>,
-    /// \[s\]
-    times: Vec<f64>,
-    /// Radius \[m\] and mass \[kg\] of spheres by their numbers.
-    known: BTreeMap<u64, [f64; 2]>,
-}
-
-struct Rotation {
-    orientation: Column,
-    angular_velocity: Column,
-}
-
-struct Column {
-    name: &'static str,
-    width: u64,
-    file: BufWriter<File>,
-}
-
-impl Column {
-    fn create(name: &'static str, width: u64, folder: &Path) -> io::Result<Self> {
-        Ok(Self { name, width, file: BufWriter::new(tempfile::tempfile_in(folder)?) })
-    }
-
-    fn push(&mut self, word: u64) -> io::Result<()> {
-        self.file.write_all(&word.to_le_bytes())
-    }
-
-    fn push_all(&mut self, values: &[f64]) -> io::Result<()> {
-        values.iter().try_for_each(|value| self.push(value.to_bits()))
-    }
+    unfinished: Unfinished,
+    journal: JournalWriter,
 }
 
 impl Npz {
     pub fn create(path: &Path) -> io::Result<Self> {
-        let file = File::create(path)?;
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let folder = folder.unwrap_or(Path::new("."));
-        Ok(Self {
-            file,
-            time: Column::create("t", 1, folder)?,
-            ball: Column::create("ball", 1, folder)?,
-            position: Column::create("position", 3, folder)?,
-            velocity: Column::create("velocity", 3, folder)?,
-            rotation: None,
-            folder: folder.to_owned(),
-            frame_start: vec![0],
-            times: Vec::new(),
-            known: BTreeMap::new(),
-        })
-    }
-
-    fn rows(&self) -> u64 {
-        self.frame_start.last().copied().unwrap_or(0)
+        let mut unfinished = Unfinished::create(path)?;
+        let journal = JournalWriter::begin(unfinished.file())?;
+        Ok(Self { unfinished, journal })
     }
 }
 
 impl Format for Npz {
     fn write(&mut self, world: &World) -> io::Result<()> {
-        let spheres = world.spheres();
-        if self.frame_start.len() == 1 && world.has_spin() {
-            let orientation = Column::create("orientation", 4, &self.folder)?;
-            let angular_velocity = Column::create("angular_velocity", 3, &self.folder)?;
-            self.rotation = Some(Rotation { orientation, angular_velocity });
-        }
-        self.times.push(world.time());
-        for (i, id) in spheres.ids().iter().enumerate() {
-            self.known.insert(id.number(), [spheres.radii()[i], spheres.masses()[i]]);
-            self.time.push(world.time().to_bits())?;
-            self.ball.push(id.number())?;
-            self.position.push_all(&spheres.positions()[i].to_array())?;
-            self.velocity.push_all(&spheres.velocities()[i].to_array())?;
-            if let Some(rotation) = &mut self.rotation {
-                rotation.orientation.push_all(&orientation(world, i))?;
-                rotation.angular_velocity.push_all(&angular_velocity(world, i))?;
-            }
-        }
-        self.frame_start.push(self.rows() + spheres.len() as u64);
-        Ok(())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        // Its columns lie in files without names until the end.
-        Ok(())
+        self.journal.write(world, self.unfinished.file())
     }
 
     fn finish(self: Box<Self>) -> io::Result<()> {
-        let rows = self.rows();
-        let Self {
-            file, time, ball, position, velocity, rotation, frame_start, times, known, ..
-        } = *self;
-
-        let mut zip = zip::ZipWriter::new(FailingOnce::new(BufWriter::new(file)));
-        for column in [time, position, velocity] {
-            append(&mut zip, column, rows, f64::from_le_bytes)?;
+        let Self { mut unfinished, .. } = *self;
+        let closed = unfinished.close(|source, target| match Journal::open(source)? {
+            Some(mut journal) => archive(&mut journal, target),
+            None => Err(io::Error::new(io::ErrorKind::InvalidData, "the journal has changed")),
+        });
+        let place = unfinished.place().map(Path::to_owned);
+        match (closed, place) {
+            (Ok(()), _) => unfinished.remove(),
+            (Err(error), Some(place)) => {
+                let place = place.display();
+                let kept = format!("{error}; its frames are in {place}, for `carom recover`");
+                Err(io::Error::new(error.kind(), kept))
+            }
+            (Err(error), None) => Err(error),
         }
-        if let Some(Rotation { orientation, angular_velocity }) = rotation {
-            append(&mut zip, orientation, rows, f64::from_le_bytes)?;
-            append(&mut zip, angular_velocity, rows, f64::from_le_bytes)?;
-        }
-        append(&mut zip, ball, rows, |bytes| u64::from_le_bytes(bytes) as i64)?;
-        append_all(&mut zip, "frame_start", frame_start.into_iter().map(|row| row as i64))?;
-        append_all(&mut zip, "time", times.into_iter())?;
-        append_all(&mut zip, "id", known.keys().map(|&id| id as i64))?;
-        append_all(&mut zip, "radius", known.values().map(|[radius, _]| *radius))?;
-        append_all(&mut zip, "mass", known.values().map(|[_, mass]| *mass))?;
-        zip.finish()?.flush()
     }
 }
 
-fn start<W: Write + Seek>(zip: &mut zip::ZipWriter<W>, name: &str) -> io::Result<()> {
+/// Writes the archive of the whole frames of a journal.
+pub(super) fn archive(journal: &mut Journal, file: File) -> io::Result<()> {
+    let mut zip = zip::ZipWriter::new(FailingOnce::new(BufWriter::new(file)));
+    let rows = journal.extent.rows;
+    let real = f64::from_le_bytes;
+    per_frame(&mut zip, journal, "t", rows, |head| (head.time, head.count))?;
+    column(&mut zip, journal, "position", Column::Position, real)?;
+    column(&mut zip, journal, "velocity", Column::Velocity, real)?;
+    if journal.extent.has_rotation {
+        column(&mut zip, journal, "orientation", Column::Orientation, real)?;
+        column(&mut zip, journal, "angular_velocity", Column::AngularVelocity, real)?;
+    }
+    column(&mut zip, journal, "ball", Column::Ball, i64::from_le_bytes)?;
+    frame_starts(&mut zip, journal)?;
+    let frames = journal.extent.frames;
+    per_frame(&mut zip, journal, "time", frames, |head| (head.time, 1))?;
+    let known = bodies(journal)?;
+    append_all(&mut zip, "id", known.keys().map(|&id| id as i64))?;
+    append_all(&mut zip, "radius", known.values().map(|[radius, _]| *radius))?;
+    append_all(&mut zip, "mass", known.values().map(|[_, mass]| *mass))?;
+    zip.finish()?.flush()
+}
+
+/// Radius \[m\] and mass \[kg\] of spheres by their numbers, as they were last.
+fn bodies(journal: &mut Journal) -> io::Result<BTreeMap<u64, [f64; 2]>> {
+    let mut known = BTreeMap::new();
+    let mut ids = Vec::new();
+    journal.frames(|head, columns| {
+        if !head.has_bodies() {
+            return Ok(());
+        }
+        ids.clear();
+        columns.words(Column::Ball, |word| {
+            ids.push(u64::from_le_bytes(word));
+            Ok(())
+        })?;
+        for (place, column) in [Column::Radius, Column::Mass].into_iter().enumerate() {
+            let mut next = ids.iter();
+            columns.words(column, |word| {
+                let body = next.next().map(|id| known.entry(*id).or_insert([0.0; 2]));
+                body.into_iter().for_each(|body| body[place] = f64::from_le_bytes(word));
+                Ok(())
+            })?;
+        }
+        Ok(())
+    })?;
+    Ok(known)
+}
+
+type Zip<W> = zip::ZipWriter<FailingOnce<BufWriter<W>>>;
+
+/// Begins an array, and gives what its values are pushed into.
+fn begin<'a, T: npyz::AutoSerialize, W: Write + Seek>(
+    zip: &'a mut Zip<W>,
+    name: &str,
+    shape: &[u64],
+) -> io::Result<npyz::NpyWriter<T, &'a mut Zip<W>>> {
     let options = SimpleFileOptions::default().large_file(true);
-    Ok(zip.start_file(npyz::npz::file_name_from_array_name(name), options)?)
+    zip.start_file(npyz::npz::file_name_from_array_name(name), options)?;
+    npyz::WriteOptions::new().default_dtype().shape(shape).writer(zip).begin_nd()
 }
 
 /// Appends these values to the archive.
 fn append_all<T: npyz::AutoSerialize, W: Write + Seek>(
-    zip: &mut zip::ZipWriter<W>,
+    zip: &mut Zip<W>,
     name: &str,
     values: impl ExactSizeIterator<Item = T>,
 ) -> io::Result<()> {
-    start(zip, name)?;
-    let shape = [values.len() as u64];
-    let mut array =
-        npyz::WriteOptions::new().default_dtype().shape(&shape).writer(zip).begin_nd()?;
+    let mut array = begin(zip, name, &[values.len() as u64])?;
     array.extend(values)?;
     array.finish()
 }
 
+/// Appends a number of each frame to the archive, so many times as `value` says.
+fn per_frame<W: Write + Seek>(
+    zip: &mut Zip<W>,
+    journal: &mut Journal,
+    name: &str,
+    length: u64,
+    value: impl Fn(Head) -> (f64, u64),
+) -> io::Result<()> {
+    let mut array = begin(zip, name, &[length])?;
+    journal.frames(|head, _| {
+        let (value, times) = value(head);
+        (0..times).try_for_each(|_| array.push(&value))
+    })?;
+    array.finish()
+}
+
+/// Appends the first row of each frame, and the number of rows.
+fn frame_starts<W: Write + Seek>(zip: &mut Zip<W>, journal: &mut Journal) -> io::Result<()> {
+    let mut array = begin(zip, "frame_start", &[journal.extent.frames + 1])?;
+    let mut row = 0_i64;
+    array.push(&row)?;
+    journal.frames(|head, _| {
+        row += head.count as i64;
+        array.push(&row)
+    })?;
+    array.finish()
+}
+
 /// Appends a column to the archive, its words read as `T`.
-fn append<T: npyz::AutoSerialize, W: Write + Seek>(
-    zip: &mut zip::ZipWriter<W>,
+fn column<T: npyz::AutoSerialize, W: Write + Seek>(
+    zip: &mut Zip<W>,
+    journal: &mut Journal,
+    name: &str,
     column: Column,
-    rows: u64,
     value: impl Fn([u8; 8]) -> T,
 ) -> io::Result<()> {
-    let Column { name, width, file } = column;
-    start(zip, name)?;
-    let shape = [rows, width];
-    let shape = if width == 1 { &shape[..1] } else { &shape[..] };
-    let mut array =
-        npyz::WriteOptions::new().default_dtype().shape(shape).writer(zip).begin_nd()?;
-    let mut file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
-    file.seek(SeekFrom::Start(0))?;
-    let mut file = BufReader::new(file);
-    let mut word = [0; 8];
-    for _ in 0..rows * width {
-        file.read_exact(&mut word)?;
-        array.push(&value(word))?;
-    }
+    let shape = [journal.extent.rows, column.width()];
+    let shape = if column.width() == 1 { &shape[..1] } else { &shape[..] };
+    let mut array = begin(zip, name, shape)?;
+    journal.frames(|_, columns| columns.words(column, |word| array.push(&value(word))))?;
     array.finish()
 }

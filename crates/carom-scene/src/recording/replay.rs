@@ -9,6 +9,7 @@ use thiserror::Error;
 
 use super::csv_table::{HEADER, ORIENTATION};
 use super::rotation;
+use super::short_lines::{LONGEST_LINE, ShortLines, TooLong};
 use crate::error::SceneError;
 use crate::legible::legible;
 use crate::origin::{Origin, Origins};
@@ -85,6 +86,9 @@ pub enum LineProblem {
         /// How many it should have.
         expected: u64,
     },
+    /// A line is longer than any of a recording.
+    #[error("longer than {LONGEST_LINE} bytes, as no line of a recording is")]
+    TooLong,
     /// What is there is not text.
     #[error("not text in UTF-8")]
     NotText,
@@ -151,7 +155,7 @@ pub struct ReplayBall {
 #[derive(Debug)]
 pub struct Replay {
     path: PathBuf,
-    reader: csv::Reader<File>,
+    reader: csv::Reader<ShortLines<File>>,
     columns: Columns,
     balls: Balls,
     /// The first row of the next frame.
@@ -221,7 +225,7 @@ impl Replay {
         if !ends_with_a_line(&mut file).map_err(unreadable)? {
             return Err(ReplayError::CutShort { path: path.to_owned() });
         }
-        let mut reader = csv::Reader::from_reader(file);
+        let mut reader = csv::Reader::from_reader(ShortLines::new(file));
         let header = reader.headers().map_err(|error| broken(path, error))?.clone();
         let missing = |column| ReplayError::MissingColumn { path: path.to_owned(), column };
         let columns = Columns::of(&header).map_err(missing)?;
@@ -368,6 +372,11 @@ fn orientation(numbers: [f64; 4]) -> Result<DQuat, LineProblem> {
 fn broken(path: &Path, error: csv::Error) -> ReplayError {
     let path = path.to_owned();
     let line = error.position().map_or(0, csv::Position::line);
+    if let csv::ErrorKind::Io(source) = error.kind()
+        && let Some(TooLong { line }) = source.get_ref().and_then(|it| it.downcast_ref())
+    {
+        return ReplayError::Line { path, line: *line, problem: LineProblem::TooLong };
+    }
     let problem = match error.kind() {
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
             LineProblem::Fields { fields: *len, expected: *expected_len }

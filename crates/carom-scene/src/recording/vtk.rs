@@ -10,6 +10,7 @@ use vtkio::model::{
     Attribute, Attributes, ByteOrder, DataSet, PolyDataPiece, Version, VertexNumbers, Vtk,
 };
 
+use super::each_second::EachSecond;
 use super::format::Format;
 use super::rotation::{angular_velocity, orientation};
 
@@ -17,14 +18,20 @@ use super::rotation::{angular_velocity, orientation};
 pub(super) struct Series {
     path: PathBuf,
     times: Vec<f64>,
+    /// When the list is written.
+    clock: EachSecond,
     /// Whether spheres turn; known from the first frame on.
     has_rotation: bool,
 }
 
 impl Series {
     pub fn create(path: &Path) -> io::Result<Self> {
-        let series =
-            Self { path: path.with_extension("pvd"), times: Vec::new(), has_rotation: false };
+        let series = Self {
+            path: path.with_extension("pvd"),
+            times: Vec::new(),
+            clock: EachSecond::new(),
+            has_rotation: false,
+        };
         series.write_list()?;
         std::fs::create_dir_all(series.path.with_file_name(series.folder()))?;
         Ok(series)
@@ -46,7 +53,17 @@ impl Series {
         let replaces = self.path.symlink_metadata().is_ok_and(|it| it.is_file());
         let target =
             if replaces { self.path.with_extension("pvd.unfinished") } else { self.path.clone() };
-        let mut list = BufWriter::new(File::create(&target)?);
+        let written = self.write_list_to(&target);
+        if !replaces {
+            return written;
+        }
+        written
+            .and_then(|()| std::fs::rename(&target, &self.path))
+            .inspect_err(|_| remove_part(&target))
+    }
+
+    fn write_list_to(&self, target: &Path) -> io::Result<()> {
+        let mut list = BufWriter::new(File::create(target)?);
         writeln!(list, r#"<?xml version="1.0"?>"#)?;
         writeln!(list, r#"<VTKFile type="Collection" version="0.1">"#)?;
         writeln!(list, "  <Collection>")?;
@@ -56,8 +73,7 @@ impl Series {
             writeln!(list, r#"    <DataSet timestep="{time}" file="{file}"/>"#)?;
         }
         writeln!(list, "  </Collection>\n</VTKFile>")?;
-        list.flush()?;
-        if replaces { std::fs::rename(target, &self.path) } else { Ok(()) }
+        list.flush()
     }
 }
 
@@ -70,14 +86,12 @@ impl Format for Series {
         let path = self.path.with_file_name(&name);
         let mut text = Vec::new();
         frame(world, self.has_rotation).write_xml(&mut text).map_err(io::Error::other)?;
-        std::fs::write(&path, text)
-            .map_err(|error| io::Error::new(error.kind(), format!("{name}: {error}")))?;
+        std::fs::write(&path, text).map_err(|error| {
+            remove_part(&path);
+            io::Error::new(error.kind(), format!("{name}: {error}"))
+        })?;
         self.times.push(world.time());
-        Ok(())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.write_list()
+        if self.clock.strikes() { self.write_list() } else { Ok(()) }
     }
 
     fn finish(self: Box<Self>) -> io::Result<()> {
@@ -87,6 +101,13 @@ impl Format for Series {
         let mut later = later.map(|name| self.path.with_file_name(name));
         while std::fs::remove_file(later.next().unwrap_or_default()).is_ok() {}
         Ok(())
+    }
+}
+
+/// Removes a file that is written in part. An error here comes after another one.
+fn remove_part(path: &Path) {
+    if path.symlink_metadata().is_ok_and(|it| it.is_file()) {
+        drop(std::fs::remove_file(path));
     }
 }
 

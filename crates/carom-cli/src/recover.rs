@@ -1,0 +1,76 @@
+//! The command `recover`: complete files of what killed runs left.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use carom_scene::recording::{self, Recovered, RecoveryError};
+use carom_scene::unfinished;
+
+use crate::args::Recover;
+use crate::failure::Failure;
+
+/// Makes the complete file of an unfinished one, and prints a line about it.
+pub fn recover(args: &Recover) -> Result<(), Failure> {
+    let is_table = args.file.extension().is_some_and(|it| it.eq_ignore_ascii_case("csv"));
+    if is_table && args.out.is_none() && args.file.is_file() {
+        return table(&args.file);
+    }
+    let (unfinished, target) = places(args)?;
+    args.replacing.check([target.as_path()])?;
+    let recovered = recording::recover(&unfinished, &target).map_err(refused)?;
+    Ok(tell(&unfinished, &target, recovered)?)
+}
+
+/// The unfinished file, and the one to make of it.
+fn places(args: &Recover) -> Result<(PathBuf, PathBuf), Failure> {
+    let Recover { file, out, .. } = args;
+    if let Some(target) = unfinished::target_of(file) {
+        return Ok((file.clone(), out.clone().unwrap_or(target)));
+    }
+    let name = file.display();
+    match (unfinished::beside(file).as_slice(), out) {
+        (_, Some(out)) if file.is_file() => Ok((file.clone(), out.clone())),
+        ([one], _) => Ok((one.clone(), out.clone().unwrap_or_else(|| file.clone()))),
+        ([], _) => {
+            let text = format!("there is nothing to recover for {name}: no {name}.0.unfinished");
+            Err(Failure::Usage(text))
+        }
+        (several, _) => {
+            let several: Vec<_> = several.iter().map(|it| it.display().to_string()).collect();
+            let text = format!("{} could become {name}: name one of them", several.join(", "));
+            Err(Failure::Usage(text))
+        }
+    }
+}
+
+/// Cuts off the last line of a table if it has no end.
+fn table(path: &Path) -> Result<(), Failure> {
+    let cut = recording::recover_table(path).map_err(refused)?;
+    let name = path.display();
+    let mut out = io::stdout().lock();
+    Ok(match cut {
+        0 => writeln!(out, "{name}: all lines are whole")?,
+        cut => writeln!(out, "{name}: the last line was cut short; its {cut} bytes are taken out")?,
+    })
+}
+
+fn tell(unfinished: &Path, target: &Path, recovered: Recovered) -> io::Result<()> {
+    let Recovered { frames, last, left_out, is_damaged } = recovered;
+    let until = last.map(|last| format!(", up to {last} s")).unwrap_or_default();
+    let rest = match (left_out, is_damaged) {
+        (0, _) => String::new(),
+        (bytes, false) => format!("; {bytes} bytes of a frame that was cut short are left out"),
+        (bytes, true) => {
+            let place = unfinished.display();
+            format!("; {bytes} bytes after that are damaged, and stay in {place}")
+        }
+    };
+    writeln!(io::stdout().lock(), "{}: {frames} frames{until}{rest}", target.display())
+}
+
+fn refused(error: RecoveryError) -> Failure {
+    match error {
+        RecoveryError::Unwritable { .. } => Failure::Fault(error.to_string()),
+        _ => Failure::Usage(error.to_string()),
+    }
+}

@@ -1,0 +1,88 @@
+//! Tables as CSV files.
+
+use std::fmt;
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// What a table is written to. Each flush marks the end of whole rows: after an error, a file is cut
+/// there, and what is written later is lost in silence.
+pub(super) struct TableFile {
+    out: Box<dyn Write + Send>,
+    /// The same, where it can be cut.
+    file: Option<File>,
+    position: u64,
+    /// Where the last whole row ends.
+    whole: u64,
+    has_failed: bool,
+}
+
+impl TableFile {
+    pub fn create(path: &Path) -> io::Result<Self> {
+        let file = File::create(path)?;
+        // Elsewhere, what is locked could not be read while it grows.
+        #[cfg(unix)]
+        file.try_lock().ok();
+        let same = file.try_clone()?;
+        Ok(Self { file: Some(same), ..Self::new(Box::new(file)) })
+    }
+
+    pub fn new(out: Box<dyn Write + Send>) -> Self {
+        Self { out, file: None, position: 0, whole: 0, has_failed: false }
+    }
+
+    fn noting<T>(&mut self, result: io::Result<T>) -> io::Result<T> {
+        if result.is_err() && !self.has_failed {
+            self.has_failed = true;
+            if let Some(file) = &self.file {
+                // A device cannot be cut.
+                file.set_len(self.whole).ok();
+            }
+        }
+        result
+    }
+}
+
+impl fmt::Debug for TableFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("TableFile").field("position", &self.position).finish_non_exhaustive()
+    }
+}
+
+impl Write for TableFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.has_failed {
+            return Ok(bytes.len());
+        }
+        let written = self.out.write(bytes);
+        if written.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::Interrupted) {
+            return written;
+        }
+        let written = self.noting(written)?;
+        self.position += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if self.has_failed {
+            return Ok(());
+        }
+        let flushed = self.out.flush();
+        self.noting(flushed)?;
+        self.whole = self.position;
+        Ok(())
+    }
+}
+
+/// Creates a CSV file with this header.
+pub(super) fn csv_file(path: &Path, header: &[&str]) -> io::Result<csv::Writer<TableFile>> {
+    let mut writer = csv::Writer::from_writer(TableFile::create(path)?);
+    writer.write_record(header)?;
+    writer.flush()?;
+    Ok(writer)
+}
+
+/// A number with 17 significant digits: as many as tell any two doubles apart.
+pub(super) fn digits(value: f64) -> String {
+    format!("{value:.16e}")
+}

@@ -1,0 +1,228 @@
+//! Files that are written under another name until they are complete.
+
+use std::ffi::OsString;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Beside one file, so many unfinished ones can wait: those of programs at work at the same time,
+/// and what killed ones left behind.
+const MOST_UNFINISHED: u32 = 1000;
+/// Ending of what is not complete.
+const UNFINISHED: &str = ".unfinished";
+/// Ending of a file while it is made of what is unfinished.
+const CLOSING: &str = ".closing";
+
+/// A new file `NAME.N.unfinished` beside `path`, locked, and its own path.
+///
+/// # Errors
+/// For a folder that cannot be written to, and for a thousand such files that are there already.
+pub fn create_beside(path: &Path) -> io::Result<(File, PathBuf)> {
+    let Some(name) = path.file_name() else {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "this names no file"));
+    };
+    for number in 0..MOST_UNFINISHED {
+        let mut unfinished = name.to_owned();
+        unfinished.push(format!(".{number}{UNFINISHED}"));
+        let unfinished = path.with_file_name(unfinished);
+        match OpenOptions::new().read(true).write(true).create_new(true).open(&unfinished) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            created => {
+                let file = created?;
+                lock(&file)?;
+                return Ok((file, unfinished));
+            }
+        }
+    }
+    let text = format!("{MOST_UNFINISHED} unfinished files (*{UNFINISHED}) lie beside it");
+    Err(io::Error::new(io::ErrorKind::AlreadyExists, text))
+}
+
+/// The file that an unfinished one was to become: its name without `.N.unfinished`.
+pub fn target_of(unfinished: &Path) -> Option<PathBuf> {
+    let name = unfinished.file_name()?.to_str()?.strip_suffix(UNFINISHED)?;
+    let (target, number) = name.rsplit_once('.')?;
+    let is_number = !number.is_empty() && number.bytes().all(|it| it.is_ascii_digit());
+    (is_number && !target.is_empty()).then(|| unfinished.with_file_name(target))
+}
+
+/// The unfinished files beside this one, in order of their numbers.
+pub fn beside(target: &Path) -> Vec<PathBuf> {
+    let numbered = (0..MOST_UNFINISHED).filter_map(|number| {
+        let mut name = target.file_name()?.to_owned();
+        name.push(format!(".{number}{UNFINISHED}"));
+        Some(target.with_file_name(name))
+    });
+    numbered.filter(|file| file.is_file()).collect()
+}
+
+/// Takes the lock that the writer of an unfinished file holds as long as it lives; not every file
+/// system has locks.
+pub(crate) fn lock(file: &File) -> io::Result<()> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => {
+            let text = "a program is still writing it";
+            Err(io::Error::new(io::ErrorKind::WouldBlock, text))
+        }
+        Err(TryLockError::Error(_)) | Ok(()) => Ok(()),
+    }
+}
+
+/// What is written of a file until it is complete: another form of it, one that grows, in
+/// `NAME.N.unfinished` beside it. What is dropped stays there; so does what a killed program leaves.
+#[derive(Debug)]
+pub struct Unfinished {
+    file: File,
+    /// `None` where the target is no regular file, like a pipe: then it has no name.
+    place: Option<PathBuf>,
+    target: PathBuf,
+}
+
+impl Unfinished {
+    /// Creates it, and the folders above it that are missing.
+    ///
+    /// # Errors
+    /// As [`create_beside`].
+    #[cfg(feature = "recording")]
+    pub fn create(target: &Path) -> io::Result<Self> {
+        // Through a link, what it points to is replaced, not the link.
+        let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
+        if fs::metadata(&target).is_ok_and(|found| !found.is_file()) {
+            drop(OpenOptions::new().write(true).open(&target)?);
+            return Ok(Self { file: tempfile::tempfile()?, place: None, target });
+        }
+        if let Some(folder) = target.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        let (file, place) = create_beside(&target)?;
+        Ok(Self { file, place: Some(place), target })
+    }
+
+    /// Opens one that a program left, to make `target` of it.
+    ///
+    /// # Errors
+    /// For a file that cannot be read, or whose writer is still at work.
+    pub fn open(place: &Path, target: &Path) -> io::Result<Self> {
+        let file = File::open(place)?;
+        lock(&file)?;
+        Ok(Self { file, place: Some(place.to_owned()), target: target.to_owned() })
+    }
+
+    /// What is written to.
+    pub fn file(&mut self) -> &mut File {
+        &mut self.file
+    }
+
+    /// Where it lies, if it has a name.
+    pub fn place(&self) -> Option<&Path> {
+        self.place.as_deref()
+    }
+
+    /// Makes the complete file of it by `close`, which reads the first file from its beginning and writes the second,
+    /// and gives that its name, in the place of what bore it before. It stays itself.
+    ///
+    /// # Errors
+    /// If `close` or the disk fails; then the target is as it was before.
+    pub fn close<T, E: From<io::Error>>(
+        &mut self,
+        close: impl FnOnce(&mut File, File) -> Result<T, E>,
+    ) -> Result<T, E> {
+        io::Seek::rewind(&mut self.file)?;
+        let Some(place) = &self.place else {
+            let target = OpenOptions::new().write(true).open(&self.target)?;
+            return close(&mut self.file, target);
+        };
+        let closing = closing(place, &self.target);
+        let closed = File::create(&closing).map_err(E::from).and_then(|target| {
+            let written = close(&mut self.file, target.try_clone()?)?;
+            // Some file systems tell of a full disk no sooner.
+            target.sync_data()?;
+            fs::rename(&closing, &self.target)?;
+            Ok(written)
+        });
+        if closed.is_err() {
+            // An error here comes after another one.
+            drop(fs::remove_file(&closing));
+        }
+        closed
+    }
+
+    /// Removes it.
+    ///
+    /// # Errors
+    /// If the disk fails.
+    pub fn remove(self) -> io::Result<()> {
+        let Self { file, place, .. } = self;
+        drop(file);
+        place.map_or(Ok(()), fs::remove_file)
+    }
+}
+
+/// Where a file is made of an unfinished one: in the folder of the target, so that it can be renamed, under a name
+/// that is no other's.
+fn closing(place: &Path, target: &Path) -> PathBuf {
+    let name = place.file_name().map(OsString::from).unwrap_or_default();
+    let mut name = match name.to_str().and_then(|it| it.strip_suffix(UNFINISHED)) {
+        Some(stem) => OsString::from(stem),
+        None => name,
+    };
+    name.push(CLOSING);
+    target.with_file_name(name)
+}
+
+#[cfg(test)]
+#[cfg(feature = "recording")]
+mod tests {
+    use std::io::{Read, Write};
+
+    use super::*;
+
+    #[test]
+    fn a_target_is_the_name_without_the_number_and_the_ending() {
+        let target = |name: &str| target_of(Path::new(name));
+        assert_eq!(target("a/t.npz.12.unfinished"), Some(PathBuf::from("a/t.npz")));
+        for other in ["t.npz", "t.npz.unfinished", "t.npz..unfinished", "t.x1.unfinished"] {
+            assert_eq!(target(other), None, "{other}");
+        }
+        assert_eq!(target(".0.unfinished"), None);
+    }
+
+    #[test]
+    fn a_target_stays_as_it_was_where_closing_fails_and_the_unfinished_file_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.txt");
+        fs::write(&path, "old").unwrap();
+        let mut unfinished = Unfinished::create(&path).unwrap();
+        unfinished.file().write_all(b"grown").unwrap();
+        let failed = unfinished.close(|_, mut target| {
+            target.write_all(b"half")?;
+            Err::<(), _>(io::Error::other("no more"))
+        });
+        assert_eq!(failed.unwrap_err().to_string(), "no more");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        assert_eq!(beside(&path), [path.with_file_name("t.txt.0.unfinished")]);
+        let close = |source: &mut File, mut target: File| {
+            let mut text = String::new();
+            source.read_to_string(&mut text)?;
+            target.write_all(text.to_uppercase().as_bytes())
+        };
+        unfinished.close(close).unwrap();
+        unfinished.remove().unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "GROWN");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_is_still_being_written_cannot_be_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.txt");
+        let first = Unfinished::create(&path).unwrap();
+        let place = first.place().unwrap().to_owned();
+        let second = Unfinished::create(&path).unwrap();
+        assert_ne!(second.place().unwrap(), place);
+        let error = Unfinished::open(&place, &path).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::WouldBlock);
+        drop(first);
+        Unfinished::open(&place, &path).unwrap();
+    }
+}
