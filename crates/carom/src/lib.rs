@@ -66,7 +66,10 @@ pub use collider::{Collider, Pose, Shape, Sides};
 pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;
-pub use forces::{ConstantForce, Force, Gravity, LinearForce, SphereState, ViscousDrag};
+pub use forces::{
+    Buoyancy, ConstantForce, Force, Gravity, LinearForce, PointAttractor, QuadraticDrag,
+    SphereState, ViscousDrag, Vortex, Wind,
+};
 pub use friction::Friction;
 pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId};

@@ -1,10 +1,15 @@
 //! What accelerates spheres.
 
+mod attractor;
+mod buoyancy;
 mod constant;
 mod drag;
 mod gravity;
+mod quadratic_drag;
 #[cfg(feature = "serde")]
 pub(crate) mod shipped;
+mod vortex;
+mod wind;
 
 use std::any::Any;
 use std::fmt::Debug;
@@ -12,9 +17,14 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+pub use attractor::PointAttractor;
+pub use buoyancy::Buoyancy;
 pub use constant::ConstantForce;
 pub use drag::ViscousDrag;
 pub use gravity::Gravity;
+pub use quadratic_drag::QuadraticDrag;
+pub use vortex::Vortex;
+pub use wind::Wind;
 
 use crate::error::InvalidValue;
 use crate::numbered::Numbered;
