@@ -6,8 +6,8 @@ use std::sync::Arc;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, ser};
 
 use super::{
-    Buoyancy, ConstantForce, Force, Gravity, PointAttractor, QuadraticDrag, ViscousDrag, Vortex,
-    Wind,
+    Buoyancy, ConstantForce, Force, Gravity, MutualGravity, PointAttractor, QuadraticDrag,
+    ViscousDrag, Vortex, Wind,
 };
 use crate::numbered::Numbered;
 
@@ -47,6 +47,7 @@ shipped! {
     Vortex(Vortex),
     QuadraticDrag(QuadraticDrag),
     Buoyancy(Buoyancy),
+    MutualGravity(MutualGravity),
 }
 
 /// The number of the first force that is of another crate.
