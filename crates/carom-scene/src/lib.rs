@@ -42,6 +42,7 @@ mod requirement;
 pub mod scene;
 mod schema;
 mod settings;
+mod springs;
 mod table;
 mod text;
 mod units;
