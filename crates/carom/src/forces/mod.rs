@@ -6,6 +6,7 @@ mod constant;
 mod drag;
 mod gravity;
 mod interaction;
+mod interactions;
 mod mutual_gravity;
 mod quadratic_drag;
 #[cfg(feature = "serde")]
@@ -25,8 +26,8 @@ pub use buoyancy::Buoyancy;
 pub use constant::ConstantForce;
 pub use drag::ViscousDrag;
 pub use gravity::Gravity;
-pub(crate) use interaction::Interactions;
 pub use interaction::{Interaction, SphereStates};
+pub(crate) use interactions::Interactions;
 pub use mutual_gravity::MutualGravity;
 pub use quadratic_drag::QuadraticDrag;
 pub use spring::{Spring, SpringEnd};

@@ -4,6 +4,7 @@
 //! at the end of an interval (`scheme`). Spheres move one by one, but for where forces act between them:
 //! there they go through the stages of the scheme side by side (`together`).
 
+mod acceleration;
 mod explicit_euler;
 mod kinematics;
 mod runge_kutta_4;
@@ -12,10 +13,11 @@ mod semi_implicit_euler;
 mod together;
 mod velocity_verlet;
 
+pub(crate) use acceleration::{acceleration, acceleration_alone};
 pub(crate) use together::Scratch;
 
+use acceleration::acceleration_at;
 use explicit_euler::ExplicitEuler;
-use glam::DVec3;
 use kinematics::Kinematics;
 use runge_kutta_4::RungeKutta4;
 use scheme::Scheme;
@@ -23,42 +25,9 @@ use semi_implicit_euler::SemiImplicitEuler;
 use velocity_verlet::VelocityVerlet;
 
 use crate::bodies::Motion;
-use crate::forces::{self, SphereState};
 use crate::interval::Interval;
 use crate::settings::Integrator;
 use crate::system::System;
-
-/// Acceleration \[m/s²\] of the sphere at `index` in the state `motion` at `time` \[s\].
-///
-/// Where forces act between spheres, all of them are evaluated.
-pub(crate) fn acceleration(system: &System, motion: &Motion, index: usize, time: f64) -> DVec3 {
-    let alone = acceleration_at(system, index, Kinematics::of(motion, index), time);
-    if !system.has_interactions() {
-        return alone;
-    }
-    let mut between = Vec::new();
-    system.forces_between([&motion.position, &motion.velocity], time, &mut between);
-    alone + between[index] / system.spheres.mass[index]
-}
-
-/// Acceleration \[m/s²\] of a sphere with this centre \[m\] and velocity \[m/s\], without the forces between
-/// spheres.
-pub(crate) fn acceleration_alone(
-    system: &System,
-    index: usize,
-    (position, velocity): (DVec3, DVec3),
-    time: f64,
-) -> DVec3 {
-    acceleration_at(system, index, Kinematics { position, velocity }, time)
-}
-
-fn acceleration_at(system: &System, index: usize, at: Kinematics, time: f64) -> DVec3 {
-    let Kinematics { position, velocity } = at;
-    let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
-    let state = SphereState { position, velocity, radius, mass };
-    let common = forces::total(system.forces, &state, time) / mass;
-    system.spheres.applied_acceleration(index).map_or(common, |own| common + own)
-}
 
 /// The sphere at `index` at the end of `interval`, where no forces act between spheres.
 fn advance_one<S: Scheme>(

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::acceleration_at;
+use super::acceleration::acceleration_at;
 use super::kinematics::Kinematics;
 use super::scheme::{MOST_STAGES, Scheme};
 use crate::bodies::Motion;
