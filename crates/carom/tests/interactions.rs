@@ -114,7 +114,8 @@ fn a_thread_pulls_and_never_pushes() {
         world.add_spring(thread).unwrap();
         // Slack until it is 1 m to the other side, after 1.5 s.
         run(&mut world, 1.4, 140);
-        assert_close(position(&world, ball).x, -0.9, 1e-14);
+        // A rounding in each of 140 frames.
+        assert_close(position(&world, ball).x, -0.9, 4e-14);
         assert_eq!(world.potential_energy(), 0.0);
         run(&mut world, 0.4, 800);
         let speed = world.sphere(ball).unwrap().velocity.x;
