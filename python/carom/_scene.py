@@ -59,6 +59,7 @@ class Scene(parts.Part):
         forces: Forces on every sphere; they add up.
         spheres: Single spheres; many of them as `Points`.
         generators: Places for many spheres or colliders, which come after the single ones.
+        springs: Springs and threads, between spheres or from one to a fixed point.
         colliders: Shapes that spheres bounce off.
         emitters: Sources of spheres.
         camera: Where to look from; fitted to the scene where it is missing.
@@ -85,6 +86,7 @@ class Scene(parts.Part):
     forces: Sequence[parts.Force] = ()
     spheres: Sequence[parts.Sphere] = ()
     generators: Sequence[parts.Generator] = ()
+    springs: Sequence[parts.Spring] = ()
     colliders: Sequence[parts.Collider] = ()
     emitters: Sequence[parts.Emitter] = ()
     camera: parts.Camera | None = None
@@ -97,6 +99,7 @@ class Scene(parts.Part):
             "generators": self.generators,
             "colliders": self.colliders,
             "forces": self.forces,
+            "springs": self.springs,
             "emitters": self.emitters,
         }
         counts = [f"{len(part)} {name}" for name, part in parts.items() if part]

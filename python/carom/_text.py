@@ -90,13 +90,14 @@ _KINDS: dict[str, type[parts.Part]] = {
     "simulation": parts.Simulation,
     "sphere": parts.Sphere,
     "spheres": parts.Sphere,
+    "springs": parts.Spring,
     "sun": parts.Sun,
 }
 """What is described under a name."""
 
 _CHOICES: dict[str, tuple[type[parts.Part], ...]] = {
     "boundary": (parts.Periodic,),
-    "forces": (parts.ConstantForce, parts.Gravity, parts.ViscousDrag),
+    "forces": parts.FORCES,
     "generators": (
         parts.Row,
         parts.Lattice,

@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from carom.notebook import Viewer
 
 
-_FORCES = (parts.ConstantForce, parts.Gravity, parts.ViscousDrag)
-
 
 def _are_spheres(
     given: ArrayLike | Sequence[parts.Sphere],
@@ -462,7 +460,7 @@ class World(Strict, Engine):
         [[-1.0, 0.0, 0.0]]
         """
         if isinstance(force, (parts.Part, type)) or not callable(force):
-            parts.expect("force", force, *_FORCES, "a function")
+            parts.expect("force", force, *parts.FORCES, "a function")
             return self._add_force(f"forces = [{toml_value(force, 'force')}]")
         if self._functions is None:
             self._functions = Functions()
@@ -476,7 +474,7 @@ class World(Strict, Engine):
                 raise TypeError(f"force: {id} is a function; remove it, and add the other")
             self._functions.by_id[id] = force  # type: ignore[assignment]
             return
-        parts.expect("force", force, *_FORCES)
+        parts.expect("force", force, *parts.FORCES)
         self._set_force(id, f"forces = [{toml_value(force, 'force')}]")
 
     def remove_force(self, id: int) -> None:

@@ -76,8 +76,9 @@ make: Any = carom
         (lambda: make.Scene(name=3), "Scene.name: must be text, not 3"),
         (
             lambda: make.Scene(name="x", forces=carom.Gravity()),
-            "Scene.forces: must be a sequence of a carom.ConstantForce, carom.Gravity or "
-            "carom.ViscousDrag, not carom.Gravity; put it into a list",
+            "Scene.forces: must be a sequence of a carom.ConstantForce, carom.Gravity, "
+            "carom.ViscousDrag, carom.PointAttractor, carom.MutualGravity, carom.Wind, carom.Vortex, "
+            "carom.QuadraticDrag or carom.Buoyancy, not carom.Gravity; put it into a list",
         ),
         (
             lambda: make.Scene(name="x", spheres=[BALL, (0, 0, 0)]),

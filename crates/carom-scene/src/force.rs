@@ -1,8 +1,12 @@
 //! Forces of scene files in worlds.
 
-use carom::{ConstantForce, Error, ForceId, Gravity, ViscousDrag, World};
+use carom::{
+    Buoyancy, ConstantForce, Error, ForceId, Gravity, MutualGravity, PointAttractor, QuadraticDrag,
+    ViscousDrag, Vortex, Wind, World,
+};
 
 use crate::scene::Force;
+use crate::scene::values::vector;
 
 impl Force {
     /// Adds this force to a world.
@@ -10,11 +14,7 @@ impl Force {
     /// # Errors
     /// As [`World::add_force`].
     pub fn add_to(&self, world: &mut World) -> Result<ForceId, Error> {
-        match *self {
-            Self::Constant { force } => world.add_force(ConstantForce::new(force.into())),
-            Self::Gravity { acceleration } => world.add_force(Gravity::new(acceleration.into())),
-            Self::ViscousDrag { coefficient } => world.add_force(ViscousDrag::new(coefficient)),
-        }
+        self.give_to(Add(world))
     }
 
     /// Puts this force in the place of another.
@@ -22,12 +22,70 @@ impl Force {
     /// # Errors
     /// As [`World::set_force`].
     pub fn replace_in(&self, world: &mut World, id: ForceId) -> Result<(), Error> {
+        self.give_to(Replace(world, id))
+    }
+
+    /// Gives the force that the physics knows.
+    fn give_to<T: Taker>(&self, taker: T) -> Result<T::Answer, Error> {
         match *self {
-            Self::Constant { force } => world.set_force(id, ConstantForce::new(force.into())),
-            Self::Gravity { acceleration } => {
-                world.set_force(id, Gravity::new(acceleration.into()))
+            Self::Constant { force } => taker.take(ConstantForce::new(vector(force))),
+            Self::Gravity { acceleration } => taker.take(Gravity::new(vector(acceleration))),
+            Self::ViscousDrag { coefficient } => taker.take(ViscousDrag::new(coefficient)),
+            Self::PointAttractor { position, gravitational_parameter, softening } => taker.take(
+                PointAttractor::new(vector(position), gravitational_parameter)
+                    .with_softening(softening),
+            ),
+            Self::MutualGravity { constant, softening, opening_angle } => taker.take(
+                MutualGravity::new(constant)
+                    .with_softening(softening)
+                    .with_opening_angle(opening_angle),
+            ),
+            Self::Wind { velocity, coefficient } => {
+                taker.take(Wind::new(vector(velocity), coefficient))
             }
-            Self::ViscousDrag { coefficient } => world.set_force(id, ViscousDrag::new(coefficient)),
+            Self::Vortex { position, axis, circulation, core_radius, coefficient } => taker.take(
+                Vortex::new(vector(position), circulation, coefficient)
+                    .with_axis(vector(axis))
+                    .with_core_radius(core_radius),
+            ),
+            Self::QuadraticDrag { density, drag_coefficient, viscosity, wind } => taker.take(
+                QuadraticDrag::new(density)
+                    .with_drag_coefficient(drag_coefficient)
+                    .with_viscosity(viscosity)
+                    .with_wind(vector(wind)),
+            ),
+            Self::Buoyancy { density, surface_height, gravity } => {
+                taker.take(Buoyancy::new(density, surface_height).with_gravity(vector(gravity)))
+            }
         }
+    }
+}
+
+/// What becomes of a force, of whatever kind.
+trait Taker {
+    type Answer;
+
+    fn take(self, force: impl carom::Force + 'static) -> Result<Self::Answer, Error>;
+}
+
+/// Adds it to a world.
+struct Add<'a>(&'a mut World);
+
+/// Puts it in the place of another.
+struct Replace<'a>(&'a mut World, ForceId);
+
+impl Taker for Add<'_> {
+    type Answer = ForceId;
+
+    fn take(self, force: impl carom::Force + 'static) -> Result<ForceId, Error> {
+        self.0.add_force(force)
+    }
+}
+
+impl Taker for Replace<'_> {
+    type Answer = ();
+
+    fn take(self, force: impl carom::Force + 'static) -> Result<(), Error> {
+        self.0.set_force(self.1, force)
     }
 }

@@ -45,6 +45,7 @@ mod requirement;
 pub mod scene;
 mod schema;
 mod settings;
+mod springs;
 mod table;
 mod text;
 pub mod unfinished;

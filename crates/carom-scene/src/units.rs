@@ -10,7 +10,7 @@ use crate::wording::{DECIMAL_POINT, quoted};
 /// one is rounded once: 7 cm are the number 0.07.
 type Unit = (&'static str, &'static str, [f64; 2]);
 
-const UNITS: [Unit; 43] = [
+const UNITS: [Unit; 48] = [
     ("m", "m", [1.0, 1.0]),
     ("km", "m", [1000.0, 1.0]),
     ("cm", "m", [1.0, 100.0]),
@@ -44,6 +44,11 @@ const UNITS: [Unit; 43] = [
     ("N", "N", [1.0, 1.0]),
     ("kN", "N", [1e3, 1.0]),
     ("mN", "N", [1.0, 1e3]),
+    ("N/m", "N/m", [1.0, 1.0]),
+    ("kN/m", "N/m", [1e3, 1.0]),
+    ("N/mm", "N/m", [1e3, 1.0]),
+    ("Pa s", "Pa s", [1.0, 1.0]),
+    ("mPa s", "Pa s", [1.0, 1e3]),
     ("kg/s", "kg/s", [1.0, 1.0]),
     ("g/s", "kg/s", [1.0, 1e3]),
     ("rad/s", "rad/s", [1.0, 1.0]),
@@ -61,12 +66,15 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// The unit of each field that has one.
-const FIELDS: [(&str, &str); 34] = [
+const FIELDS: [(&str, &str); 44] = [
     ("acceleration", "m/s²"),
+    ("anchor", "m"),
     ("angular_velocity", "rad/s"),
     ("center", "m"),
     ("coefficient", "kg/s"),
     ("contact_duration", "s"),
+    ("core_radius", "m"),
+    ("damping", "kg/s"),
     ("degrees", DEGREES),
     ("density", "kg/m³"),
     ("diameter", "m"),
@@ -75,6 +83,7 @@ const FIELDS: [(&str, &str); 34] = [
     ("far", "m"),
     ("force", "N"),
     ("frame_time", "s"),
+    ("gravity", "m/s²"),
     ("look_at", "m"),
     ("mass", "kg"),
     ("max", "m"),
@@ -84,17 +93,23 @@ const FIELDS: [(&str, &str); 34] = [
     ("position", "m"),
     ("radius", "m"),
     ("radius_range", "m"),
+    ("rest_length", "m"),
     ("row_step", "m"),
     ("size", "m"),
     ("size_x", "m"),
     ("size_z", "m"),
+    ("softening", "m"),
     ("spacing", "m"),
     ("speed", "m/s"),
     ("start", "m"),
     ("step", "m"),
+    ("stiffness", "N/m"),
+    ("surface_height", "m"),
     ("tolerance", "m"),
     ("velocity", "m/s"),
     ("vertical_fov_degrees", DEGREES),
+    ("viscosity", "Pa s"),
+    ("wind", "m/s"),
     ("zone_tick", "s"),
 ];
 

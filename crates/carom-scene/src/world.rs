@@ -11,6 +11,7 @@ use crate::overlap;
 use crate::requirement::check;
 use crate::scene::{Collider, Emitter, Force, Scene, Shape, Simulation};
 use crate::settings::settings_problem;
+use crate::springs;
 
 impl Scene {
     /// The world at the start of the scene.
@@ -52,6 +53,9 @@ pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
         let path = format!("generators[{i}].{}", generator.kind());
         generate::fill(&mut world, generator, &path)?;
     }
+    for (i, spring) in scene.springs.iter().enumerate() {
+        springs::add(&mut world, spring, &format!("springs[{i}]"))?;
+    }
     for (i, emitter) in scene.emitters.iter().enumerate() {
         add_emitter(&mut world, emitter, &format!("emitters[{i}]"), &scene.simulation)?;
     }
@@ -63,11 +67,7 @@ pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
 
 fn add_forces(world: &mut World, forces: &[Force]) -> Result<(), Problem> {
     for (i, force) in forces.iter().enumerate() {
-        let kind = match force {
-            Force::Constant { .. } => "constant",
-            Force::Gravity { .. } => "gravity",
-            Force::ViscousDrag { .. } => "viscous-drag",
-        };
+        let kind = force.kind();
         let added = force.add_to(world);
         added.map_err(|error| Problem::of_physics(&format!("forces[{i}].{kind}"), error))?;
     }

@@ -32,13 +32,14 @@ impl Setup {
         }
     }
 
-    /// The scene `opened`, changed to this, without any sphere.
+    /// The scene `opened`, changed to this, without any sphere or spring.
     pub fn scene(&self, opened: &Scene) -> Scene {
         Scene {
             simulation: self.simulation.clone(),
             forces: self.forces.iter().map(|(_, force)| force.clone()).collect(),
             spheres: Vec::new(),
             generators: Vec::new(),
+            springs: Vec::new(),
             colliders: self.colliders.iter().map(|(_, collider)| collider.clone()).collect(),
             emitters: self.emitters.iter().map(|(_, emitter)| emitter.clone()).collect(),
             ..opened.clone()

@@ -4,7 +4,7 @@ use std::fmt::{self, Display};
 
 use thiserror::Error;
 
-use crate::id::{ColliderId, EmitterId, ForceId, SphereId};
+use crate::id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
 
 /// Everything the physics can refuse. The world is unchanged after each of them.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -97,6 +97,8 @@ pub enum Subject {
     Emitter(EmitterId),
     /// A force; for one that was refused, the id it would have had.
     Force(ForceId),
+    /// A spring; for one that was refused, the id it would have had.
+    Spring(SpringId),
     /// The settings of the world.
     Settings,
     /// The call of `World::step`.
@@ -110,6 +112,7 @@ impl Display for Subject {
             Self::Collider(id) => write!(f, "collider {id}"),
             Self::Emitter(id) => write!(f, "emitter {id}"),
             Self::Force(id) => write!(f, "force {id}"),
+            Self::Spring(id) => write!(f, "spring {id}"),
             Self::Settings => f.write_str("settings"),
             Self::Step => f.write_str("step"),
         }

@@ -51,6 +51,12 @@ id!(
 );
 
 id!(
+    /// Names a spring of a world.
+    SpringId,
+    "springs"
+);
+
+id!(
     /// Names a force of a world.
     ForceId,
     "forces"

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::bodies::Spheres;
-use crate::forces::{Force, SphereState};
+use crate::forces::{Force, Interactions, SphereState, SphereStates, Spring};
 use crate::numbered::Numbered;
 use crate::sum::Sum;
 
@@ -26,10 +26,13 @@ fn rotational(spheres: &Spheres) -> impl Iterator<Item = f64> {
     velocities.map(|(i, w)| 0.5 * spheres.moment_of_inertia(i) * w.dot(*w))
 }
 
-/// Potential energy \[J\] of all spheres in all forces that have one, at `time` \[s\].
+/// Potential energy \[J\] of all spheres in all forces that have one, those between them included, at
+/// `time` \[s\], in a box with edges `period` \[m\].
 pub(crate) fn potential_energy(
     spheres: &Spheres,
     forces: &Numbered<Arc<dyn Force>>,
+    springs: &Numbered<Spring>,
+    period: DVec3,
     time: f64,
 ) -> f64 {
     let mut sum = Sum::default();
@@ -41,6 +44,17 @@ pub(crate) fn potential_energy(
         for (_, force) in forces.iter() {
             sum.add(force.potential_energy(&state, time));
         }
+    }
+    let states = SphereStates {
+        ids: spheres.ids(),
+        positions: spheres.positions(),
+        velocities: spheres.velocities(),
+        radii: spheres.radii(),
+        masses: spheres.masses(),
+        period,
+    };
+    if let Some(interactions) = Interactions::of(forces, springs) {
+        interactions.potential_energies(&states, time).for_each(|energy| sum.add(energy));
     }
     sum.value()
 }

@@ -66,10 +66,14 @@ pub use collider::{Collider, Pose, Shape, Sides};
 pub use emitter::Emitter;
 pub use error::{Error, InvalidValue, Subject};
 pub use flight::Flight;
-pub use forces::{ConstantForce, Force, Gravity, LinearForce, SphereState, ViscousDrag};
+pub use forces::{
+    Buoyancy, ConstantForce, Force, Gravity, Interaction, LinearForce, MutualGravity,
+    PointAttractor, QuadraticDrag, SphereState, SphereStates, Spring, SpringEnd, ViscousDrag,
+    Vortex, Wind,
+};
 pub use friction::Friction;
 pub use hash::StateHash;
-pub use id::{ColliderId, EmitterId, ForceId, SphereId};
+pub use id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
 pub use persistent_contact::PersistentContact;
 pub use report::{
     BodyPair, ContactAccount, Impact, ImpactGroup, LedgerEntry, Overlap, StageCounts, StepReport,

@@ -1,4 +1,4 @@
-//! Numbers of colliders, forces and emitters.
+//! Numbers of colliders, forces, springs and emitters.
 
 /// Things that keep the number they were given, in the order in which they came.
 #[derive(Debug, Clone)]
@@ -36,6 +36,11 @@ impl<T> Numbered<T> {
 
     pub fn remove(&mut self, number: u64) -> Option<T> {
         self.place(number).map(|place| self.items.remove(place).1)
+    }
+
+    /// Keeps those that `stays` holds for.
+    pub fn retain(&mut self, mut stays: impl FnMut(&T) -> bool) {
+        self.items.retain(|(_, item)| stays(item));
     }
 
     pub fn iter(&self) -> impl ExactSizeIterator<Item = (u64, &T)> {

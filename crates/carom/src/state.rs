@@ -9,15 +9,16 @@ use crate::clock::Clock;
 use crate::colliders::Colliders;
 use crate::detect::instant::Instant;
 use crate::emitter::{self, EmitterState};
-use crate::error::{Error, Subject};
-use crate::forces::Force;
-use crate::id::EmitterId;
+use crate::error::{Error, InvalidValue, Subject};
+use crate::forces::{Force, Spring};
+use crate::id::{EmitterId, SphereId};
 use crate::numbered::Numbered;
 use crate::persistent_contact::PersistentContact;
 use crate::rule::contact::{self, Solver};
 use crate::rule::exact::{self, Timeline, Zone};
-use crate::settings::{Rule, Settings};
+use crate::settings::{Boundary, Rule, Settings};
 use crate::system::System;
+use crate::validate;
 
 /// Everything a world's future depends on.
 #[derive(Debug, Clone, Default)]
@@ -26,6 +27,8 @@ pub(crate) struct State {
     pub settings: Settings,
     #[cfg_attr(feature = "serde", serde(with = "crate::forces::shipped"))]
     pub forces: Numbered<Arc<dyn Force>>,
+    /// Between spheres that are all in the world.
+    pub springs: Numbered<Spring>,
     /// Shared by worlds that were copied, until one changes its own.
     pub colliders: Arc<Colliders>,
     pub emitters: Numbered<EmitterState>,
@@ -53,16 +56,17 @@ impl State {
 
     /// What a step reads, what it moves, and what the rule `contact` keeps.
     pub fn split_with_solver(&mut self) -> (System<'_>, &mut Motion, &mut Solver) {
-        let Self { settings, forces, colliders, spheres, solver, .. } = self;
+        let Self { settings, forces, springs, colliders, spheres, solver, .. } = self;
         let Spheres { properties, motion } = spheres;
-        (System::new(settings, forces, colliders, properties), motion, solver)
+        (System::new(settings, forces, springs, colliders, properties), motion, solver)
     }
 
     /// All spheres as they are now.
     pub fn now(&self) -> Instant<'_> {
         let time = self.clock.seconds();
         let properties = &self.spheres.properties;
-        let system = System::new(&self.settings, &self.forces, &self.colliders, properties);
+        let Self { settings, forces, springs, colliders, .. } = self;
+        let system = System::new(settings, forces, springs, colliders, properties);
         Instant { system, motion: &self.spheres.motion, time }
     }
 
@@ -89,6 +93,32 @@ impl State {
         if let Some(timeline) = self.timeline.take() {
             self.zone = timeline.into_zone();
         }
+    }
+
+    /// Takes spheres out, with the springs at them.
+    pub fn remove_spheres(&mut self, ids: &[SphereId]) {
+        let state = self.changed();
+        state.spheres.remove_all(ids);
+        state.drop_loose_springs();
+    }
+
+    /// Takes out the springs at spheres that are not in the world.
+    pub fn drop_loose_springs(&mut self) {
+        let Self { springs, spheres, .. } = self;
+        springs.retain(|spring| spring.spheres().all(|id| spheres.index_of(id).is_some()));
+    }
+
+    /// Refuses forces that make no sense in what is around the spheres.
+    pub fn check_boundary(settings: &Settings, force: &dyn Force) -> Result<(), InvalidValue> {
+        let suits = force.interaction().is_none_or(|it| it.suits_periodic_box());
+        let requirement =
+            "open under this force between spheres, which has no end in a periodic box";
+        validate::require(
+            suits || settings.boundary == Boundary::Open,
+            "boundary",
+            requirement,
+            "periodic",
+        )
     }
 
     /// The colliders, to be changed from outside.

@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::bodies::Properties;
 use crate::colliders::Colliders;
 use crate::detect::surface_tree::SurfaceTree;
-use crate::forces::Force;
+use crate::forces::{Force, Interactions, SphereStates, Spring};
 use crate::friction::Friction;
 use crate::numbered::Numbered;
 use crate::settings::Settings;
@@ -16,6 +18,8 @@ use crate::surface::Surface;
 pub(crate) struct System<'a> {
     pub settings: &'a Settings,
     pub forces: &'a Numbered<Arc<dyn Force>>,
+    /// Forces between spheres; `None` where there are none.
+    pub interactions: Option<Interactions<'a>>,
     pub surfaces: &'a [Surface],
     pub tree: &'a SurfaceTree,
     /// Of the surfaces that report contact and deflect nothing.
@@ -27,12 +31,50 @@ impl<'a> System<'a> {
     pub fn new(
         settings: &'a Settings,
         forces: &'a Numbered<Arc<dyn Force>>,
+        springs: &'a Numbered<Spring>,
         colliders: &'a Colliders,
         spheres: &'a Properties,
     ) -> Self {
         let (surfaces, tree) = (colliders.surfaces(), colliders.tree());
         let trigger_tree = colliders.trigger_tree();
-        Self { settings, forces, surfaces, tree, trigger_tree, spheres }
+        let interactions = Interactions::of(forces, springs);
+        Self { settings, forces, interactions, surfaces, tree, trigger_tree, spheres }
+    }
+
+    /// Whether forces act between spheres.
+    #[inline]
+    pub fn has_interactions(&self) -> bool {
+        self.interactions.is_some()
+    }
+
+    /// Whether a force between spheres depends on how they move.
+    pub fn has_damped_interactions(&self) -> bool {
+        self.interactions.is_some_and(|it| it.depend_on_velocity())
+    }
+
+    /// The forces between spheres \[N\] on each of them, where they are at `positions` \[m\] and move with
+    /// `velocities` \[m/s\] at a time on the world's clock \[s\].
+    pub fn forces_between(
+        &self,
+        [positions, velocities]: [&[DVec3]; 2],
+        time: f64,
+        forces: &mut Vec<DVec3>,
+    ) {
+        forces.clear();
+        forces.resize(positions.len(), DVec3::ZERO);
+        if let Some(interactions) = self.interactions {
+            let Properties { id, radius, mass, .. } = self.spheres;
+            let period = self.settings.boundary.period();
+            let spheres = SphereStates {
+                ids: id,
+                positions,
+                velocities,
+                radii: radius,
+                masses: mass,
+                period,
+            };
+            interactions.add_forces(&spheres, time, forces);
+        }
     }
 
     /// What all bodies say of friction, as far as they say something.

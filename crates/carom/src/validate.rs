@@ -28,6 +28,11 @@ pub(crate) fn non_negative(field: &'static str, value: f64) -> Check {
     require(value.is_finite() && value >= 0.0, field, "zero or positive, and finite", value)
 }
 
+/// Any finite number.
+pub(crate) fn finite_number(field: &'static str, value: f64) -> Check {
+    require(value.is_finite(), field, "finite", value)
+}
+
 /// A coefficient of restitution.
 pub(crate) fn unit_interval(field: &'static str, value: f64) -> Check {
     require((0.0..=1.0).contains(&value), field, "in [0, 1]", value)
@@ -41,6 +46,14 @@ pub(crate) fn at_least_one(field: &'static str, value: u32) -> Check {
 /// A vector of three finite numbers.
 pub(crate) fn finite(field: &'static str, value: DVec3) -> Check {
     require(value.is_finite(), field, "finite", value)
+}
+
+/// A vector that has a direction: finite and not zero.
+pub(crate) fn direction(field: &'static str, value: DVec3) -> Check {
+    let length_squared = value.length_squared();
+    // Below this the squares underflow and the direction is lost.
+    let normal = length_squared.is_finite() && length_squared >= f64::MIN_POSITIVE;
+    require(normal, field, "finite and not zero", value)
 }
 
 /// A quaternion that names a rotation: finite and not zero. Its length is set to 1 on use.

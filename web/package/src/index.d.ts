@@ -223,7 +223,59 @@ export type Force =
   /** The same force on every sphere, whatever its mass [N]. */
   | { constant: { force: Vector } }
   /** Against the velocity and proportional to it; the coefficient [kg/s], >= 0. */
-  | { viscousDrag: { coefficient: number } };
+  | { viscousDrag: { coefficient: number } }
+  /** Gravity of a fixed point mass: G M [m³/s²]; `position` and `softening` [m]. */
+  | {
+      pointAttractor: { gravitationalParameter: number; position?: Vector; softening?: number };
+    }
+  /** Gravity between spheres: nature's constant [m³/(kg s²)] unless given; `softening` [m]. */
+  | { mutualGravity: { constant?: number; softening?: number; openingAngle?: number } }
+  /** Viscous drag in a wind [m/s]; the coefficient [kg/s], >= 0. */
+  | { wind: { velocity: Vector; coefficient: number } }
+  /** Viscous drag in air that goes round an axis: circulation [m²/s], core radius [m]. */
+  | {
+      vortex: {
+        circulation: number;
+        coreRadius: number;
+        coefficient: number;
+        position?: Vector;
+        axis?: Vector;
+      };
+    }
+  /** Drag of a medium by the square of the velocity: density [kg/m³], viscosity [Pa s], wind [m/s]. */
+  | {
+      quadraticDrag: {
+        density: number;
+        dragCoefficient?: number;
+        viscosity?: number;
+        wind?: Vector;
+      };
+    }
+  /** Buoyancy in a fluid with a level surface: density [kg/m³], height [m], gravity [m/s²]. */
+  | { buoyancy: { density: number; surfaceHeight?: number; gravity?: Vector } };
+
+/**
+ * A spring with a damper, or a chain of such. Spheres are named by their numbers in the scene, from
+ * 0. Give `spheres`, `sphere` with `anchor`, or `chain`.
+ */
+export interface Spring {
+  /** The two spheres that it joins. */
+  spheres?: [number, number];
+  /** The sphere that it joins to a fixed point. */
+  sphere?: number;
+  /** The fixed point [m]. */
+  anchor?: Vector;
+  /** First and last sphere of a chain: each is joined to the next one. */
+  chain?: [number, number];
+  /** Length without force [m], >= 0; the length at the start unless given. */
+  restLength?: number;
+  /** Stiffness [N/m], >= 0. */
+  stiffness: number;
+  /** Damping [kg/s], >= 0. */
+  damping?: number;
+  /** Whether it is a thread, which is slack up to its rest length. */
+  onlyPulls?: boolean;
+}
 
 /** How spheres move under forces, by `bisect` and `discrete`; `exact` needs none. */
 export type Integrator =

@@ -5,6 +5,9 @@ const HYPHENATED = new Map([
   ["closePacking", "close-packing"],
   ["staggeredRows", "staggered-rows"],
   ["viscousDrag", "viscous-drag"],
+  ["pointAttractor", "point-attractor"],
+  ["mutualGravity", "mutual-gravity"],
+  ["quadraticDrag", "quadratic-drag"],
 ]);
 const UNHYPHENATED = new Map([...HYPHENATED].map(([camel, kebab]) => [kebab, camel]));
 
@@ -23,7 +26,7 @@ export function camel(name) {
 /** A text in which every `word_with_underscores` is spelled as JavaScript does. */
 export function camelWords(text) {
   return text.replace(
-    /\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|viscous-drag)\b/g,
+    /\b[a-z]+(?:_[a-z0-9]+)+\b|\b(?:close-packing|staggered-rows|viscous-drag|point-attractor|mutual-gravity|quadratic-drag)\b/g,
     camel,
   );
 }

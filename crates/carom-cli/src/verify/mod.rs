@@ -10,6 +10,7 @@ mod conservation;
 mod convergence;
 mod course;
 mod fluid;
+mod forces;
 mod friction;
 mod grains;
 mod granular;
@@ -59,8 +60,9 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
 type Topic = (&'static str, fn() -> Vec<Claim>);
 
 /// All topics, in the order in which their claims are printed.
-const TOPICS: [Topic; 16] = [
+const TOPICS: [Topic; 17] = [
     ("motion", motion::claims),
+    ("forces", forces::claims),
     ("impacts", single_impacts::claims),
     ("tunnelling", tunnelling::claims),
     ("simultaneous", simultaneous::claims),

@@ -1,9 +1,10 @@
 //! What acts on spheres.
 
+use carom::MutualGravity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::values::Vector;
+use super::values::{Vector, is_default};
 
 /// A force on every sphere.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -25,4 +26,123 @@ pub enum Force {
         #[schemars(range(min = 0.0))]
         coefficient: f64,
     },
+    /// Gravity of a point mass that stays where it is, as of a sun.
+    PointAttractor {
+        /// Where it is, in m.
+        #[serde(default)]
+        position: Vector,
+        /// Gravitational parameter G M, in m³/s²; a negative one repels.
+        gravitational_parameter: f64,
+        /// Softening length, in m, >= 0: nearer, the force goes to zero instead of growing.
+        #[schemars(range(min = 0.0))]
+        #[serde(default, skip_serializing_if = "is_default")]
+        softening: f64,
+    },
+    /// Gravity between spheres: every one attracts every other one.
+    MutualGravity {
+        /// Gravitational constant, in m³/(kg s²); nature's unless given. A negative one repels.
+        #[serde(default = "newton")]
+        constant: f64,
+        /// Softening length, in m, >= 0: nearer, the force goes to zero instead of growing.
+        #[schemars(range(min = 0.0))]
+        #[serde(default, skip_serializing_if = "is_default")]
+        softening: f64,
+        /// Of more than a thousand spheres, those in a cube count as one where its edge divided by its
+        /// distance is less than this, in [0, 1]; with 0 every pair is summed.
+        #[schemars(range(min = 0.0, max = 1.0))]
+        #[serde(default = "half")]
+        opening_angle: f64,
+    },
+    /// Viscous drag in a wind that is the same everywhere.
+    Wind {
+        /// Of the air, in m/s.
+        velocity: Vector,
+        /// Drag coefficient, in kg/s, >= 0.
+        #[schemars(range(min = 0.0))]
+        coefficient: f64,
+    },
+    /// Viscous drag in air that goes round an axis.
+    Vortex {
+        /// A point of the axis, in m.
+        #[serde(default)]
+        position: Vector,
+        /// Direction of the axis, of any length but zero; the air goes round it by the right-hand rule.
+        #[serde(default = "up")]
+        axis: Vector,
+        /// Circulation, in m²/s.
+        circulation: f64,
+        /// Where the air is fastest, in m from the axis, > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        core_radius: f64,
+        /// Drag coefficient, in kg/s, >= 0.
+        #[schemars(range(min = 0.0))]
+        coefficient: f64,
+    },
+    /// Drag of a medium, proportional to the square of the velocity.
+    QuadraticDrag {
+        /// Of the medium, in kg/m³, >= 0: 1.2 for air, 1000 for water.
+        #[schemars(range(min = 0.0))]
+        density: f64,
+        /// Drag coefficient, >= 0.
+        #[schemars(range(min = 0.0))]
+        #[serde(default = "newtons_drag")]
+        drag_coefficient: f64,
+        /// Dynamic viscosity of the medium, in Pa s, >= 0. With one, the drag coefficient of slow spheres
+        /// depends on the Reynolds number.
+        #[schemars(range(min = 0.0))]
+        #[serde(default, skip_serializing_if = "is_default")]
+        viscosity: f64,
+        /// Velocity of the medium, in m/s.
+        #[serde(default, skip_serializing_if = "is_default")]
+        wind: Vector,
+    },
+    /// Buoyancy in a fluid with a level surface.
+    Buoyancy {
+        /// Of the fluid, in kg/m³, >= 0.
+        #[schemars(range(min = 0.0))]
+        density: f64,
+        /// Height of the surface above the origin, in m.
+        #[serde(default)]
+        surface_height: f64,
+        /// Acceleration of gravity, in m/s², not zero: it makes the fluid heavy, and says where up is.
+        #[serde(default = "earth")]
+        gravity: Vector,
+    },
+}
+
+impl Force {
+    /// Name of its kind, as it is written.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::Constant { .. } => "constant",
+            Self::Gravity { .. } => "gravity",
+            Self::ViscousDrag { .. } => "viscous-drag",
+            Self::PointAttractor { .. } => "point-attractor",
+            Self::MutualGravity { .. } => "mutual-gravity",
+            Self::Wind { .. } => "wind",
+            Self::Vortex { .. } => "vortex",
+            Self::QuadraticDrag { .. } => "quadratic-drag",
+            Self::Buoyancy { .. } => "buoyancy",
+        }
+    }
+}
+
+fn newton() -> f64 {
+    MutualGravity::NEWTON
+}
+
+fn half() -> f64 {
+    0.5
+}
+
+fn newtons_drag() -> f64 {
+    0.44
+}
+
+fn up() -> Vector {
+    [0.0, 1.0, 0.0]
+}
+
+fn earth() -> Vector {
+    [0.0, -9.81, 0.0]
 }

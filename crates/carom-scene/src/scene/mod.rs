@@ -11,6 +11,7 @@ mod look;
 mod rotation;
 mod simulation;
 mod sphere;
+mod spring;
 pub(crate) mod values;
 
 use schemars::JsonSchema;
@@ -27,6 +28,7 @@ pub use simulation::{
     Simulation, WindBack, Zones,
 };
 pub use sphere::Sphere;
+pub use spring::Spring;
 pub use values::{Color, Quaternion, Vector};
 
 /// A Carom scene: spheres, what acts on them, what they bounce off, and how to look at it.
@@ -58,6 +60,9 @@ pub struct Scene {
     /// Places for many spheres or colliders, which come after the single ones.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub generators: Vec<Generator>,
+    /// Springs and threads, between spheres or from one to a fixed point.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub springs: Vec<Spring>,
     /// Fixed shapes, in the order in which the rule `discrete` looks at them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub colliders: Vec<Collider>,
@@ -87,6 +92,7 @@ impl Scene {
             forces: Vec::new(),
             spheres: Vec::new(),
             generators: Vec::new(),
+            springs: Vec::new(),
             colliders: Vec::new(),
             emitters: Vec::new(),
             camera: None,

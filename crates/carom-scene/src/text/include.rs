@@ -18,7 +18,7 @@ const MOST_FILES: usize = 100;
 const OWN: [&str; 4] = ["name", "title", "description", "origin"];
 
 /// Lists of a scene: what included files have in them comes before what the file has itself.
-const LISTS: [&str; 5] = ["forces", "spheres", "generators", "colliders", "emitters"];
+const LISTS: [&str; 6] = ["forces", "spheres", "generators", "springs", "colliders", "emitters"];
 
 /// Whether a field is a list of things that files of one scene have together.
 pub(super) fn is_list(field: &str) -> bool {

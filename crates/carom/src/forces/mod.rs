@@ -1,10 +1,19 @@
 //! What accelerates spheres.
 
+mod attractor;
+mod buoyancy;
 mod constant;
 mod drag;
 mod gravity;
+mod interaction;
+mod interactions;
+mod mutual_gravity;
+mod quadratic_drag;
 #[cfg(feature = "serde")]
 pub(crate) mod shipped;
+mod spring;
+mod vortex;
+mod wind;
 
 use std::any::Any;
 use std::fmt::Debug;
@@ -12,9 +21,18 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+pub use attractor::PointAttractor;
+pub use buoyancy::Buoyancy;
 pub use constant::ConstantForce;
 pub use drag::ViscousDrag;
 pub use gravity::Gravity;
+pub use interaction::{Interaction, SphereStates};
+pub(crate) use interactions::Interactions;
+pub use mutual_gravity::MutualGravity;
+pub use quadratic_drag::QuadraticDrag;
+pub use spring::{Spring, SpringEnd};
+pub use vortex::Vortex;
+pub use wind::Wind;
 
 use crate::error::InvalidValue;
 use crate::numbered::Numbered;
@@ -74,6 +92,12 @@ pub trait Force: Any + Debug + Send + Sync {
     /// Potential energy \[J\] of a sphere in this state; 0 (the default) where there is none.
     fn potential_energy(&self, _sphere: &SphereState, _time: f64) -> f64 {
         0.0
+    }
+
+    /// What this force does between spheres, besides what it does on each by itself; `None` (the default)
+    /// for nothing.
+    fn interaction(&self) -> Option<&dyn Interaction> {
+        None
     }
 
     /// Refuses parameters that make no sense; called once, when the force enters a world.

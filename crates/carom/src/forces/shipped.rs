@@ -5,33 +5,49 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, ser};
 
-use super::{ConstantForce, Force, Gravity, ViscousDrag};
+use super::{
+    Buoyancy, ConstantForce, Force, Gravity, MutualGravity, PointAttractor, QuadraticDrag,
+    ViscousDrag, Vortex, Wind,
+};
 use crate::numbered::Numbered;
 
-/// A force of this crate.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-enum Shipped {
+/// Defines [`Shipped`]: a variant for each force of this crate.
+macro_rules! shipped {
+    ($($variant:ident($force:ident)),* $(,)?) => {
+        /// A force of this crate.
+        #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+        enum Shipped {
+            $($variant($force)),*
+        }
+
+        impl Shipped {
+            fn of(force: &dyn Force) -> Option<Self> {
+                let force: &dyn Any = force;
+                $(if let Some(&force) = force.downcast_ref::<$force>() {
+                    return Some(Self::$variant(force));
+                })*
+                None
+            }
+
+            fn into_force(self) -> Arc<dyn Force> {
+                match self {
+                    $(Self::$variant(force) => Arc::new(force)),*
+                }
+            }
+        }
+    };
+}
+
+shipped! {
     Constant(ConstantForce),
     Drag(ViscousDrag),
     Gravity(Gravity),
-}
-
-impl Shipped {
-    fn of(force: &dyn Force) -> Option<Self> {
-        let force: &dyn Any = force;
-        let constant = force.downcast_ref().copied().map(Self::Constant);
-        let drag = || force.downcast_ref().copied().map(Self::Drag);
-        let gravity = || force.downcast_ref().copied().map(Self::Gravity);
-        constant.or_else(drag).or_else(gravity)
-    }
-
-    fn into_force(self) -> Arc<dyn Force> {
-        match self {
-            Self::Constant(force) => Arc::new(force),
-            Self::Drag(force) => Arc::new(force),
-            Self::Gravity(force) => Arc::new(force),
-        }
-    }
+    PointAttractor(PointAttractor),
+    Wind(Wind),
+    Vortex(Vortex),
+    QuadraticDrag(QuadraticDrag),
+    Buoyancy(Buoyancy),
+    MutualGravity(MutualGravity),
 }
 
 /// The number of the first force that is of another crate.

@@ -1,5 +1,7 @@
 use glam::DVec3;
 
+use crate::bodies::Motion;
+
 /// Where one sphere is and how it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Kinematics {
@@ -7,4 +9,16 @@ pub(super) struct Kinematics {
     pub position: DVec3,
     /// Velocity \[m/s\].
     pub velocity: DVec3,
+}
+
+impl Kinematics {
+    /// That of the sphere at an index.
+    pub fn of(motion: &Motion, index: usize) -> Self {
+        Self { position: motion.position[index], velocity: motion.velocity[index] }
+    }
+
+    /// Makes it that of the sphere at an index.
+    pub fn write(self, motion: &mut Motion, index: usize) {
+        (motion.position[index], motion.velocity[index]) = (self.position, self.velocity);
+    }
 }

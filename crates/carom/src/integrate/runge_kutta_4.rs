@@ -1,33 +1,51 @@
 use glam::DVec3;
 
 use super::kinematics::Kinematics;
+use super::scheme::Scheme;
 
 /// Four slopes `k1 .. k4` at 0, h/2, h/2 and h; the step takes `(k1 + 2 k2 + 2 k3 + k4) / 6`.
 ///
 /// Source: Hairer, Nørsett, Wanner, "Solving Ordinary Differential Equations I", II.1, table 1.2.
-pub(super) fn advance(
-    start: Kinematics,
-    h: f64,
-    acceleration: impl Fn(f64, Kinematics) -> DVec3,
-) -> Kinematics {
-    let half = 0.5 * h;
-    let slope = |t, at: Kinematics| Slope { x: at.velocity, v: acceleration(t, at) };
-    let k1 = slope(0.0, start);
-    let k2 = slope(half, along(start, half, k1));
-    let k3 = slope(half, along(start, half, k2));
-    let k4 = slope(h, along(start, h, k3));
-    let mean = Slope {
-        x: (k1.x + 2.0 * (k2.x + k3.x) + k4.x) / 6.0,
-        v: (k1.v + 2.0 * (k2.v + k3.v) + k4.v) / 6.0,
-    };
-    along(start, h, mean)
+pub(super) struct RungeKutta4;
+
+impl Scheme for RungeKutta4 {
+    const STAGES: usize = 4;
+
+    fn stage(start: Kinematics, h: f64, known: &[DVec3]) -> (f64, Kinematics) {
+        let t = TIMES[known.len()] * h;
+        match known.len() {
+            0 => (t, start),
+            number => (t, along(start, t, slope(start, h, known, number - 1))),
+        }
+    }
+
+    fn end(start: Kinematics, h: f64, known: &[DVec3]) -> Kinematics {
+        let [k1, k2, k3, k4] = [0, 1, 2, 3].map(|number| slope(start, h, known, number));
+        let mean = Slope {
+            x: (k1.x + 2.0 * (k2.x + k3.x) + k4.x) / 6.0,
+            v: (k1.v + 2.0 * (k2.v + k3.v) + k4.v) / 6.0,
+        };
+        along(start, h, mean)
+    }
 }
+
+/// When the slopes are taken, in parts of the interval.
+const TIMES: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
 
 /// Rates of change: of the position \[m/s\] and of the velocity \[m/s²\].
 #[derive(Clone, Copy)]
 struct Slope {
     x: DVec3,
     v: DVec3,
+}
+
+/// The slope of this number, from 0. The state that it is taken at lies along the slope before.
+fn slope(start: Kinematics, h: f64, known: &[DVec3], number: usize) -> Slope {
+    let velocity = match number {
+        0 => start.velocity,
+        _ => start.velocity + (TIMES[number] * h) * known[number - 1],
+    };
+    Slope { x: velocity, v: known[number] }
 }
 
 fn along(start: Kinematics, h: f64, slope: Slope) -> Kinematics {

@@ -1,22 +1,34 @@
 use glam::DVec3;
 
 use super::kinematics::Kinematics;
+use super::scheme::Scheme;
 
 /// `x' = x + h v + h²/2 a`, `v' = v + h/2 (a + a')` with `a' = a(x', v + h a)`.
 ///
 /// The predicted velocity `v + h a` keeps the second order where forces depend on the velocity.
 /// Source: Swope, Andersen, Berens, Wilson, J. Chem. Phys. 76, 637 (1982); the prediction as in
 /// Groot and Warren, J. Chem. Phys. 107, 4423 (1997), with their lambda = 1.
-pub(super) fn advance(
-    start: Kinematics,
-    h: f64,
-    acceleration: impl Fn(f64, Kinematics) -> DVec3,
-) -> Kinematics {
-    let a = acceleration(0.0, start);
-    let predicted = Kinematics {
+pub(super) struct VelocityVerlet;
+
+impl Scheme for VelocityVerlet {
+    const STAGES: usize = 2;
+
+    fn stage(start: Kinematics, h: f64, known: &[DVec3]) -> (f64, Kinematics) {
+        match *known {
+            [] => (0.0, start),
+            [a, ..] => (h, predicted(start, h, a)),
+        }
+    }
+
+    fn end(start: Kinematics, h: f64, known: &[DVec3]) -> Kinematics {
+        let position = predicted(start, h, known[0]).position;
+        Kinematics { position, velocity: start.velocity + 0.5 * h * (known[0] + known[1]) }
+    }
+}
+
+fn predicted(start: Kinematics, h: f64, a: DVec3) -> Kinematics {
+    Kinematics {
         position: start.position + h * (start.velocity + 0.5 * h * a),
         velocity: start.velocity + h * a,
-    };
-    let velocity = start.velocity + 0.5 * h * (a + acceleration(h, predicted));
-    Kinematics { position: predicted.position, velocity }
+    }
 }

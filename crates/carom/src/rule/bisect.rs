@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use glam::DVec3;
-
 use super::islands::{Island, Islands};
 use crate::bodies::Motion;
 use crate::contact_time::{self, Probe};
@@ -60,6 +58,7 @@ struct Buffers {
     /// Spheres that take part in the intersections of the island at work, ascending.
     involved: Vec<u32>,
     search: Search,
+    integrate: integrate::Scratch,
 }
 
 /// Advances all spheres by one frame (`docs/physics/bisect-and-discrete.md`). Tells whether the frame came
@@ -83,11 +82,14 @@ pub(crate) fn step(
     let everyone = 0..system.spheres.id.len() as u32;
     islands.reset(everyone.len());
     buffers.reset(motion);
-    advance(&frame, motion, &mut buffers.end, everyone, interval);
+    let Buffers { end, integrate, .. } = &mut *buffers;
+    advance(&frame, (motion, end), everyone, interval, integrate);
     let end = frame.end(&buffers.end);
     contacts::of_everyone(&end, parameters.tolerance, &mut buffers.search, contacts);
 
-    if parameters.wind_back == WindBack::All && contacts.iter().any(is_intersecting) {
+    // Where forces act between spheres, none goes through a piece of the frame without the others.
+    let is_one = parameters.wind_back == WindBack::All || system.has_interactions();
+    if is_one && contacts.iter().any(is_intersecting) {
         islands.join_all();
     }
     islands.join(contacts);
@@ -130,8 +132,8 @@ fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers, work: &Work
             return;
         }
         let rest = interval.after(elapsed);
-        let Buffers { end, current, late_contacts, search, .. } = buffers;
-        advance(frame, current, end, island.members.iter().copied(), rest);
+        let Buffers { end, current, late_contacts, search, integrate, .. } = buffers;
+        advance(frame, (current, end), island.members.iter().copied(), rest, integrate);
         let tolerance = parameters.tolerance;
         contacts::of_some(&frame.end(end), &island.members, tolerance, search, late_contacts);
         if !late_contacts.iter().any(is_intersecting) {
@@ -139,9 +141,10 @@ fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers, work: &Work
             return;
         }
         let until_contact = find_first_contact(frame, rest, buffers);
-        let Buffers { current, trial_contacts, .. } = buffers;
+        let Buffers { current, trial_contacts, integrate, .. } = buffers;
         let piece = Interval { time: rest.time, h: until_contact };
-        advance_in_place(frame, current, &island.members, piece);
+        let members = island.members.iter().copied();
+        integrate::advance(parameters.integrator, system, current, members, piece, integrate);
         elapsed += until_contact;
         let answered = respond::sequentially(trial_contacts.iter(), system, current, elapsed);
         island.impacts.extend(answered);
@@ -159,7 +162,8 @@ fn settle(frame: &Frame, island: &mut Island, buffers: &mut Buffers, work: &Work
 /// The contacts to be answered there are left in `buffers.trial_contacts`.
 fn find_first_contact(frame: &Frame, rest: Interval, buffers: &mut Buffers) -> f64 {
     let Frame { system, parameters: Bisect { tolerance, max_halvings, .. }, .. } = *frame;
-    let Buffers { current, trial, trial_contacts, late_contacts, involved, search, .. } = buffers;
+    let Buffers { current, trial, trial_contacts, late_contacts, involved, .. } = buffers;
+    let Buffers { search, integrate, .. } = buffers;
     involved.clear();
     involved.extend(late_contacts.iter().filter(|c| is_intersecting(c)).flat_map(Contact::spheres));
     involved.sort_unstable();
@@ -168,7 +172,7 @@ fn find_first_contact(frame: &Frame, rest: Interval, buffers: &mut Buffers) -> f
     trial_contacts.clone_from(late_contacts);
     let found = contact_time::bisect(rest.h, max_halvings, |t| {
         let piece = Interval { time: rest.time, h: t };
-        advance(frame, current, trial, involved.iter().copied(), piece);
+        advance(frame, (current, trial), involved.iter().copied(), piece, integrate);
         let instant = Instant { system, motion: trial, time: rest.time + t };
         contacts::of_some(&instant, involved, tolerance, search, trial_contacts);
         if trial_contacts.iter().any(is_intersecting) {
@@ -198,9 +202,9 @@ fn find_first_contact(frame: &Frame, rest: Interval, buffers: &mut Buffers) -> f
 fn give_up(frame: &Frame, island: &mut Island, rest: Interval, buffers: &mut Buffers) {
     let Frame { system, parameters, interval, .. } = *frame;
     let Bisect { tolerance, max_impacts, .. } = parameters;
-    let Buffers { current, end, late_contacts, search, meetings, .. } = buffers;
+    let Buffers { current, end, late_contacts, search, meetings, integrate, .. } = buffers;
     let rests = |bodies: Bodies| meetings.get(&bodies).is_some_and(|&met| met >= max_impacts);
-    advance(frame, current, end, island.members.iter().copied(), rest);
+    advance(frame, (current, end), island.members.iter().copied(), rest, integrate);
     contacts::of_some(&frame.end(end), &island.members, tolerance, search, late_contacts);
     for late in late_contacts.iter().filter(|c| is_intersecting(c)) {
         // The answers before this one may have moved the sphere.
@@ -273,35 +277,25 @@ impl<'a> Frame<'a> {
         let Interval { time, h } = self.interval;
         Instant { system: self.system, motion: end, time: time + h }
     }
-
-    /// Centre \[m\] and velocity \[m/s\] of a sphere after a piece of the frame without contacts.
-    fn advanced(&self, start: &Motion, index: usize, piece: Interval) -> (DVec3, DVec3) {
-        integrate::advance(self.parameters.integrator, &self.system, start, index, piece)
-    }
 }
 
 fn is_intersecting(contact: &Contact) -> bool {
     contact.state == ContactState::Intersecting
 }
 
-/// Moves spheres without contacts over `interval`, from `start` to `end`.
+/// Moves spheres without contacts over `interval`, from `start` to `end`; all of them, where forces act
+/// between spheres.
 fn advance(
     frame: &Frame,
-    start: &Motion,
-    end: &mut Motion,
-    spheres: impl Iterator<Item = u32>,
+    (start, end): (&Motion, &mut Motion),
+    spheres: impl Iterator<Item = u32> + Clone,
     interval: Interval,
+    scratch: &mut integrate::Scratch,
 ) {
-    for sphere in spheres {
-        let i = sphere as usize;
-        (end.position[i], end.velocity[i]) = frame.advanced(start, i, interval);
+    if frame.system.has_interactions() {
+        end.copy_all(start);
+    } else {
+        spheres.clone().for_each(|sphere| end.copy(start, sphere as usize));
     }
-}
-
-/// Moves spheres without contacts over `interval`.
-fn advance_in_place(frame: &Frame, motion: &mut Motion, spheres: &[u32], interval: Interval) {
-    for &sphere in spheres {
-        let i = sphere as usize;
-        (motion.position[i], motion.velocity[i]) = frame.advanced(motion, i, interval);
-    }
+    integrate::advance(frame.parameters.integrator, &frame.system, end, spheres, interval, scratch);
 }

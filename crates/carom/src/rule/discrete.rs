@@ -20,6 +20,7 @@ const ROOM: f64 = 1.0 / 16.0;
 /// Working memory of the rule, kept from step to step only to spare its allocation.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Scratch {
+    integrate: integrate::Scratch,
     near: Vec<u32>,
     search: Search,
     contacts: Vec<Contact>,
@@ -34,10 +35,11 @@ pub(crate) fn step(
     scratch: &mut Scratch,
     report: &mut StepReport,
 ) {
-    for index in 0..system.spheres.id.len() {
-        (motion.position[index], motion.velocity[index]) =
-            integrate::advance(parameters.integrator, system, motion, index, frame);
-        meet_surfaces(system, motion, index as u32, frame.h, &mut scratch.near, report);
+    let everyone = 0..system.spheres.id.len() as u32;
+    let Discrete { integrator, .. } = parameters;
+    integrate::advance(integrator, system, motion, everyone.clone(), frame, &mut scratch.integrate);
+    for sphere in everyone {
+        meet_surfaces(system, motion, sphere, frame.h, &mut scratch.near, report);
     }
     meet_each_other(system, motion, frame, scratch, report);
 }

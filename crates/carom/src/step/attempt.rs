@@ -5,6 +5,7 @@ use crate::clock::Clock;
 use crate::detect::contacts::{self, Search};
 use crate::emitter::{self, Emission, EmitterState, Room};
 use crate::error::Error;
+use crate::forces::Spring;
 use crate::numbered::Numbered;
 use crate::report::{StepReport, TriggerContact};
 use crate::rule::contact::{self, Solver};
@@ -110,6 +111,9 @@ impl<'a> Attempt<'a> {
         let room = self.room();
         let State { emitters, spheres, next_id, .. } = &mut *self.state;
         let emission = emitter::emit(emitters, spheres, next_id, time, room);
+        if !emission.retired.is_empty() {
+            self.state.drop_loose_springs();
+        }
         self.report.emitted.extend(&emission.emitted);
         self.report.retired.extend(&emission.retired);
         self.report.left_out.extend(&emission.left_out);
@@ -121,17 +125,24 @@ impl<'a> Attempt<'a> {
 struct BeforeEmission {
     emitters: Numbered<EmitterState>,
     spheres: Spheres,
+    springs: Numbered<Spring>,
     next_id: u64,
 }
 
 impl BeforeEmission {
     fn of(state: &State) -> Self {
-        let State { emitters, spheres, next_id, .. } = state;
-        Self { emitters: emitters.clone(), spheres: spheres.clone(), next_id: *next_id }
+        let State { emitters, spheres, springs, next_id, .. } = state;
+        Self {
+            emitters: emitters.clone(),
+            spheres: spheres.clone(),
+            springs: springs.clone(),
+            next_id: *next_id,
+        }
     }
 
     fn restore(self, state: &mut State) {
-        let Self { emitters, spheres, next_id } = self;
-        (state.emitters, state.spheres, state.next_id) = (emitters, spheres, next_id);
+        let Self { emitters, spheres, springs, next_id } = self;
+        (state.emitters, state.spheres) = (emitters, spheres);
+        (state.springs, state.next_id) = (springs, next_id);
     }
 }

@@ -9,6 +9,7 @@ use crate::detect::image_overlaps;
 use crate::detect::instant::Instant;
 use crate::invariants;
 use crate::report::{BodyPair, Overlap};
+use crate::state::State;
 
 impl World {
     /// Kinetic energy \[J\], that of rotation included.
@@ -21,9 +22,11 @@ impl World {
         invariants::rotational_energy(self.spheres())
     }
 
-    /// Potential energy \[J\] in all forces that have one.
+    /// Potential energy \[J\] in all forces and springs that have one.
     pub fn potential_energy(&self) -> f64 {
-        invariants::potential_energy(self.spheres(), &self.state.forces, self.time())
+        let State { forces, springs, settings, .. } = &self.state;
+        let period = settings.boundary.period();
+        invariants::potential_energy(self.spheres(), forces, springs, period, self.time())
     }
 
     /// Kinetic and potential energy \[J\].

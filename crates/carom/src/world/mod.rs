@@ -1,11 +1,10 @@
 //! The world: everything that persists, and the step that moves it on.
 
+mod forces;
 mod measures;
 pub(crate) mod snapshot;
 #[cfg(feature = "serde")]
 mod written;
-
-use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -13,8 +12,7 @@ use crate::bodies::Spheres;
 use crate::collider::{Collider, Pose};
 use crate::emitter::{Emitter, EmitterState};
 use crate::error::{Error, Subject};
-use crate::forces::Force;
-use crate::id::{ColliderId, EmitterId, ForceId, SphereId};
+use crate::id::{ColliderId, EmitterId, SphereId};
 use crate::persistent_contact::PersistentContact;
 use crate::report::StepReport;
 use crate::settings::Settings;
@@ -160,9 +158,16 @@ impl World {
     /// Steps the world differently from now on.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a parameter of the rule that makes no sense.
+    /// [`Error::Invalid`] for a parameter of the rule that makes no sense, or a periodic box where there is a
+    /// force that suits none.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
-        settings.validate().map_err(|invalid| invalid.about(Subject::Settings))?;
+        settings
+            .validate()
+            .and_then(|()| {
+                let mut forces = self.state.forces.iter();
+                forces.try_for_each(|(_, force)| State::check_boundary(&settings, &**force))
+            })
+            .map_err(|invalid| invalid.about(Subject::Settings))?;
         self.state.changed().settings = settings;
         Ok(())
     }
@@ -275,70 +280,31 @@ impl World {
         Ok(())
     }
 
-    /// Takes a sphere out of the world and returns it.
+    /// Takes a sphere out of the world, with the springs at it, and returns it.
     ///
     /// # Errors
     /// [`Error::Unknown`] if it is not in the world.
     pub fn remove_sphere(&mut self, id: SphereId) -> Result<Sphere, Error> {
         let index = self.index_of(id)?;
         let sphere = self.state.spheres.get(index);
-        self.state.changed().spheres.remove_all(&[id]);
+        self.state.remove_spheres(&[id]);
         Ok(sphere)
     }
 
-    /// Takes spheres out of the world. Those after them move up in the arrays.
+    /// Takes spheres out of the world, with the springs at them. Those after them move up in the arrays.
     ///
     /// # Errors
     /// [`Error::Unknown`] if one of them is not in it; then none is taken out.
     pub fn remove_spheres(&mut self, ids: &[SphereId]) -> Result<(), Error> {
         ids.iter().try_for_each(|&id| self.index_of(id).map(|_| ()))?;
         if !ids.is_empty() {
-            self.state.changed().spheres.remove_all(ids);
+            self.state.remove_spheres(ids);
         }
         Ok(())
     }
 
     fn index_of(&self, id: SphereId) -> Result<usize, Error> {
         self.state.spheres.index_of(id).ok_or(Error::Unknown(Subject::Sphere(id)))
-    }
-
-    /// Adds a force on every sphere.
-    ///
-    /// # Errors
-    /// [`Error::Invalid`] if the force refuses its own parameters.
-    pub fn add_force(&mut self, force: impl Force + 'static) -> Result<ForceId, Error> {
-        let id = ForceId(self.state.forces.next_number());
-        force.validate().map_err(|invalid| invalid.about(Subject::Force(id)))?;
-        self.state.changed().forces.push(Arc::new(force));
-        Ok(id)
-    }
-
-    /// All forces, in the order in which they are added up.
-    pub fn forces(&self) -> impl ExactSizeIterator<Item = (ForceId, &dyn Force)> {
-        self.state.forces.iter().map(|(number, force)| (ForceId(number), &**force))
-    }
-
-    /// Puts a force in the place of another; the next evaluation uses it.
-    ///
-    /// # Errors
-    /// [`Error::Unknown`] if there is no such force, [`Error::Invalid`] if the new one refuses
-    /// its own parameters.
-    pub fn set_force(&mut self, id: ForceId, force: impl Force + 'static) -> Result<(), Error> {
-        let unknown = Error::Unknown(Subject::Force(id));
-        force.validate().map_err(|invalid| invalid.about(Subject::Force(id)))?;
-        let place = self.state.forces.get_mut(id.0).ok_or(unknown)?;
-        *place = Arc::new(force);
-        self.state.changed();
-        Ok(())
-    }
-
-    /// Takes a force out of the world.
-    ///
-    /// # Errors
-    /// [`Error::Unknown`] if there is no such force.
-    pub fn remove_force(&mut self, id: ForceId) -> Result<(), Error> {
-        let removed = self.state.changed().forces.remove(id.0);
-        removed.map(drop).ok_or(Error::Unknown(Subject::Force(id)))
     }
 
     /// Adds a collider, after those already there.

@@ -154,7 +154,7 @@ impl Slots {
     /// others.
     pub fn read_forces(&mut self, system: &System) -> bool {
         let spheres = system.spheres;
-        let mut has_others = false;
+        let mut has_others = system.has_interactions();
         let mut last = None;
         self.acceleration.clear();
         for &index in &self.index {
@@ -178,18 +178,39 @@ impl Slots {
 
     /// Has the accelerations of all forces, of now and at this time on the world's clock \[s\].
     pub fn add_other_forces(&mut self, system: &System, time: f64) {
+        let between = self.forces_between(system, time);
         let moving = self.position.iter().zip(&self.velocity);
         let accelerations = self.acceleration.iter_mut().zip(&self.linear);
-        for ((position, velocity), (acceleration, linear)) in moving.zip(accelerations) {
+        for (slot, ((position, velocity), (acceleration, linear))) in
+            moving.zip(accelerations).enumerate()
+        {
             let state = SphereState {
                 position: position.vector(),
                 velocity: velocity.vector(),
                 radius: position.number(),
                 mass: 1.0 / velocity.number(),
             };
-            let force = forces::total_of_others(system.forces, &state, time);
+            let own = forces::total_of_others(system.forces, &state, time);
+            let force = between.get(self.index[slot] as usize).map_or(own, |&it| own + it);
             *acceleration = linear.with_vector(linear.vector() + force * velocity.number());
         }
+    }
+
+    /// The forces between spheres on each of them \[N\], by index; empty where there are none.
+    fn forces_between(&self, system: &System, time: f64) -> Vec<DVec3> {
+        let mut forces = Vec::new();
+        if system.has_interactions() {
+            let by_index = |rows: &[Row]| {
+                let mut vectors = vec![DVec3::ZERO; rows.len()];
+                for (&index, row) in self.index.iter().zip(rows) {
+                    vectors[index as usize] = row.vector();
+                }
+                vectors
+            };
+            let states = [&self.position, &self.velocity].map(|rows| by_index(rows));
+            system.forces_between([&states[0], &states[1]], time, &mut forces);
+        }
+        forces
     }
 
     /// Gives the world where spheres are and how they move at the end of a frame.

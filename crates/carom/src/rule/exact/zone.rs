@@ -53,6 +53,9 @@ pub(crate) struct Zone {
     ticks: [f64; 2],
     /// How often a tick is halved, for small spheres to be stepped well.
     halvings: u32,
+    /// Forces between spheres that are held over the frame \[N\], by index in the arrays of the world; empty
+    /// where there are none.
+    pub held_forces: Vec<DVec3>,
     /// Slots of spheres that are in no zone and have one that is among their neighbours; more than once,
     /// perhaps, and some for which it is so no more.
     pub near: Vec<u32>,
@@ -227,7 +230,7 @@ impl Zone {
 
     /// The contacts that bore something in the last sub-step.
     pub fn persistent_contacts(&self, system: &System) -> Vec<PersistentContact> {
-        let system = System { spheres: &self.properties, ..*system };
+        let system = System { spheres: &self.properties, interactions: None, ..*system };
         contact::persistent_contacts(&self.solver, &system)
     }
 
@@ -289,13 +292,17 @@ impl Zone {
     ) -> Vec<Stepped> {
         let now = self.ticks[1];
         let next = first_tick_after(now, self.part_of(tick));
-        if !system.spheres.applied_force.is_empty() {
-            self.properties.applied_force = system.spheres.of_some(&self.index).applied_force;
-        }
+        self.apply_forces(system);
         let before = self.motion.clone();
         self.velocity_before.clone_from(&self.motion.velocity);
         self.place_surfaces(system, offset);
-        let system = System { spheres: &self.properties, surfaces: &self.surfaces, ..*system };
+        let system = System {
+            spheres: &self.properties,
+            surfaces: &self.surfaces,
+            // Those are held, as all forces on single spheres.
+            interactions: None,
+            ..*system
+        };
         let frames = f64::from(TICKS_PER_FRAME);
         let frame = Interval { time: now, h: frames * (next - now) };
         let parameters = Contact::default().with_sub_steps(TICKS_PER_FRAME);
@@ -314,6 +321,20 @@ impl Zone {
             rotation: rotation_between([&before.spin, &self.motion.spin], place, self.ticks),
         };
         (0..self.index.len()).map(stepped).collect()
+    }
+
+    /// Has the forces applied to single spheres act, and those between spheres as they are held.
+    fn apply_forces(&mut self, system: &System) {
+        let applied = &system.spheres.applied_force;
+        if applied.is_empty() && self.held_forces.is_empty() {
+            return;
+        }
+        let of = |forces: &[DVec3], index: u32| forces.get(index as usize).copied();
+        let force = |&index: &u32| {
+            let held = of(&self.held_forces, index);
+            of(applied, index).map_or(held, |own| Some(held.map_or(own, |held| own + held)))
+        };
+        self.properties.applied_force = self.index.iter().filter_map(force).collect();
     }
 
     /// Has surfaces where they are at a time since they are where the system says \[s\].

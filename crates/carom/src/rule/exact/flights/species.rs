@@ -69,7 +69,7 @@ impl SpeciesOfSpheres {
     pub fn of(system: &System) -> Self {
         let spheres = system.spheres;
         let levels = levels_of(&spheres.radius);
-        let has_own_forces = !spheres.applied_force.is_empty();
+        let has_own_forces = !spheres.applied_force.is_empty() || system.has_interactions();
         let mut hold_forces = has_own_forces;
         let mut species: Vec<Species> = Vec::new();
         let mut known = BTreeMap::new();

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::planar::{self, PlanarSupport};
 use crate::detect::contact::Bodies;
 use crate::forces::{self, SphereState};
+use crate::integrate;
 use crate::rule::exact::contacts::{Corner, Member, Plane};
 use crate::rule::exact::timeline::Timeline;
 use crate::system::System;
@@ -13,7 +14,12 @@ use crate::system::System;
 /// that act on it in the middle: an error of the third order in its length, of the second over all
 /// frames (the midpoint rule). Persistent contacts with planes go on where forces are the same
 /// everywhere; others are found anew.
+///
+/// Forces between spheres are those where all would be in the middle if nothing accelerated them, a drift,
+/// a kick and a drift: the leapfrog scheme, which keeps energy as velocity Verlet does.
 pub(crate) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64; 2]) {
+    let between = forces_between(timeline, system, [start, end]);
+    timeline.zone.held_forces.clone_from(&between);
     for slot in 0..timeline.flights.bodies.len() as u32 {
         if timeline.flights.is_stepped(slot) {
             continue;
@@ -23,6 +29,7 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64
         let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
         let (linear, is_all) = forces::total_linear(system.forces, species.radius, species.mass);
         let uniform = linear.acceleration + applied;
+        let uniform = between.get(index).map_or(uniform, |&force| uniform + force / species.mass);
         if is_all {
             begin_under(timeline, system, slot, uniform, [start, end]);
             timeline.find_clearance(system, slot);
@@ -31,6 +38,32 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64
             begin_under_varying(timeline, system, slot, uniform, [start, end]);
         }
     }
+}
+
+/// The forces between spheres in the middle of a frame \[N\], by index; empty where there are none.
+fn forces_between(timeline: &Timeline, system: &System, [start, end]: [f64; 2]) -> Vec<DVec3> {
+    let mut forces = Vec::new();
+    if !system.has_interactions() {
+        return forces;
+    }
+    let half = 0.5 * (end - start);
+    let state_of = |&slot: &u32| timeline.flights.state_of(slot, start);
+    let (mut positions, mut velocities): (Vec<DVec3>, Vec<DVec3>) =
+        timeline.flights.slot_of.iter().map(state_of).unzip();
+    if system.has_damped_interactions() {
+        // Where velocities matter they have to be those of the middle, to the first order.
+        system.forces_between([&positions, &velocities], start, &mut forces);
+        for (index, velocity) in velocities.iter_mut().enumerate() {
+            let at = (positions[index], *velocity);
+            let alone = integrate::acceleration_alone(system, index, at, start);
+            positions[index] += half * *velocity;
+            *velocity += half * (alone + forces[index] / system.spheres.mass[index]);
+        }
+    } else {
+        positions.iter_mut().zip(&velocities).for_each(|(position, v)| *position += half * *v);
+    }
+    system.forces_between([&positions, &velocities], start + half, &mut forces);
+    forces
 }
 
 /// Begins the flight of a sphere at `start` \[s\] under an acceleration \[m/s²\] that is the same

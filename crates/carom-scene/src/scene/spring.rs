@@ -1,0 +1,44 @@
+//! Springs and threads.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::values::{Vector, is_default};
+
+/// A spring with a damper beside it, or a chain of such. Spheres are named by their numbers, from 0: the
+/// single ones of the scene first, then those of generators, each in the order of the file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [
+    { "required": ["spheres"] },
+    { "required": ["sphere", "anchor"] },
+    { "required": ["chain"] }
+]))]
+pub struct Spring {
+    /// Numbers of the two spheres that it joins. Give this, `sphere` with `anchor`, or `chain`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spheres: Option<[u32; 2]>,
+    /// Number of the sphere that it joins to a fixed point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sphere: Option<u32>,
+    /// The fixed point, in m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub anchor: Option<Vector>,
+    /// Numbers of the first and the last sphere of a chain: each is joined to the next one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chain: Option<[u32; 2]>,
+    /// Length without force, in m, >= 0; the length at the start of the scene unless given.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rest_length: Option<f64>,
+    /// Stiffness, in N/m, >= 0.
+    #[schemars(range(min = 0.0))]
+    pub stiffness: f64,
+    /// Damping, in kg/s, >= 0.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub damping: f64,
+    /// Whether it only pulls, as a thread does, which is slack up to its rest length.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub only_pulls: bool,
+}

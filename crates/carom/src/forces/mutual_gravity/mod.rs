@@ -1,0 +1,159 @@
+//! Gravity between spheres.
+
+mod octree;
+
+use glam::DVec3;
+use octree::Octree;
+
+use super::{Force, Interaction, SphereState, SphereStates};
+use crate::error::InvalidValue;
+use crate::parallel;
+use crate::sum::Sum;
+use crate::validate;
+
+/// Up to so many spheres every pair is summed: a tree gains little there.
+const FEW: usize = 1000;
+
+/// Gravity between spheres: on each the sum of `G m1 m2 r / (r² + e²)^(3/2)`, with r to each of the others.
+///
+/// Up to a thousand spheres, or with an opening angle of 0, that is the sum over all pairs. More are summed
+/// by a tree: spheres in a cube that is seen at less than the opening angle count as one at their centre of
+/// mass (Barnes and Hut, Nature 324, 446 (1986), with the criterion of Barnes, Computational Astronomy of
+/// 1994: the distance is that to the centre of mass, less by how far this is from the middle of the cube).
+/// By a tree momentum is kept no longer to round-off, but as well as forces are right.
+///
+/// The softening e takes the singularity away where spheres pass through each other's centres; spheres that
+/// collide need none. A negative constant repels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct MutualGravity {
+    /// Gravitational constant G \[m³/(kg s²)\].
+    pub constant: f64,
+    /// Softening length e \[m\], >= 0.
+    pub softening: f64,
+    /// Edge of a cube divided by its distance, up to which its spheres count as one, in \[0, 1\].
+    pub opening_angle: f64,
+}
+
+impl MutualGravity {
+    /// Newton's constant \[m³/(kg s²)\], as CODATA recommends it (2018).
+    pub const NEWTON: f64 = 6.674_30e-11;
+
+    /// Gravity of this constant \[m³/(kg s²)\], without softening, with an opening angle of 1/2.
+    pub fn new(constant: f64) -> Self {
+        Self { constant, softening: 0.0, opening_angle: 0.5 }
+    }
+
+    /// The same with this softening length \[m\].
+    pub fn with_softening(self, softening: f64) -> Self {
+        Self { softening, ..self }
+    }
+
+    /// The same with this opening angle; with 0 every pair is summed.
+    pub fn with_opening_angle(self, opening_angle: f64) -> Self {
+        Self { opening_angle, ..self }
+    }
+
+    fn is_direct(&self, count: usize) -> bool {
+        count <= FEW || self.opening_angle == 0.0
+    }
+
+    /// What all other spheres add up to at each sphere, in the order of the arrays.
+    fn sums<T: FieldSum>(&self, spheres: &SphereStates) -> Vec<T> {
+        let softening = self.softening * self.softening;
+        if self.is_direct(spheres.len()) {
+            return parallel::map(spheres.len(), |_: &mut (), i| {
+                let mut sum = T::default();
+                for j in (0..spheres.len()).filter(|&j| j != i) {
+                    sum.add(
+                        spheres.positions[j] - spheres.positions[i],
+                        softening,
+                        spheres.masses[j],
+                    );
+                }
+                sum
+            });
+        }
+        let tree = Octree::new(spheres.positions, spheres.masses);
+        parallel::map(spheres.len(), |_: &mut (), i| {
+            let mut sum = T::default();
+            tree.visit(i, spheres.positions[i], self.opening_angle, |offset, mass| {
+                sum.add(offset, softening, mass);
+            });
+            sum
+        })
+    }
+}
+
+impl Force for MutualGravity {
+    fn on(&self, _sphere: &SphereState, _time: f64) -> DVec3 {
+        DVec3::ZERO
+    }
+
+    fn interaction(&self) -> Option<&dyn Interaction> {
+        Some(self)
+    }
+
+    fn validate(&self) -> Result<(), InvalidValue> {
+        validate::finite_number("constant", self.constant)?;
+        validate::non_negative("softening", self.softening)?;
+        validate::unit_interval("opening_angle", self.opening_angle)
+    }
+}
+
+impl Interaction for MutualGravity {
+    fn add_forces(&self, spheres: &SphereStates, _time: f64, forces: &mut [DVec3]) {
+        let fields: Vec<Field> = self.sums(spheres);
+        for (i, Field(field)) in fields.into_iter().enumerate() {
+            forces[i] += (self.constant * spheres.masses[i]) * field;
+        }
+    }
+
+    /// `-G m1 m2 / sqrt(r² + e²)`, summed over all pairs as the forces are.
+    fn potential_energy(&self, spheres: &SphereStates, _time: f64) -> f64 {
+        let potentials: Vec<Potential> = self.sums(spheres);
+        let terms = potentials.iter().zip(spheres.masses).map(|(it, mass)| mass * it.0);
+        -0.5 * self.constant * terms.collect::<Sum>().value()
+    }
+
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
+    /// The sum over all images of a box has no end.
+    fn suits_periodic_box(&self) -> bool {
+        false
+    }
+}
+
+/// What masses add up to at a place.
+trait FieldSum: Default + Send {
+    /// Adds a mass \[kg\] at an offset \[m\], with the square of the softening length \[m²\].
+    fn add(&mut self, offset: DVec3, softening: f64, mass: f64);
+}
+
+/// Sum of `m r / (r² + e²)^(3/2)` \[kg/m²\].
+#[derive(Default)]
+struct Field(DVec3);
+
+/// Sum of `m / sqrt(r² + e²)` \[kg/m\].
+#[derive(Default)]
+struct Potential(f64);
+
+impl FieldSum for Field {
+    #[inline]
+    fn add(&mut self, offset: DVec3, softening: f64, mass: f64) {
+        let square = offset.length_squared() + softening;
+        // Two spheres in one point pull each other nowhere.
+        if square > 0.0 {
+            self.0 += mass / (square * square.sqrt()) * offset;
+        }
+    }
+}
+
+impl FieldSum for Potential {
+    #[inline]
+    fn add(&mut self, offset: DVec3, softening: f64, mass: f64) {
+        self.0 += mass / (offset.length_squared() + softening).sqrt();
+    }
+}

@@ -1,0 +1,169 @@
+use glam::DVec3;
+
+use super::SphereStates;
+use crate::error::InvalidValue;
+use crate::id::SphereId;
+use crate::norm::Norm;
+use crate::validate;
+
+/// A spring with a damper beside it, between the centres of two spheres or from one to a fixed point.
+///
+/// At the length l it pulls with `k (l - l0) + c dl/dt`. A thread only pulls: it is slack up to its rest
+/// length, and its damper never pushes.
+///
+/// ```
+/// use carom::{DVec3, Sphere, Spring, World};
+///
+/// let mut world = World::default();
+/// let ball = world.add_sphere(Sphere::new(DVec3::X, 0.1))?;
+/// let spring = world.add_spring(Spring::to_point(ball, DVec3::ZERO, 0.5).with_stiffness(8.0))?;
+/// // Half of k (l - l0)².
+/// assert_eq!(world.potential_energy(), 1.0);
+/// world.remove_spring(spring)?;
+/// assert_eq!(world.potential_energy(), 0.0);
+/// # Ok::<(), carom::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Spring {
+    /// The sphere at its first end.
+    pub sphere: SphereId,
+    /// What is at its second end.
+    pub to: SpringEnd,
+    /// Length without force l0 \[m\], >= 0.
+    pub rest_length: f64,
+    /// Stiffness k \[N/m\], >= 0.
+    pub stiffness: f64,
+    /// Damping c \[kg/s\], >= 0.
+    pub damping: f64,
+    /// Whether it is a thread, which only pulls.
+    pub only_pulls: bool,
+}
+
+/// What a spring ends at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum SpringEnd {
+    /// The centre of another sphere.
+    Sphere(SphereId),
+    /// A fixed point \[m\].
+    Point(DVec3),
+}
+
+impl Spring {
+    /// A spring between two spheres of this rest length \[m\] and 1 N/m, without damping.
+    pub fn between(first: SphereId, second: SphereId, rest_length: f64) -> Self {
+        Self::new(first, SpringEnd::Sphere(second), rest_length)
+    }
+
+    /// A spring from a sphere to a fixed point \[m\], of this rest length \[m\] and 1 N/m, without damping.
+    pub fn to_point(sphere: SphereId, point: DVec3, rest_length: f64) -> Self {
+        Self::new(sphere, SpringEnd::Point(point), rest_length)
+    }
+
+    fn new(sphere: SphereId, to: SpringEnd, rest_length: f64) -> Self {
+        Self { sphere, to, rest_length, stiffness: 1.0, damping: 0.0, only_pulls: false }
+    }
+
+    /// The same with this stiffness \[N/m\].
+    pub fn with_stiffness(self, stiffness: f64) -> Self {
+        Self { stiffness, ..self }
+    }
+
+    /// The same with this damping \[kg/s\].
+    pub fn with_damping(self, damping: f64) -> Self {
+        Self { damping, ..self }
+    }
+
+    /// The same as a thread, which only pulls, or as a spring that pushes, too.
+    pub fn with_only_pulls(self, only_pulls: bool) -> Self {
+        Self { only_pulls, ..self }
+    }
+
+    /// The spheres that it joins.
+    pub fn spheres(&self) -> impl Iterator<Item = SphereId> {
+        let second = match self.to {
+            SpringEnd::Sphere(id) => Some(id),
+            SpringEnd::Point(_) => None,
+        };
+        [self.sphere].into_iter().chain(second)
+    }
+
+    /// Refuses numbers that make no sense, and both ends at one sphere.
+    pub(crate) fn validate(&self) -> Result<(), InvalidValue> {
+        validate::non_negative("rest_length", self.rest_length)?;
+        validate::non_negative("stiffness", self.stiffness)?;
+        validate::non_negative("damping", self.damping)?;
+        match self.to {
+            SpringEnd::Sphere(other) => {
+                let requirement = "another sphere than at the first end";
+                validate::require(other != self.sphere, "to", requirement, other)
+            }
+            SpringEnd::Point(point) => validate::finite("to", point),
+        }
+    }
+
+    /// Adds the force on each of its spheres \[N\].
+    pub(super) fn add_forces(&self, spheres: &SphereStates, forces: &mut [DVec3]) {
+        let Some(state) = self.state(spheres) else { return };
+        let along = state.tension(self) * state.direction;
+        forces[state.first] += along;
+        if let Some(second) = state.second {
+            forces[second] -= along;
+        }
+    }
+
+    /// `k (l - l0)² / 2` \[J\]; none where it is slack.
+    pub(super) fn potential_energy(&self, spheres: &SphereStates) -> f64 {
+        let Some(state) = self.state(spheres) else { return 0.0 };
+        let stretch = state.length - self.rest_length;
+        if self.only_pulls && stretch <= 0.0 {
+            return 0.0;
+        }
+        0.5 * self.stiffness * stretch * stretch
+    }
+
+    /// `None` if one of its spheres is not in the world.
+    fn state(&self, spheres: &SphereStates) -> Option<SpringState> {
+        let first = spheres.index_of(self.sphere)?;
+        let (second, position, velocity) = match self.to {
+            SpringEnd::Point(point) => (None, point, DVec3::ZERO),
+            SpringEnd::Sphere(id) => {
+                let index = spheres.index_of(id)?;
+                (Some(index), spheres.positions[index], spheres.velocities[index])
+            }
+        };
+        let offset = spheres.offset_between(spheres.positions[first], position);
+        let length = offset.norm();
+        // Of no length it has no direction, and pulls nowhere.
+        let direction = if length > 0.0 { offset / length } else { DVec3::ZERO };
+        let lengthening = (velocity - spheres.velocities[first]).dot(direction);
+        Some(SpringState { first, second, length, direction, lengthening })
+    }
+}
+
+/// How a spring is stretched.
+struct SpringState {
+    /// Indices of its spheres.
+    first: usize,
+    second: Option<usize>,
+    /// \[m\]
+    length: f64,
+    /// From the first end to the second.
+    direction: DVec3,
+    /// Rate of change of the length \[m/s\].
+    lengthening: f64,
+}
+
+impl SpringState {
+    /// The force with which it pulls its ends together \[N\].
+    fn tension(&self, spring: &Spring) -> f64 {
+        let stretch = self.length - spring.rest_length;
+        let tension = spring.stiffness * stretch + spring.damping * self.lengthening;
+        match spring.only_pulls {
+            true if stretch <= 0.0 => 0.0,
+            true => tension.max(0.0),
+            false => tension,
+        }
+    }
+}

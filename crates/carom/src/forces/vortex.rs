@@ -1,0 +1,69 @@
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use super::{Force, SphereState};
+use crate::error::InvalidValue;
+use crate::validate;
+
+/// Viscous drag in a vortex about an axis: `F = k (u - v)`, with the air going round the axis at
+/// `|u| = C / (2 pi) r / (r² + c²)`, at the distance r from it.
+///
+/// Within the core radius c the air turns like a solid body, far outside like an ideal vortex of the
+/// circulation C. Source: Kaufmann, Ingenieur-Archiv 31, 1 (1962), also named after Scully.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Vortex {
+    /// A point of the axis \[m\].
+    pub position: DVec3,
+    /// Direction of the axis, of any length but zero; the air goes round it counterclockwise as seen
+    /// against it, where the circulation is positive.
+    pub axis: DVec3,
+    /// Circulation C \[m²/s\].
+    pub circulation: f64,
+    /// Core radius c \[m\], > 0: where the air is fastest.
+    pub core_radius: f64,
+    /// Drag coefficient k \[kg/s\], >= 0.
+    pub coefficient: f64,
+}
+
+impl Vortex {
+    /// A vortex of this circulation \[m²/s\] about the upward axis through a point, with a core of 1 m and
+    /// this coefficient of drag \[kg/s\].
+    pub fn new(position: DVec3, circulation: f64, coefficient: f64) -> Self {
+        Self { position, axis: DVec3::Y, circulation, core_radius: 1.0, coefficient }
+    }
+
+    /// The same about an axis in another direction.
+    pub fn with_axis(self, axis: DVec3) -> Self {
+        Self { axis, ..self }
+    }
+
+    /// The same with this core radius \[m\].
+    pub fn with_core_radius(self, core_radius: f64) -> Self {
+        Self { core_radius, ..self }
+    }
+
+    /// Velocity of the air at a point \[m/s\].
+    pub fn velocity_at(&self, point: DVec3) -> DVec3 {
+        let axis = self.axis.normalize();
+        let arm = point - self.position;
+        let arm = arm - arm.dot(axis) * axis;
+        let square = arm.length_squared() + self.core_radius * self.core_radius;
+        self.circulation / (TAU * square) * axis.cross(arm)
+    }
+}
+
+impl Force for Vortex {
+    fn on(&self, sphere: &SphereState, _time: f64) -> DVec3 {
+        self.coefficient * (self.velocity_at(sphere.position) - sphere.velocity)
+    }
+
+    fn validate(&self) -> Result<(), InvalidValue> {
+        validate::finite("position", self.position)?;
+        validate::direction("axis", self.axis)?;
+        validate::finite_number("circulation", self.circulation)?;
+        validate::positive("core_radius", self.core_radius)?;
+        validate::non_negative("coefficient", self.coefficient)
+    }
+}
