@@ -3,7 +3,7 @@
 use carom::{SphereId, SpringEnd, World};
 
 use crate::error::Problem;
-use crate::requirement::check;
+use crate::requirement::{check, check_vector};
 use crate::scene::Spring;
 use crate::scene::values::vector;
 
@@ -19,6 +19,7 @@ pub(crate) fn add(world: &mut World, spring: &Spring, path: &str) -> Result<(), 
         }
         (None, Some(number), Some(anchor), None) => {
             let id = sphere(world, number, &format!("{path}.sphere"))?;
+            check_vector(anchor, &format!("{path}.anchor"))?;
             join(world, spring, id, SpringEnd::Point(vector(anchor)), path)
         }
         (None, None, None, Some([first, last])) => {
@@ -62,12 +63,7 @@ fn join(
         };
         Ok((place(first)? - end).length())
     };
-    let refused = |error: carom::Error| match error {
-        carom::Error::Invalid { ref source, .. } if source.field == "to" => {
-            Problem::new(format!("{path}.anchor"), format!("must be {}", source.requirement))
-        }
-        other => Problem::of_physics(path, other),
-    };
+    let refused = |error| Problem::of_physics(path, error);
     let rest_length = spring.rest_length.map_or_else(length, Ok).map_err(refused)?;
     let spring = carom::Spring {
         sphere: first,
