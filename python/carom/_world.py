@@ -103,7 +103,9 @@ class World(Strict, Engine):
         if not isinstance(scene, Scene):
             raise TypeError(f"scene: must be a carom.Scene, not {type(scene).__name__}")
         if isinstance(scene.spheres, Points):
-            return super().__new__(cls, toml_of(replace(scene, spheres=())), scene.spheres._given())
+            text = toml_of(replace(scene, spheres=(), springs=()))
+            springs = f"springs = {toml_value(scene.springs, 'springs')}"
+            return super().__new__(cls, text, scene.spheres._given(), springs)
         return super().__new__(cls, toml_of(scene))
 
     def __init__(self, scene: Scene | None = None) -> None:
@@ -575,8 +577,12 @@ class World(Strict, Engine):
         from carom._scene import Scene
 
         self._refuse_functions("to_scene")
-        text, points = self._scene()
-        return replace(Scene.from_toml(text), spheres=Points._told(*points))
+        text, points, springs = self._scene()
+        return replace(
+            Scene.from_toml(text),
+            spheres=Points._told(*points),
+            springs=read_part("springs", springs),
+        )
 
     # Pictures
 

@@ -25,6 +25,7 @@ impl Described {
         scene.spheres.clear();
         scene.colliders = scene.all_colliders().into_owned();
         scene.generators.clear();
+        scene.springs.clear();
         Ok((world, Self::new(scene, palette)))
     }
 

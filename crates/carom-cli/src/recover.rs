@@ -48,10 +48,11 @@ fn table(path: &Path) -> Result<(), Failure> {
     let cut = recording::recover_table(path).map_err(refused)?;
     let name = path.display();
     let mut out = io::stdout().lock();
-    Ok(match cut {
+    match cut {
         0 => writeln!(out, "{name}: all lines are whole")?,
         cut => writeln!(out, "{name}: the last line was cut short; its {cut} bytes are taken out")?,
-    })
+    }
+    Ok(())
 }
 
 fn tell(unfinished: &Path, target: &Path, recovered: Recovered) -> io::Result<()> {

@@ -130,7 +130,7 @@ impl Course {
             frame_time: scene.simulation.frame_time,
             duration: scene.simulation.duration,
             combine_rule: scene.settings().combine_rule,
-            forces: scene.forces.iter().map(acting).collect(),
+            forces: scene.forces.iter().filter_map(acting).collect(),
             balls,
             emitters,
             colliders,
@@ -166,6 +166,10 @@ fn unknown_part(scene: &Scene) -> Option<&'static str> {
         Some("emitters that need room")
     } else if scene.colliders.iter().any(moves) {
         Some("colliders that move")
+    } else if !scene.springs.is_empty() {
+        Some("springs")
+    } else if scene.forces.iter().any(|force| acting(force).is_none()) {
+        Some("forces that the course does not have")
     } else if scene.emitters.is_empty() && scene.spheres.is_empty() {
         Some("no ball and no emitter")
     } else {
@@ -173,11 +177,13 @@ fn unknown_part(scene: &Scene) -> Option<&'static str> {
     }
 }
 
-fn acting(force: &Force) -> Acting {
+/// A force as the course has it; `None` for one that it does not have.
+fn acting(force: &Force) -> Option<Acting> {
     match *force {
-        Force::Constant { force } => Acting::Constant(DVec3::from_array(force)),
-        Force::Gravity { acceleration } => Acting::Gravity(DVec3::from_array(acceleration)),
-        Force::ViscousDrag { coefficient } => Acting::Drag(coefficient),
+        Force::Constant { force } => Some(Acting::Constant(DVec3::from_array(force))),
+        Force::Gravity { acceleration } => Some(Acting::Gravity(DVec3::from_array(acceleration))),
+        Force::ViscousDrag { coefficient } => Some(Acting::Drag(coefficient)),
+        _ => None,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use carom::World as Physics;
 use carom_scene::Palette;
-use carom_scene::scene::{Collider, Force, Scene, Sphere};
+use carom_scene::scene::{Collider, Force, Scene, Sphere, Spring};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -75,6 +75,8 @@ impl World {
         let mut scene = self.described().clone();
         scene.colliders = colliders_now(world, &scene);
         scene.spheres = (0..world.spheres().len()).map(|i| sphere(world, members, i)).collect();
+        let ids = world.spheres().ids();
+        scene.springs = world.springs().filter_map(|(_, spring)| Spring::of(spring, ids)).collect();
         // Rules that find contacts late let spheres overlap; a scene has to admit it.
         if !scene.simulation.allow_overlap && scene.world().is_err() {
             scene.simulation.allow_overlap = true;

@@ -55,6 +55,7 @@ impl World {
         scene.spheres.clear();
         scene.colliders = scene.all_colliders().into_owned();
         scene.generators.clear();
+        scene.springs.clear();
         let description = Description { scene: Rc::new(scene), palette, members };
         Ok(Self { world, description, impacts: None })
     }

@@ -199,7 +199,8 @@ fn gravity(forces: &[Force], mass: f64) -> f64 {
     let down = forces.iter().map(|force| match force {
         Force::Constant { force } => -force[1] / mass,
         Force::Gravity { acceleration } => -acceleration[1],
-        Force::ViscousDrag { .. } => 0.0,
+        // Others push where the ball is or as it moves: none is a weight.
+        _ => 0.0,
     });
     down.sum()
 }

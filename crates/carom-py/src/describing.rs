@@ -1,7 +1,7 @@
 //! Telling what is in a world, as JSON. Infinite numbers are `null`.
 
 use carom::SphereId;
-use carom_scene::scene::{Collider, Sphere};
+use carom_scene::scene::{Collider, Sphere, Spring};
 use carom_scene::{Paint, Scene};
 use pyo3::prelude::*;
 
@@ -52,25 +52,33 @@ impl Engine {
         json(&described(&sphere, inner.palette.own(id)))
     }
 
-    /// The text of a scene that begins as the world is now, but for its spheres, and these: time begins at 0
-    /// there, and emitters begin anew.
+    /// The text of a scene that begins as the world is now, but for its spheres and springs, and these, springs in
+    /// JSON: time begins at 0 there, and emitters begin anew.
     #[pyo3(name = "_scene")]
-    fn scene<'py>(&self, py: Python<'py>) -> PyResult<(String, points::Told<'py>)> {
+    fn scene<'py>(&self, py: Python<'py>) -> PyResult<(String, points::Told<'py>, String)> {
         let inner = &mut *self.lock(py)?;
         inner.follow_colors();
         let mut scene = (*inner.described).clone();
         scene.colliders = colliders_now(inner);
         // Rules that find contacts late let spheres overlap; a scene has to admit it.
         if !scene.simulation.allow_overlap {
-            let whole = Scene { spheres: spheres_now(inner), ..scene.clone() };
+            let (spheres, springs) = (spheres_now(inner), springs_now(inner));
+            let whole = Scene { spheres, springs, ..scene.clone() };
             scene.simulation.allow_overlap = whole.world().is_err();
         }
-        Ok((scene.to_toml(), points::told(py, &inner.world, &inner.palette)?))
+        let springs = json(&springs_now(inner))?;
+        Ok((scene.to_toml(), points::told(py, &inner.world, &inner.palette)?, springs))
     }
 }
 
 fn json(it: &impl serde::Serialize) -> PyResult<String> {
     Ok(serde_json::to_string(it).map_err(Failure::from)?)
+}
+
+/// The springs of a world, between spheres by their places in it.
+fn springs_now(inner: &Inner) -> Vec<Spring> {
+    let ids = inner.world.spheres().ids();
+    inner.world.springs().filter_map(|(_, spring)| Spring::of(spring, ids)).collect()
 }
 
 /// The colliders of a world, where they are now.

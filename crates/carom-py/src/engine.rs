@@ -6,7 +6,7 @@
 use std::sync::{Arc, Mutex, MutexGuard};
 
 use carom::{ContactAccount, World, ZoneAccount};
-use carom_scene::Palette;
+use carom_scene::{Palette, Scene, part};
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -161,19 +161,21 @@ impl Engine {
 #[pymethods]
 impl Engine {
     /// The world at the start of the scene that `text` describes in TOML; its spheres are those of `points`, if
-    /// there are any.
+    /// there are any, and its springs those of another text.
     #[new]
-    #[pyo3(signature = (text, points = None))]
-    fn new(text: &str, points: Option<points::Given<'_>>) -> PyResult<Self> {
+    #[pyo3(signature = (text, points = None, springs = ""))]
+    fn new(text: &str, points: Option<points::Given<'_>>, springs: &str) -> PyResult<Self> {
         let mut scene = scenes::in_code(text).map_err(Failure::of_part)?;
         if let Some(points) = points {
             scene.spheres = points::described(points::read(points)?);
+            scene.springs = part::springs(springs).map_err(Failure::from)?;
         }
         let world = scene.world().map_err(Failure::of_part)?;
         let palette = Arc::new(Palette::new(&scene).map_err(Failure::from)?);
         scene.spheres.clear();
         scene.colliders = scene.all_colliders().into_owned();
         scene.generators.clear();
+        scene.springs.clear();
         let (described, arrays) = (Arc::new(scene), Arrays::default());
         Ok(Self(Mutex::new(Inner { world, described, palette, arrays, frame_start: 0.0 })))
     }

@@ -40,7 +40,7 @@ pub use drawing::{Arrow, Ball, Drawing, Light, Panel, Pattern};
 pub use film::{Film, FilmError, FilmSummary};
 pub use framing::Framing;
 pub use gpu::{Gpu, GpuError};
-pub use look::{Roll, draw_world};
+pub use look::{Roll, draw_world, spring_line};
 pub use offscreen::Offscreen;
 pub use picture::{Picture, PictureError};
 pub use preset::Preset;

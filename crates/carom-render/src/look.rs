@@ -1,9 +1,10 @@
 //! What a world looks like: its spheres and colliders in the colours of its scene.
 
-use carom::{DQuat, DVec3, World};
+use carom::{DQuat, DVec3, SphereId, Spring, SpringEnd, World};
+use carom_scene::scene::Color;
 use carom_scene::{Palette, Scene};
 
-use crate::drawing::{Ball, Drawing, Light, Pattern};
+use crate::drawing::{Arrow, Ball, Drawing, Light, Pattern};
 
 /// Draws a world that was made of this scene, or that has the same colliders in the same order,
 /// with a ball in white bands where `rotation` says of its number how it is turned. Other balls are
@@ -25,6 +26,9 @@ pub fn draw_world(
         }
     }
     let (spheres, has_spin) = (world.spheres(), world.has_spin());
+    let place = |id: SphereId| Some(spheres.positions()[spheres.ids().binary_search(&id).ok()?]);
+    let springs = world.springs().filter_map(|(_, spring)| spring_line(spring, place));
+    drawing.arrows.extend(springs);
     for (i, id) in spheres.ids().iter().enumerate() {
         let (radius, mass) = (spheres.radii()[i], spheres.masses()[i]);
         let coat = palette.sphere(id.number(), radius, mass);
@@ -36,6 +40,20 @@ pub fn draw_world(
         });
     }
 }
+
+/// The line that a spring or a thread is drawn as, between spheres at these places \[m\]; `None` where there is no
+/// such sphere.
+pub fn spring_line(spring: &Spring, place: impl Fn(SphereId) -> Option<DVec3>) -> Option<Arrow> {
+    let end = match spring.to {
+        SpringEnd::Sphere(other) => place(other)?,
+        SpringEnd::Point(point) => point,
+    };
+    let start = place(spring.sphere)?;
+    Some(Arrow { start, end, color: SPRING, width: 2.0, head: false, in_front: false })
+}
+
+/// The colour of springs and threads.
+const SPRING: Color = [0.50, 0.47, 0.41];
 
 /// How a ball is turned that rolls without slipping: for the eye alone, under rules that know no
 /// friction.

@@ -1,10 +1,12 @@
 //! Parts of a scene, described in code: read and checked as if they were a scene of their own.
 
+use serde::Deserialize;
 use thiserror::Error;
 
 use crate::error::{Fault, SceneError};
+use crate::legible::legible;
 use crate::overrides::Override;
-use crate::scene::Scene;
+use crate::scene::{Scene, Spring};
 
 /// What is wrong with something that was described in code: it has no lines, and no name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -48,6 +50,28 @@ pub fn read(text: &str) -> Result<Scene, PartError> {
 pub fn read_simulation(text: &str) -> Result<Scene, PartError> {
     Ok(Scene::from_toml(&named(text), NAME)?)
 }
+
+/// Reads springs from TOML, without the spheres that they join: the world that they come into has those.
+///
+/// # Errors
+/// [`PartError`] for what is no spring.
+pub fn springs(text: &str) -> Result<Vec<Spring>, PartError> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Springs {
+        #[serde(default)]
+        springs: Vec<Spring>,
+    }
+    let read = toml::from_str::<Springs>(text).map(|it| it.springs);
+    let failed = |error: toml::de::Error| PartError {
+        message: format!("springs: {}", legible(error.message(), LONGEST)),
+        field: "springs".to_owned(),
+    };
+    read.map_err(failed)
+}
+
+/// Longest message of the reader of TOML \[characters\].
+const LONGEST: usize = 300;
 
 /// The one thing that a description is of.
 ///

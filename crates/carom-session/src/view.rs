@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom::{DQuat, DVec3, Friction, PersistentContact, Pose, SphereId, StateHash};
+use carom::{DQuat, DVec3, Friction, PersistentContact, Pose, SphereId, Spring, StateHash};
 use carom_scene::Paint;
 use carom_scene::scene::{Scene, Sphere};
 
@@ -43,6 +43,8 @@ pub struct View {
     pub seeking: Option<u64>,
     /// All spheres.
     pub spheres: SphereArrays,
+    /// Springs, in the order in which their forces are added up.
+    pub springs: Vec<Spring>,
     /// Where the colliders of [`Setup::colliders`] are now.
     pub poses: Vec<Pose>,
     /// What is measured now.
@@ -155,6 +157,7 @@ impl Default for View {
             redoable: 0,
             seeking: None,
             spheres: SphereArrays::default(),
+            springs: Vec::new(),
             poses: Vec::new(),
             now: Reading::default(),
             readings: Vec::new(),
@@ -178,6 +181,9 @@ impl View {
             collider.rotation = pose.rotation.to_array();
         }
         scene.spheres.extend((0..self.spheres.ids.len()).map(|i| self.spheres.described(i)));
+        let springs = self.springs.iter();
+        let described = |spring| carom_scene::scene::Spring::of(spring, &self.spheres.ids);
+        scene.springs.extend(springs.filter_map(described));
         // Rules that find contacts late let spheres overlap; a scene has to admit it.
         if !scene.simulation.allow_overlap && scene.world().is_err() {
             scene.simulation.allow_overlap = true;

@@ -42,7 +42,7 @@ fn steady_force(view: &View, mass: f64) -> DVec3 {
     let of_one = |force: &Force| match force {
         Force::Constant { force } => DVec3::from_array(*force),
         Force::Gravity { acceleration } => mass * DVec3::from_array(*acceleration),
-        Force::ViscousDrag { .. } => DVec3::ZERO,
+        _ => DVec3::ZERO,
     };
     view.setup.forces.iter().map(|(_, force)| of_one(force)).sum()
 }

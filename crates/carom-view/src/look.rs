@@ -1,7 +1,7 @@
 //! What a session looks like: its view as a drawing.
 
 use carom::{DQuat, DVec3, SphereId};
-use carom_render::{Arrow, Ball, Drawing, Light, Pattern};
+use carom_render::{Arrow, Ball, Drawing, Light, Pattern, spring_line};
 use carom_scene::scene::{self, Color, Finish};
 use carom_scene::{Coat, Palette};
 use carom_session::View;
@@ -58,6 +58,7 @@ pub fn draw(view: &View, look: &Look, drawing: &mut Drawing) {
     drawing.light = if look.dark { light.at_dusk() } else { light };
     add_colliders(view, drawing);
     add_spheres(view, look, drawing);
+    add_springs(view, look, drawing);
     if look.marks.contacts {
         add_contacts(view, drawing);
     }
@@ -116,6 +117,12 @@ fn add_spheres(view: &View, look: &Look, drawing: &mut Drawing) {
             });
         }
     }
+}
+
+fn add_springs(view: &View, look: &Look, drawing: &mut Drawing) {
+    let center = |id| Some(place(view, view.spheres.index_of(id)?, look.blend));
+    let lines = view.springs.iter().filter_map(|spring| spring_line(spring, center));
+    drawing.arrows.extend(lines);
 }
 
 fn add_contacts(view: &View, drawing: &mut Drawing) {

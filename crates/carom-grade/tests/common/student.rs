@@ -90,7 +90,7 @@ fn move_ball(ball: &mut Ball, scene: &Scene, (dt, mass): (f32, f32), slips: Slip
             Force::ViscousDrag { coefficient } => {
                 add(force, scaled(ball.velocity, -(*coefficient as f32)))
             }
-            Force::Gravity { .. } => force,
+            _ => force,
         };
     }
     let old = ball.velocity;

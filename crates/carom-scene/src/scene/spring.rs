@@ -1,5 +1,6 @@
 //! Springs and threads.
 
+use carom::{SphereId, SpringEnd};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,4 +42,27 @@ pub struct Spring {
     /// Whether it only pulls, as a thread does, which is slack up to its rest length.
     #[serde(default, skip_serializing_if = "is_default")]
     pub only_pulls: bool,
+}
+
+impl Spring {
+    /// The description of a spring between spheres of which these are the ids, ascending; `None` if one of its ends
+    /// is not among them.
+    pub fn of(spring: &carom::Spring, ids: &[SphereId]) -> Option<Self> {
+        let number = |id: SphereId| Some(ids.binary_search(&id).ok()? as u32);
+        let own = number(spring.sphere)?;
+        let (spheres, sphere, anchor) = match spring.to {
+            SpringEnd::Sphere(other) => (Some([own, number(other)?]), None, None),
+            SpringEnd::Point(point) => (None, Some(own), Some(point.to_array())),
+        };
+        Some(Self {
+            spheres,
+            sphere,
+            anchor,
+            chain: None,
+            rest_length: Some(spring.rest_length),
+            stiffness: spring.stiffness,
+            damping: spring.damping,
+            only_pulls: spring.only_pulls,
+        })
+    }
 }

@@ -226,6 +226,7 @@ impl Session {
             view.scene = self.scene.clone();
         }
         self.fill_motion(&mut view.spheres);
+        replace(&mut view.springs, self.world.springs().map(|(_, spring)| *spring));
         (view.setup, view.changes) = (self.setup.clone(), self.history.changes().clone());
         (view.frame, view.time) = (self.frame, self.time());
         (view.furthest_frame, view.furthest) = self.history.furthest();
