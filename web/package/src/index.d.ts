@@ -254,29 +254,6 @@ export type Force =
   /** Buoyancy in a fluid with a level surface: density [kg/m³], height [m], gravity [m/s²]. */
   | { buoyancy: { density: number; surfaceHeight?: number; gravity?: Vector } };
 
-/**
- * A spring with a damper, or a chain of such. Spheres are named by their numbers in the scene, from
- * 0. Give `spheres`, `sphere` with `anchor`, or `chain`.
- */
-export interface Spring {
-  /** The two spheres that it joins. */
-  spheres?: [number, number];
-  /** The sphere that it joins to a fixed point. */
-  sphere?: number;
-  /** The fixed point [m]. */
-  anchor?: Vector;
-  /** First and last sphere of a chain: each is joined to the next one. */
-  chain?: [number, number];
-  /** Length without force [m], >= 0; the length at the start unless given. */
-  restLength?: number;
-  /** Stiffness [N/m], >= 0. */
-  stiffness: number;
-  /** Damping [kg/s], >= 0. */
-  damping?: number;
-  /** Whether it is a thread, which is slack up to its rest length. */
-  onlyPulls?: boolean;
-}
-
 /** How spheres move under forces, by `bisect` and `discrete`; `exact` needs none. */
 export type Integrator =
   "semi-implicit-euler" | "explicit-euler" | "velocity-verlet" | "runge-kutta-4";
