@@ -64,7 +64,7 @@ impl Campaign {
         let cases = (target.cases)();
         let watch = Watch::new(target.name, self.seed);
         let mut totals = Totals::default();
-        for number in self.first..self.first + self.count {
+        for number in self.first..self.first.saturating_add(self.count) {
             if self.until.is_some_and(|end| Instant::now() > end) {
                 break;
             }

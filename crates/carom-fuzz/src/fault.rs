@@ -32,6 +32,13 @@ pub enum Fault {
     Law(String),
 }
 
+impl Fault {
+    /// Whether it depends on what else the machine does: tests leave it to campaigns.
+    pub fn is_limit(&self) -> bool {
+        matches!(self, Self::Slow(_) | Self::Memory { .. })
+    }
+}
+
 /// Longest error \[characters\]: a few lines of a terminal.
 const MOST_CHARACTERS: usize = 1000;
 

@@ -1,7 +1,7 @@
 //! Laws that hold of every world, or of those of a rule.
 
-use carom::{StopRequest, World};
-use carom_scene::scene::{Boundary, Rule, Shape};
+use carom::{DQuat, DVec3, StopRequest, World};
+use carom_scene::scene::{Boundary, Collider, Rule, Shape};
 use carom_scene::{Checkpoint, Palette, Scene};
 
 use crate::fault::Fault;
@@ -96,12 +96,16 @@ fn checkpoint(scene: &Scene, world: &World) -> Result<Vec<u8>, Fault> {
 fn run(scene: &Scene, world: &mut World, frames: usize) -> Result<Seen, Fault> {
     let keeps = Keeps::of(scene);
     let mut seen = Seen::default();
-    let mut energy = world.total_energy();
+    let (mut energy, mut was_stepped) = (world.total_energy(), false);
     let mut scale = energy.abs().max(world.kinetic_energy());
     for _ in 0..frames {
         let report = world.step(scene.simulation.frame_time);
-        let report = report.map_err(|it| Fault::Law(format!("stops: {it}")))?;
-        seen.zone |= report.zone_account.joined > 0 || report.zone_account.spheres > 0;
+        let report = report.map_err(|it| match it {
+            carom::Error::Stopped { .. } => Fault::Slow(PATIENCE),
+            it => Fault::Law(format!("stops: {it}")),
+        })?;
+        let in_zone = report.zone_account.joined > 0 || report.zone_account.spheres > 0;
+        seen.zone |= in_zone;
         let corrected = report.contact_account.correction_work;
         seen.contact |= !world.contacts().is_empty();
         let at = format!("at {} s", world.time());
@@ -109,10 +113,11 @@ fn run(scene: &Scene, world: &mut World, frames: usize) -> Result<Seen, Fault> {
         scale = scale.max(world.kinetic_energy());
         law(now.is_finite(), || format!("has energy {now} {at}"))?;
         let gain = now - energy - corrected.max(0.0);
-        law(seen.zone || gain <= keeps.gain * scale, || {
+        // A frame after one of stepped spheres may end what that began.
+        law(in_zone || was_stepped || gain <= keeps.gain * scale, || {
             format!("gains {gain:e} J, its energy being {scale:e} J, {at}")
         })?;
-        energy = now;
+        (energy, was_stepped) = (now, in_zone);
         check_places(world, &keeps, seen.zone).map_err(|it| Fault::Law(format!("{it} {at}")))?;
     }
     Ok(seen)
@@ -123,18 +128,16 @@ struct Keeps {
     /// Part of the energy that a frame may add.
     gain: f64,
     no_overlap: bool,
-    /// Farthest place from the centre of the container \[m\], where it keeps what is inside.
-    farthest: Option<f64>,
+    /// The container that keeps what is inside.
+    container: Option<Collider>,
 }
 
 impl Keeps {
     fn of(scene: &Scene) -> Self {
         let rule = scene.simulation.rule;
         let is_driven = is_driven(scene);
-        let size = scene.colliders.iter().find_map(|it| match &it.shape {
-            Shape::Container { size, .. } => Some(size.map(|it| it * it).iter().sum::<f64>()),
-            _ => None,
-        });
+        let mut colliders = scene.colliders.iter();
+        let container = colliders.find(|it| matches!(it.shape, Shape::Container { .. }));
         let is_solid = matches!(rule, Rule::Exact | Rule::Contact);
         // What moves may press a sphere through what stands.
         let is_kept = is_solid && !is_driven;
@@ -146,9 +149,17 @@ impl Keeps {
                 _ => f64::INFINITY,
             },
             no_overlap: rule == Rule::Exact && !is_driven,
-            farthest: size.filter(|_| is_kept).map(|it| 0.5 * it.sqrt()),
+            container: container.filter(|_| is_kept).cloned(),
         }
     }
+}
+
+/// Whether the centre of a sphere is outside a container.
+fn is_out(center: DVec3, container: &Collider) -> bool {
+    let Shape::Container { size, .. } = container.shape else { return false };
+    let rotation = DQuat::from_array(container.rotation).normalize();
+    let place = rotation.inverse() * (center - DVec3::from_array(container.position));
+    place.abs().cmpgt(0.5 * DVec3::from_array(size)).any()
 }
 
 fn check_places(world: &World, keeps: &Keeps, in_zone: bool) -> Result<(), String> {
@@ -156,11 +167,10 @@ fn check_places(world: &World, keeps: &Keeps, in_zone: bool) -> Result<(), Strin
     if spheres.positions().iter().any(|it| !it.is_finite()) {
         return Err("is nowhere".to_owned());
     }
-    if let Some(farthest) = keeps.farthest {
-        let out = spheres.positions().iter().find(|it| it.length() > farthest);
-        if let Some(out) = out {
-            return Err(format!("has a sphere outside its container, at {out}"));
-        }
+    if let Some(container) = &keeps.container
+        && let Some(out) = spheres.positions().iter().find(|&&it| is_out(it, container))
+    {
+        return Err(format!("has a sphere outside its container, at {out}"));
     }
     let smallest = spheres.radii().iter().copied().fold(f64::INFINITY, f64::min);
     let depths = world.overlaps(0.0).into_iter().map(|overlap| overlap.depth / smallest);

@@ -6,11 +6,14 @@ use carom_fuzz::{Known, TARGETS};
 
 #[test]
 fn what_once_broke_a_promise_keeps_it() {
+    let mut tried = 0;
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
     for target in &TARGETS {
         for Known { path, case } in Known::of(target, &folder).unwrap() {
-            let answer = target.try_case(&case);
-            assert!(answer.is_ok(), "{}: {}", path.display(), answer.unwrap_err());
+            let fault = target.try_case(&case).err().filter(|fault| !fault.is_limit());
+            assert_eq!(fault, None, "{}", path.display());
+            tried += 1;
         }
     }
+    assert!(tried > 0, "the corpus is not where it should be");
 }

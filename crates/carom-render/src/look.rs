@@ -1,6 +1,6 @@
 //! What a world looks like: its spheres and colliders in the colours of its scene.
 
-use carom::{DQuat, DVec3, SphereId, Spring, SpringEnd, World};
+use carom::{Boundary, DQuat, DVec3, SphereId, Spring, SpringEnd, World};
 use carom_scene::scene::Color;
 use carom_scene::{Palette, Scene};
 
@@ -27,7 +27,8 @@ pub fn draw_world(
     }
     let (spheres, has_spin) = (world.spheres(), world.has_spin());
     let place = |id: SphereId| Some(spheres.positions()[spheres.ids().binary_search(&id).ok()?]);
-    let springs = world.springs().filter_map(|(_, spring)| spring_line(spring, place));
+    let boundary = world.settings().boundary;
+    let springs = world.springs().filter_map(|(_, spring)| spring_line(spring, boundary, place));
     drawing.arrows.extend(springs);
     for (i, id) in spheres.ids().iter().enumerate() {
         let (radius, mass) = (spheres.radii()[i], spheres.masses()[i]);
@@ -42,13 +43,18 @@ pub fn draw_world(
 }
 
 /// The line that a spring or a thread is drawn as, between spheres at these places \[m\]; `None` where there is no
-/// such sphere.
-pub fn spring_line(spring: &Spring, place: impl Fn(SphereId) -> Option<DVec3>) -> Option<Arrow> {
+/// such sphere. In a periodic box it goes to the nearest image.
+pub fn spring_line(
+    spring: &Spring,
+    boundary: Boundary,
+    place: impl Fn(SphereId) -> Option<DVec3>,
+) -> Option<Arrow> {
     let end = match spring.to {
         SpringEnd::Sphere(other) => place(other)?,
         SpringEnd::Point(point) => point,
     };
     let start = place(spring.sphere)?;
+    let end = start + boundary.nearest_image(end - start);
     Some(Arrow { start, end, color: SPRING, width: 2.0, head: false, in_front: false })
 }
 

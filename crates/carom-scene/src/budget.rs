@@ -23,6 +23,8 @@ pub struct Budget {
     pub spheres: u64,
     /// Most colliders, likewise.
     pub colliders: u64,
+    /// Most springs, those of chains counted one by one.
+    pub springs: u64,
     /// Most bytes of each file of a scene.
     pub bytes: u64,
 }
@@ -35,14 +37,17 @@ impl Default for Budget {
 
 impl Budget {
     /// For scene files: room for gases of a million spheres, in about 1 GB of memory.
-    pub const FILE: Self = Self { spheres: 2_000_000, colliders: 1_000_000, bytes: 256 << 20 };
+    pub const FILE: Self =
+        Self { spheres: 2_000_000, colliders: 1_000_000, springs: 4_000_000, bytes: 256 << 20 };
 
     /// For links, which anyone can send.
-    pub const LINK: Self = Self { spheres: 200_000, colliders: 100_000, bytes: 16 << 20 };
+    pub const LINK: Self =
+        Self { spheres: 200_000, colliders: 100_000, springs: 400_000, bytes: 16 << 20 };
 
     /// For scenes that were checked, or put together in code: more than this is a slip of the
     /// keyboard.
-    pub const MOST: Self = Self { spheres: 10_000_000, colliders: 1_000_000, bytes: u64::MAX };
+    pub const MOST: Self =
+        Self { spheres: 10_000_000, colliders: 1_000_000, springs: 20_000_000, bytes: u64::MAX };
 
     /// Checks how many spheres and colliders a scene has, with those of all generators together,
     /// before any is made.
@@ -55,6 +60,11 @@ impl Budget {
                 format!("{count} {list} are more than the {most} that are allowed")
             })?;
         }
+        let joined = |chain: [u32; 2]| u64::from(chain[1].saturating_sub(chain[0]));
+        let springs: u64 = scene.springs.iter().map(|it| it.chain.map_or(1, joined)).sum();
+        check(springs <= self.springs, "springs", || {
+            format!("{springs} springs are more than the {} that are allowed", self.springs)
+        })?;
         self.check_generators(&scene.generators, spheres, colliders)
     }
 

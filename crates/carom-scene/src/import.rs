@@ -1,6 +1,7 @@
 //! What imports from other formats have in common: the report of what they do not understand, names, numbers,
 //! and the check at the end.
 
+use crate::legible::steers;
 use std::fmt;
 
 use crate::error::SceneError;
@@ -52,7 +53,7 @@ pub fn omit(report: &mut Vec<Omission>, object: &str, component: &str, reason: i
 
 /// A name without characters that steer a terminal, of 200 characters at most.
 pub fn legible(name: &str) -> String {
-    name.chars().map(|it| if it.is_control() { ' ' } else { it }).take(200).collect()
+    name.chars().map(|it| if steers(it) { ' ' } else { it }).take(200).collect()
 }
 
 /// Numbers with the 9 digits that tell any two 32-bit numbers apart, which the other programs compute

@@ -16,6 +16,15 @@ impl Scene {
     }
 }
 
+impl From<Boundary> for carom::Boundary {
+    fn from(boundary: Boundary) -> Self {
+        match boundary {
+            Boundary::Open => Self::Open,
+            Boundary::Periodic { size } => Self::Periodic { size: vector(size) },
+        }
+    }
+}
+
 fn settings(simulation: &Simulation) -> Settings {
     let rule: carom::Rule = match simulation.rule {
         Rule::Discrete => discrete(&simulation.discrete).into(),
@@ -23,16 +32,12 @@ fn settings(simulation: &Simulation) -> Settings {
         Rule::Exact => exact(&simulation.exact).into(),
         Rule::Contact => contact(&simulation.contact).into(),
     };
-    let boundary = match simulation.boundary {
-        Boundary::Open => carom::Boundary::Open,
-        Boundary::Periodic { size } => carom::Boundary::Periodic { size: vector(size) },
-    };
     Settings::default()
         .with_rule(rule)
         .with_combine_rule(simulation.combine_rule.into())
         .with_friction_combine_rule(simulation.friction_combine_rule.into())
         .with_spheres_collide(simulation.spheres_collide)
-        .with_boundary(boundary)
+        .with_boundary(simulation.boundary.into())
 }
 
 impl From<CombineRule> for carom::CombineRule {

@@ -61,7 +61,7 @@ fn join(
             SpringEnd::Sphere(id) => place(id)?,
             SpringEnd::Point(point) => point,
         };
-        Ok((place(first)? - end).length())
+        Ok(world.settings().boundary.nearest_image(place(first)? - end).length())
     };
     let refused = |error| Problem::of_physics(path, error);
     let rest_length = spring.rest_length.map_or_else(length, Ok).map_err(refused)?;

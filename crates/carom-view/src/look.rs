@@ -121,7 +121,9 @@ fn add_spheres(view: &View, look: &Look, drawing: &mut Drawing) {
 
 fn add_springs(view: &View, look: &Look, drawing: &mut Drawing) {
     let center = |id| Some(place(view, view.spheres.index_of(id)?, look.blend));
-    let lines = view.springs.iter().filter_map(|spring| spring_line(spring, center));
+    let boundary = view.setup.simulation.boundary.into();
+    let lines = view.springs.iter();
+    let lines = lines.filter_map(|spring| spring_line(spring, boundary, center));
     drawing.arrows.extend(lines);
 }
 

@@ -157,6 +157,11 @@ pub(crate) fn total_linear(
     (total, is_all)
 }
 
+/// Whether all forces have a linear form, for spheres of a usual size.
+pub(crate) fn are_linear(forces: &Numbered<Arc<dyn Force>>) -> bool {
+    forces.iter().all(|(_, force)| linear_form(&**force, 1.0, 1.0).is_some())
+}
+
 /// The linear form of a force, if it has one that motion in closed form is made for: a drag that
 /// drives is not.
 fn linear_form(force: &dyn Force, radius: f64, mass: f64) -> Option<LinearForce> {

@@ -40,6 +40,11 @@ pub(crate) fn nearest_image(place: DVec3, period: DVec3) -> DVec3 {
 }
 
 impl Boundary {
+    /// The image of a distance that is the shortest \[m\].
+    pub fn nearest_image(self, distance: DVec3) -> DVec3 {
+        nearest_image(distance, self.period())
+    }
+
     /// Edges of the periodic box \[m\], infinite along open axes.
     pub(crate) fn period(self) -> DVec3 {
         match self {

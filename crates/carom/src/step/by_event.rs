@@ -4,6 +4,7 @@
 use super::attempt::Attempt;
 use crate::emitter;
 use crate::error::{Error, Subject};
+use crate::forces;
 use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Until};
 use crate::settings::Exact;
 use crate::state::State;
@@ -14,6 +15,9 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
     let end = attempt.end.seconds();
     attempt.state.check_emitters(end)?;
     attempt.take(|attempt| {
+        if until == Until::NextImpact {
+            check_closed_form(attempt)?;
+        }
         let mut timeline = begin(attempt, parameters, end)?;
         let end = advance(attempt, &mut timeline, end, until)?;
         attempt.end_at(end);
@@ -49,6 +53,19 @@ fn begin(attempt: &mut Attempt, parameters: Exact, end: f64) -> Result<Timeline,
     exact::begin(&mut timeline, &system, [time, end], next_emission)
         .map_err(|sphere| Error::NonFiniteState { sphere, quantity: "velocity", time })?;
     Ok(timeline)
+}
+
+/// Refuses to find the next event under forces that would be held from now until then.
+///
+/// # Errors
+/// [`Error::Invalid`]
+fn check_closed_form(attempt: &mut Attempt) -> Result<(), Error> {
+    let (system, _) = attempt.state.split();
+    let varies = system.has_interactions() || !forces::are_linear(system.forces);
+    let requirement = "such that motion under all forces is known in closed form until then";
+    let forces = "one of springs, or of forces that depend on places";
+    validate::require(!varies, "next event", requirement, forces)
+        .map_err(|invalid| invalid.about(Subject::Step))
 }
 
 /// Takes flights and emissions to `end` \[s\], or to the next impact; gives the time that they come to

@@ -5,7 +5,7 @@ mod octree;
 use glam::DVec3;
 use octree::Octree;
 
-use super::{Force, Interaction, SphereState, SphereStates};
+use super::{Force, Interaction, LinearForce, SphereState, SphereStates};
 use crate::error::InvalidValue;
 use crate::parallel;
 use crate::sum::Sum;
@@ -88,6 +88,11 @@ impl MutualGravity {
 impl Force for MutualGravity {
     fn on(&self, _sphere: &SphereState, _time: f64) -> DVec3 {
         DVec3::ZERO
+    }
+
+    /// Nothing acts on a sphere by itself.
+    fn linear(&self, _radius: f64, _mass: f64) -> Option<LinearForce> {
+        Some(LinearForce { acceleration: DVec3::ZERO, drag_rate: 0.0 })
     }
 
     fn interaction(&self) -> Option<&dyn Interaction> {

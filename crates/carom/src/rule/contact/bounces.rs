@@ -55,8 +55,12 @@ pub(super) fn note(solver: &mut Solver, sub_step: &SubStep) {
         }
     }
     let is_alone = |slot: usize| bounces.binary_search_by_key(&slot, |it| it.slot as usize).is_ok();
-    let others = (0..slots.len()).filter(|&slot| !is_alone(slot));
-    let stopped: Vec<_> = others
+    let near_surfaces = slabs.list.iter().flat_map(|slab| {
+        let of_spheres = slab.surfaces.chunk_by(|first, second| first.slot == second.slot);
+        of_spheres.map(|own| slab.start + own[0].slot as usize)
+    });
+    let stopped: Vec<_> = near_surfaces
+        .filter(|&slot| !is_alone(slot))
         .filter_map(|slot| {
             let leg = Leg::straight(slots, slot, sub_step);
             let is_pushed = || slots.velocity[slot].vector() != slots.accelerated(slot, sub_step.h);
@@ -174,7 +178,7 @@ impl Leg {
             let Flight { position, velocity, .. } = self.flight;
             let separation = sphere_surface(&place.0, position, radius)?;
             let speed = -velocity.dot(separation.normal);
-            let is_passed = self.duration * speed > separation.distance + radius;
+            let is_passed = speed > 0.0 && self.duration * speed > separation.distance + radius;
             let is_at_rest = place.1.is_at_rest();
             (is_passed && is_at_rest).then(|| separation.distance.max(0.0) / speed)
         });

@@ -119,6 +119,8 @@ impl Zone {
         self.properties = Properties::default();
         (self.motion, self.velocity_before, self.free_ticks) = Default::default();
         self.near.clear();
+        // Of forces that may be gone, by indices that may be others' now.
+        self.held_forces.clear();
         self.solver.set_changed();
         for index in all {
             self.join(system, index, velocities[index as usize], time, tick);
@@ -128,6 +130,7 @@ impl Zone {
     /// Follows spheres to other places in the arrays of the world, which hold these ids; forgets those that
     /// are gone.
     pub fn follow(&mut self, ids: &[SphereId]) {
+        self.held_forces.clear();
         let is_there = |id: &SphereId| ids.binary_search(id).is_ok();
         self.waiting.retain(|(id, _)| is_there(id));
         let stays: Vec<bool> = self.properties.id.iter().map(is_there).collect();
@@ -327,6 +330,7 @@ impl Zone {
     fn apply_forces(&mut self, system: &System) {
         let applied = &system.spheres.applied_force;
         if applied.is_empty() && self.held_forces.is_empty() {
+            self.properties.applied_force.clear();
             return;
         }
         let of = |forces: &[DVec3], index: u32| forces.get(index as usize).copied();

@@ -16,21 +16,21 @@ use crate::system::System;
 /// everywhere; others are found anew.
 ///
 /// Forces between spheres are those where all would be in the middle if nothing accelerated them, a drift,
-/// a kick and a drift: the leapfrog scheme, which keeps energy as velocity Verlet does.
+/// a kick and a drift: the leapfrog scheme, which keeps energy, without damping, as velocity Verlet does.
 pub(crate) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64; 2]) {
     let between = forces_between(timeline, system, [start, end]);
     timeline.zone.held_forces.clone_from(&between);
     for slot in 0..timeline.flights.bodies.len() as u32 {
-        if timeline.flights.is_stepped(slot) {
-            continue;
-        }
         let species = *timeline.flights.free_species_of(slot);
         let index = timeline.flights.index_of[slot as usize] as usize;
         let applied = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
         let (linear, is_all) = forces::total_linear(system.forces, species.radius, species.mass);
         let uniform = linear.acceleration + applied;
         let uniform = between.get(index).map_or(uniform, |&force| uniform + force / species.mass);
-        if is_all {
+        if timeline.flights.is_stepped(slot) {
+            // Of use once it flies again.
+            timeline.flights.set_free_acceleration(slot, uniform);
+        } else if is_all {
             begin_under(timeline, system, slot, uniform, [start, end]);
             timeline.find_clearance(system, slot);
         } else {
@@ -57,13 +57,25 @@ fn forces_between(timeline: &Timeline, system: &System, [start, end]: [f64; 2]) 
             let at = (positions[index], *velocity);
             let alone = integrate::acceleration_alone(system, index, at, start);
             positions[index] += half * *velocity;
-            *velocity += half * (alone + forces[index] / system.spheres.mass[index]);
+            let free = alone + forces[index] / system.spheres.mass[index];
+            *velocity += half * under_contacts(timeline, index, free);
         }
     } else {
         positions.iter_mut().zip(&velocities).for_each(|(position, v)| *position += half * *v);
     }
     system.forces_between([&positions, &velocities], start + half, &mut forces);
     forces
+}
+
+/// The acceleration of a sphere, by its index, that would have the one `free` if nothing touched it \[m/s²\]: where it
+/// lies, contacts bear it.
+fn under_contacts(timeline: &Timeline, index: usize, free: DVec3) -> DVec3 {
+    let species = timeline.flights.species_of(timeline.flights.slot_of[index]);
+    match (species.is_stepped, species.cluster) {
+        (true, _) => DVec3::ZERO,
+        (false, Some(_)) => species.acceleration,
+        (false, None) => free,
+    }
 }
 
 /// Begins the flight of a sphere at `start` \[s\] under an acceleration \[m/s²\] that is the same
