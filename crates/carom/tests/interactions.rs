@@ -331,9 +331,8 @@ fn a_sphere_on_a_spring_that_presses_it_to_the_floor_rests_there() {
     }
 }
 
-#[test]
-fn spheres_in_a_stepped_zone_feel_their_springs() {
-    // A column that friction keeps in a zone, hung on springs that bear most of its weight.
+/// A column that friction keeps in a zone, each ball hung on a spring that bears most of its weight.
+fn hung_column() -> (World, Vec<SphereId>) {
     let mut world = world(Exact::default().with_max_impacts(50));
     world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
     let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(0.0);
@@ -348,11 +347,34 @@ fn spheres_in_a_stepped_zone_feel_their_springs() {
         let spring = Spring::to_point(ball, above, 10.0 - G / 100.0).with_stiffness(100.0);
         world.add_spring(spring.with_damping(5.0)).unwrap();
     }
+    (world, balls)
+}
+
+#[test]
+fn spheres_in_a_stepped_zone_feel_their_springs() {
+    let (mut world, balls) = hung_column();
     run(&mut world, 2.0, 120);
     for (i, &ball) in balls.iter().enumerate() {
         // Each hangs where it was: its spring bears it.
         assert_close(position(&world, ball).y, 0.5 + i as f64, 5e-3);
     }
+}
+
+#[test]
+fn springs_that_are_removed_pull_nothing_in_a_stepped_zone() {
+    let (mut world, balls) = hung_column();
+    run(&mut world, 1.0, 60);
+    for (id, _) in world.springs().map(|(id, spring)| (id, *spring)).collect::<Vec<_>>() {
+        world.remove_spring(id).unwrap();
+    }
+    // The lowest balls taken out, the others fall freely, by half a metre within this time.
+    world.remove_spheres(&balls[..3]).unwrap();
+    let (top, fall) = (balls[5], 0.3);
+    let (start, speed) = (position(&world, top).y, world.sphere(top).unwrap().velocity.y);
+    run(&mut world, fall, 18);
+    let expected = start + speed * fall - 0.5 * G * fall * fall;
+    // A zone moves them in ticks of 1/480 s, g t dt / 2 = 3e-3 m late at most; a spring would halve the way.
+    assert_close(position(&world, top).y, expected, 5e-3);
 }
 
 #[test]
