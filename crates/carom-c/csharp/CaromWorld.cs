@@ -370,7 +370,7 @@ namespace Carom
         /// <summary>Takes a force out of the world.</summary>
         public void RemoveForce(ulong id) { Check(Native.carom_world_remove_force(Id, id)); }
 
-        /// <summary>Adds the spheres, generators, colliders, forces and emitters of a text (TOML).</summary>
+        /// <summary>Adds the spheres, generators, springs, colliders, forces and emitters of a text (TOML).</summary>
         public CaromAdded AddToml(string toml)
         {
             CaromAdded added;
