@@ -71,7 +71,8 @@ namespace Carom
         Spheres, Colliders, Forces, Emitters, Emitted, Retired, LeftOut,
     }
 
-    /// <summary>Why the library refused a call. The world is as it was before.</summary>
+    /// <summary>Why the library refused a call. The world is as it was before, but for <see cref="CaromWorld.Advance"/>,
+    /// which keeps the frames before the one that was refused.</summary>
     public sealed class CaromException : Exception
     {
         public CaromStatus Status { get; private set; }
