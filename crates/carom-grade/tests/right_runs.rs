@@ -111,6 +111,21 @@ fn other_units_names_separators_and_decimals_pass() {
 }
 
 #[test]
+fn a_column_of_balls_counts_more_than_one_of_indices() {
+    let mut grader = grader("simtest2");
+    let style = Style { velocities: false, ..Style::default() };
+    let text = table(&grader.planted(Mistakes::NONE, 4.0, false), style);
+    let numbered = text.lines().enumerate().map(|(number, line)| match number {
+        0 => format!("index,{line}\n"),
+        number => format!("{number},{line}\n"),
+    });
+    let numbered: String = numbered.collect();
+    let verdict = grader.grade(&recorded(&numbered)).verdict;
+    passes(&verdict);
+    assert_eq!(verdict.balls, grader.grade(&recorded(&text)).verdict.balls);
+}
+
+#[test]
 fn few_decimals_widen_the_tolerance() {
     let mut grader = grader("simtest1");
     let tracks = grader.planted(Mistakes::NONE, 5.0, false);
