@@ -126,6 +126,18 @@ fn a_column_of_balls_counts_more_than_one_of_indices() {
 }
 
 #[test]
+fn a_verdict_does_not_depend_on_the_runs_graded_before() {
+    let mut grader = grader("simtest3");
+    let long = planted(&grader, Mistakes::NONE, 40.0, Style::default());
+    // What rounding does at most decides about a ball that the rule does not have.
+    let text = table(&grader.planted(Mistakes::NONE, 4.0, true), Style::default());
+    let short = recorded(&(text + "3.0,999,0,50,0,0,0,0\n"));
+    let alone = grader.grade(&short).verdict;
+    grader.grade(&long);
+    assert_eq!(grader.grade(&short).verdict, alone);
+}
+
+#[test]
 fn few_decimals_widen_the_tolerance() {
     let mut grader = grader("simtest1");
     let tracks = grader.planted(Mistakes::NONE, 5.0, false);
