@@ -31,6 +31,8 @@ pub struct Verdict {
     pub balls: usize,
     /// The first and the last time \[s\].
     pub time: [f64; 2],
+    /// Until when it is compared \[s\], where that is before its end.
+    pub compared_until: Option<f64>,
     /// How the run follows the course's rule.
     pub fit: Fit,
     /// Digits to which places are the same, of the rows that follow; those after the point within 1 m of
@@ -166,6 +168,7 @@ impl Verdict {
             tolerance: *tolerance,
             balls: recorded.labels.len(),
             time: times.map(|row| row.map_or(0.0, |row| row.time)),
+            compared_until: compared_until(&parts),
             digits: found.then(|| digits(fit.max_relative)),
             departure,
             explained,
@@ -272,11 +275,16 @@ fn notes(parts: &Parts) -> Vec<String> {
             if missing == 1 { "ball of the reference is" } else { "balls of the reference are" };
         notes.push(format!("{missing} {are} not in the table"));
     }
-    if reference.times.last().is_some_and(|end| *end < recorded.end()) {
-        let end = reference.times.last().copied().unwrap_or(0.0);
+    if let Some(end) = compared_until(parts) {
         notes.push(format!("the run is longer than what is compared: {end} s"));
     }
     notes
+}
+
+/// The end of the course's run \[s\], where that is before the end of the table.
+fn compared_until(parts: &Parts) -> Option<f64> {
+    let end = parts.reference.times.last().copied();
+    end.filter(|end| *end < parts.recorded.end())
 }
 
 fn ball_at(reference: &Tracks, key: Key, time: f64) -> Option<usize> {

@@ -13,7 +13,12 @@ impl Verdict {
             );
         }
         let Some(departure) = &self.departure else {
-            return "departs from the course's rule".to_owned();
+            return match self.compared_until {
+                Some(until) if self.fit.followed > 0 => format!(
+                    "the same as the course's rule up to {until:.2} s; what follows is not compared"
+                ),
+                _ => "no row is at a time that can be compared with the course's rule".to_owned(),
+            };
         };
         let Departure { time, ball, .. } = departure;
         format!("departs from the course's rule at {time:.2} s, ball {ball}")
@@ -42,7 +47,7 @@ impl Verdict {
                     format!("no known mistake explains it; nearest is {}", best.in_a_line());
                 lines.push(("mistake", nearest));
             }
-            None if !self.same => {
+            None if self.departure.is_some() => {
                 lines.push(("mistake", "no known mistake explains it".to_owned()))
             }
             None => {}
