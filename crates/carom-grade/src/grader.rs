@@ -110,6 +110,7 @@ impl Grader {
             explanations,
             explaining: explaining.as_ref(),
             tolerance: self.base_tolerance(recorded),
+            asked: self.tolerance,
         };
         let verdict = Verdict::of(parts);
         Graded { verdict, reference: reference.clone(), explanation: explaining, keys }

@@ -15,6 +15,9 @@ use crate::tracks::{Key, Touch, Tracks};
 /// The part of the rows after the departure that a mistake must follow to be named as the cause.
 const CONVINCING: f64 = 0.25;
 
+/// A table that ends before this part of the scene's duration is worth a note.
+const WHOLE: f64 = 0.9;
+
 /// Explanations that a verdict lists: the best, and two runners-up.
 const LISTED: usize = 3;
 
@@ -150,7 +153,10 @@ pub(crate) struct Parts<'a> {
     pub explanations: Vec<Explanation>,
     /// The run of the first of them.
     pub explaining: Option<&'a Tracks>,
+    /// How far places may be off \[m\]: what was asked for, or more where they have few decimals.
     pub tolerance: f64,
+    /// What was asked for \[m\].
+    pub asked: f64,
 }
 
 impl Verdict {
@@ -253,6 +259,12 @@ fn notes(parts: &Parts) -> Vec<String> {
              that"
         ));
     }
+    if parts.tolerance > parts.asked {
+        let (tolerance, asked) = (parts.tolerance, parts.asked);
+        notes.push(format!(
+            "places have so few decimals that they may be off by {tolerance:.1e} m, not only by {asked:.1e} m"
+        ));
+    }
     let is_between = |time: &&f64| reference.frame_at(**time).is_some_and(|(_, part)| part > 0.0);
     let times = recorded.times();
     let between = times.iter().filter(is_between).count();
@@ -274,6 +286,10 @@ fn notes(parts: &Parts) -> Vec<String> {
         let are =
             if missing == 1 { "ball of the reference is" } else { "balls of the reference are" };
         notes.push(format!("{missing} {are} not in the table"));
+    }
+    let (end, duration) = (recorded.end(), course.duration);
+    if end < WHOLE * duration {
+        notes.push(format!("only the first {end:.2} s of {duration} s are in the table"));
     }
     if let Some(end) = compared_until(parts) {
         notes.push(format!("the run is longer than what is compared: {end} s"));
