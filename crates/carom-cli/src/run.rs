@@ -275,10 +275,14 @@ impl Outputs {
         Ok(())
     }
 
+    /// Completes all files, and tells of all that fail.
     fn finish(self) -> Result<(), Failure> {
         let trajectory = self.trajectory.map_or(Ok(()), Trajectory::finish);
-        self.impacts.map_or(Ok(()), ImpactTable::finish)?;
-        self.ledger.map_or(Ok(()), LedgerTable::finish)?;
-        Ok(trajectory?)
+        let impacts = self.impacts.map_or(Ok(()), ImpactTable::finish);
+        let ledger = self.ledger.map_or(Ok(()), LedgerTable::finish);
+        let [trajectory, impacts, ledger] =
+            [trajectory, impacts, ledger].map(|it| it.map_err(Failure::from));
+        // A reader of the trajectory that has gone away does not hide what else failed.
+        both(both(impacts, ledger), trajectory)
     }
 }
