@@ -111,3 +111,40 @@ impl Explanation {
         format!("{} ({})", self.named(), self.fit_in_words())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::Fit;
+
+    #[test]
+    fn a_run_that_is_compared_in_part_is_called_neither_the_same_nor_wrong() {
+        let fit = Fit {
+            followed: 2,
+            rows: 3,
+            rms: 0.0,
+            max: 0.0,
+            max_relative: 0.0,
+            max_velocity: None,
+            departure: None,
+            residual: 0.0,
+        };
+        let verdict = Verdict {
+            scene: "long".to_owned(),
+            same: fit.is_complete(),
+            tolerance: 5e-4,
+            balls: 1,
+            time: [1.0, 900.0],
+            compared_until: Some(400.0),
+            fit,
+            digits: Some(15),
+            departure: None,
+            explained: false,
+            explanations: Vec::new(),
+            notes: Vec::new(),
+        };
+        let said = "the same as the course's rule up to 400.00 s; what follows is not compared";
+        assert_eq!(verdict.headline(), said);
+        assert!(verdict.lines().is_empty());
+    }
+}
