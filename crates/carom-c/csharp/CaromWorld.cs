@@ -71,7 +71,8 @@ namespace Carom
         Spheres, Colliders, Forces, Emitters, Emitted, Retired, LeftOut,
     }
 
-    /// <summary>Why the library refused a call. The world is as it was before.</summary>
+    /// <summary>Why the library refused a call. The world is as it was before, but for <see cref="CaromWorld.Advance"/>,
+    /// which keeps the frames before the one that was refused.</summary>
     public sealed class CaromException : Exception
     {
         public CaromStatus Status { get; private set; }
@@ -224,13 +225,20 @@ namespace Carom
         public CaromWorld Copy()
         {
             WorldId copy;
-            Native.Check(Native.carom_world_copy(Id, out copy));
+            Check(Native.carom_world_copy(Id, out copy));
             return new CaromWorld(copy);
         }
 
         public void Dispose() { handle.Dispose(); }
 
         WorldId Id { get { return new WorldId { Id = handle.Id }; } }
+
+        // Until a call has ended, nothing may free the world: the last use of an object is the last that keeps it.
+        void Check(CaromStatus status)
+        {
+            GC.KeepAlive(handle);
+            Native.Check(status);
+        }
 
         delegate CaromStatus Maker(out WorldId id);
 
@@ -242,44 +250,44 @@ namespace Carom
         }
 
         /// <summary>Advances the world by dt seconds.</summary>
-        public void Step(double dt) { Native.Check(Native.carom_world_step(Id, dt)); }
+        public void Step(double dt) { Check(Native.carom_world_step(Id, dt)); }
 
         /// <summary>Advances the world by frames of its own frame time.</summary>
         public void Advance(ulong frames)
         {
             ulong taken;
-            Native.Check(Native.carom_world_advance(Id, frames, out taken));
+            Check(Native.carom_world_advance(Id, frames, out taken));
         }
 
         /// <summary>Advances the world to its next impact, by so many seconds at most.</summary>
-        public void StepToNextEvent(double within) { Native.Check(Native.carom_world_step_to_next_event(Id, within)); }
+        public void StepToNextEvent(double within) { Check(Native.carom_world_step_to_next_event(Id, within)); }
 
         /// <summary>Stops the step at work in another thread, and refuses further ones; or lets them go on.</summary>
-        public bool Stop { set { Native.Check(Native.carom_world_set_stop(Id, value ? 1 : 0)); } }
+        public bool Stop { set { Check(Native.carom_world_set_stop(Id, value ? 1 : 0)); } }
 
         /// <summary>Time since the beginning [s].</summary>
-        public double Time { get { double it; Native.Check(Native.carom_world_time(Id, out it)); return it; } }
+        public double Time { get { double it; Check(Native.carom_world_time(Id, out it)); return it; } }
 
         /// <summary>Length of a frame [s].</summary>
-        public double FrameTime { get { double it; Native.Check(Native.carom_world_frame_time(Id, out it)); return it; } }
+        public double FrameTime { get { double it; Check(Native.carom_world_frame_time(Id, out it)); return it; } }
 
         /// <summary>The state as one number, equal for equal states everywhere.</summary>
-        public ulong StateHash { get { ulong it; Native.Check(Native.carom_world_state_hash(Id, out it)); return it; } }
+        public ulong StateHash { get { ulong it; Check(Native.carom_world_state_hash(Id, out it)); return it; } }
 
         /// <summary>The number of spheres.</summary>
-        public int Count { get { UIntPtr it; Native.Check(Native.carom_world_count(Id, out it)); return (int)it; } }
+        public int Count { get { UIntPtr it; Check(Native.carom_world_count(Id, out it)); return (int)it; } }
 
         /// <summary>Energies and momenta.</summary>
         public CaromTotals Totals
         {
-            get { CaromTotals it; Native.Check(Native.carom_world_totals(Id, out it)); return it; }
+            get { CaromTotals it; Check(Native.carom_world_totals(Id, out it)); return it; }
         }
 
         /// <summary>Adds a sphere. Returns its id.</summary>
         public ulong AddSphere(CaromSphere sphere)
         {
             ulong id;
-            Native.Check(Native.carom_world_add_sphere(Id, ref sphere, out id));
+            Check(Native.carom_world_add_sphere(Id, ref sphere, out id));
             return id;
         }
 
@@ -288,7 +296,7 @@ namespace Carom
         {
             var ids = new ulong[spheres.Length];
             var count = (UIntPtr)spheres.Length;
-            Native.Check(Native.carom_world_add_spheres(Id, spheres, UIntPtr.Zero, count, ids));
+            Check(Native.carom_world_add_spheres(Id, spheres, UIntPtr.Zero, count, ids));
             return ids;
         }
 
@@ -296,24 +304,24 @@ namespace Carom
         public CaromSphere Sphere(ulong id)
         {
             CaromSphere sphere;
-            Native.Check(Native.carom_world_sphere(Id, id, out sphere));
+            Check(Native.carom_world_sphere(Id, id, out sphere));
             return sphere;
         }
 
         /// <summary>Changes a sphere.</summary>
-        public void SetSphere(ulong id, CaromSphere sphere) { Native.Check(Native.carom_world_set_sphere(Id, id, ref sphere)); }
+        public void SetSphere(ulong id, CaromSphere sphere) { Check(Native.carom_world_set_sphere(Id, id, ref sphere)); }
 
         /// <summary>Takes spheres out of the world.</summary>
         public void RemoveSpheres(params ulong[] ids)
         {
-            Native.Check(Native.carom_world_remove_spheres(Id, ids, (UIntPtr)ids.Length));
+            Check(Native.carom_world_remove_spheres(Id, ids, (UIntPtr)ids.Length));
         }
 
         /// <summary>Adds a collider. Returns its id.</summary>
         public ulong AddCollider(CaromCollider collider)
         {
             ulong id;
-            Native.Check(Native.carom_world_add_collider(Id, ref collider, out id));
+            Check(Native.carom_world_add_collider(Id, ref collider, out id));
             return id;
         }
 
@@ -321,24 +329,24 @@ namespace Carom
         public CaromCollider Collider(ulong id)
         {
             CaromCollider collider;
-            Native.Check(Native.carom_world_collider(Id, id, out collider));
+            Check(Native.carom_world_collider(Id, id, out collider));
             return collider;
         }
 
         /// <summary>Changes a collider: its place, and all else.</summary>
         public void SetCollider(ulong id, CaromCollider collider)
         {
-            Native.Check(Native.carom_world_set_collider(Id, id, ref collider));
+            Check(Native.carom_world_set_collider(Id, id, ref collider));
         }
 
         /// <summary>Takes a collider out of the world.</summary>
-        public void RemoveCollider(ulong id) { Native.Check(Native.carom_world_remove_collider(Id, id)); }
+        public void RemoveCollider(ulong id) { Check(Native.carom_world_remove_collider(Id, id)); }
 
         /// <summary>Adds gravity [m/s^2]. Returns its id.</summary>
         public ulong AddGravity(Double3 acceleration)
         {
             ulong id;
-            Native.Check(Native.carom_world_add_gravity(Id, ref acceleration, out id));
+            Check(Native.carom_world_add_gravity(Id, ref acceleration, out id));
             return id;
         }
 
@@ -346,7 +354,7 @@ namespace Carom
         public ulong AddDrag(double coefficient)
         {
             ulong id;
-            Native.Check(Native.carom_world_add_drag(Id, coefficient, out id));
+            Check(Native.carom_world_add_drag(Id, coefficient, out id));
             return id;
         }
 
@@ -355,61 +363,63 @@ namespace Carom
         public ulong AddForce(
             Func<CaromSphereState, double, Double3> force, Func<CaromSphereState, double, double> potentialEnergy = null)
         {
-            return Native.AddForce(Id, force, potentialEnergy);
+            ulong id = Native.AddForce(Id, force, potentialEnergy);
+            GC.KeepAlive(handle);
+            return id;
         }
 
         /// <summary>Takes a force out of the world.</summary>
-        public void RemoveForce(ulong id) { Native.Check(Native.carom_world_remove_force(Id, id)); }
+        public void RemoveForce(ulong id) { Check(Native.carom_world_remove_force(Id, id)); }
 
-        /// <summary>Adds the spheres, generators, colliders, forces and emitters of a text (TOML).</summary>
+        /// <summary>Adds the spheres, generators, springs, colliders, forces and emitters of a text (TOML).</summary>
         public CaromAdded AddToml(string toml)
         {
             CaromAdded added;
-            Native.Check(Native.carom_world_add_toml(Id, Native.Text(toml), out added));
+            Check(Native.carom_world_add_toml(Id, Native.Text(toml), out added));
             return added;
         }
 
         /// <summary>Steps the world as the table [simulation] of a text says (TOML).</summary>
         public void SetSimulation(string toml)
         {
-            Native.Check(Native.carom_world_set_simulation(Id, Native.Text(toml)));
+            Check(Native.carom_world_set_simulation(Id, Native.Text(toml)));
         }
 
         /// <summary>Reads a quantity of all spheres, one after another.</summary>
         public void Read(CaromQuantity quantity, double[] values)
         {
             var rows = Native.Rows(quantity, values.Length);
-            Native.Check(Native.carom_world_read(Id, quantity, values, UIntPtr.Zero, rows));
+            Check(Native.carom_world_read(Id, quantity, values, UIntPtr.Zero, rows));
         }
 
         /// <summary>Reads a quantity of three numbers of all spheres.</summary>
         public void Read(CaromQuantity quantity, Double3[] values)
         {
             Native.RequireWidth(quantity, 3);
-            Native.Check(Native.carom_world_read(Id, quantity, values, UIntPtr.Zero, (UIntPtr)values.Length));
+            Check(Native.carom_world_read(Id, quantity, values, UIntPtr.Zero, (UIntPtr)values.Length));
         }
 
         /// <summary>Writes a quantity of all spheres, one after another.</summary>
         public void Write(CaromQuantity quantity, double[] values)
         {
             var rows = Native.Rows(quantity, values.Length);
-            Native.Check(Native.carom_world_write(Id, quantity, values, UIntPtr.Zero, rows));
+            Check(Native.carom_world_write(Id, quantity, values, UIntPtr.Zero, rows));
         }
 
         /// <summary>Writes a quantity of three numbers of all spheres.</summary>
         public void Write(CaromQuantity quantity, Double3[] values)
         {
             Native.RequireWidth(quantity, 3);
-            Native.Check(Native.carom_world_write(Id, quantity, values, UIntPtr.Zero, (UIntPtr)values.Length));
+            Check(Native.carom_world_write(Id, quantity, values, UIntPtr.Zero, (UIntPtr)values.Length));
         }
 
         /// <summary>A list of ids.</summary>
         public ulong[] Ids(CaromList list)
         {
             UIntPtr count;
-            Native.Check(Native.carom_world_ids(Id, list, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            Check(Native.carom_world_ids(Id, list, null, UIntPtr.Zero, UIntPtr.Zero, out count));
             var ids = new ulong[(int)count];
-            Native.Check(Native.carom_world_ids(Id, list, ids, UIntPtr.Zero, count, out count));
+            Check(Native.carom_world_ids(Id, list, ids, UIntPtr.Zero, count, out count));
             return ids;
         }
 
@@ -417,9 +427,9 @@ namespace Carom
         public CaromImpact[] Impacts()
         {
             UIntPtr count;
-            Native.Check(Native.carom_world_impacts(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            Check(Native.carom_world_impacts(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
             var impacts = new CaromImpact[(int)count];
-            Native.Check(Native.carom_world_impacts(Id, impacts, UIntPtr.Zero, count, out count));
+            Check(Native.carom_world_impacts(Id, impacts, UIntPtr.Zero, count, out count));
             return impacts;
         }
 
@@ -427,9 +437,9 @@ namespace Carom
         public CaromContact[] Contacts()
         {
             UIntPtr count;
-            Native.Check(Native.carom_world_contacts(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
+            Check(Native.carom_world_contacts(Id, null, UIntPtr.Zero, UIntPtr.Zero, out count));
             var contacts = new CaromContact[(int)count];
-            Native.Check(Native.carom_world_contacts(Id, contacts, UIntPtr.Zero, count, out count));
+            Check(Native.carom_world_contacts(Id, contacts, UIntPtr.Zero, count, out count));
             return contacts;
         }
 
@@ -437,12 +447,17 @@ namespace Carom
         public CaromSnapshot Snapshot()
         {
             SnapshotId id;
-            Native.Check(Native.carom_world_snapshot(Id, out id));
+            Check(Native.carom_world_snapshot(Id, out id));
             return new CaromSnapshot(id);
         }
 
         /// <summary>Returns to a snapshot, bit for bit.</summary>
-        public void Restore(CaromSnapshot snapshot) { Native.Check(Native.carom_world_restore(Id, snapshot.Id)); }
+        public void Restore(CaromSnapshot snapshot)
+        {
+            var status = Native.carom_world_restore(Id, snapshot.Id);
+            GC.KeepAlive(snapshot);
+            Check(status);
+        }
     }
 
     /// <summary>The state of a world at one moment.</summary>
@@ -453,6 +468,13 @@ namespace Carom
         internal CaromSnapshot(SnapshotId id) { handle = new Native.Handle(0, id.Id); }
 
         internal SnapshotId Id { get { return new SnapshotId { Id = handle.SnapshotId }; } }
+
+        // As that of a world.
+        void Check(CaromStatus status)
+        {
+            GC.KeepAlive(handle);
+            Native.Check(status);
+        }
 
         /// <summary>The snapshot that <see cref="ToBytes"/> has written. Read only bytes that you trust.</summary>
         public static CaromSnapshot FromBytes(byte[] bytes)
@@ -466,9 +488,9 @@ namespace Carom
         public byte[] ToBytes()
         {
             UIntPtr size;
-            Native.Check(Native.carom_snapshot_to_bytes(Id, null, UIntPtr.Zero, out size));
+            Check(Native.carom_snapshot_to_bytes(Id, null, UIntPtr.Zero, out size));
             var bytes = new byte[(int)size];
-            Native.Check(Native.carom_snapshot_to_bytes(Id, bytes, size, out size));
+            Check(Native.carom_snapshot_to_bytes(Id, bytes, size, out size));
             return bytes;
         }
 
@@ -556,7 +578,7 @@ namespace Carom
         void Read(CaromQuantity quantity, UnityEngine.Vector3[] values)
         {
             var count = (UIntPtr)values.Length;
-            Native.Check(Native.carom_world_read_f32(Id, quantity, values, UIntPtr.Zero, count));
+            Check(Native.carom_world_read_f32(Id, quantity, values, UIntPtr.Zero, count));
             for (int i = 0; i < values.Length; i++) values[i].z = -values[i].z;
         }
 
@@ -564,7 +586,7 @@ namespace Carom
         public void ReadRotations(UnityEngine.Quaternion[] rotations)
         {
             var count = (UIntPtr)rotations.Length;
-            Native.Check(
+            Check(
                 Native.carom_world_read_f32(Id, CaromQuantity.Orientations, rotations, UIntPtr.Zero, count));
             for (int i = 0; i < rotations.Length; i++)
             {

@@ -489,8 +489,9 @@ CaromStatus carom_world_from_scene(const char *name, const char *const *override
 /// message of an error has the line of what is wrong.
 CaromStatus carom_world_from_toml(const char *toml, const char *const *overrides, size_t override_count, CaromWorld *world);
 
-/// Adds the spheres, generators, colliders, forces and emitters that a text describes as scene files do (TOML).
-/// Spheres may overlap others. What was added goes to `added`, which may be null.
+/// Adds the spheres, generators, springs, colliders, forces and emitters that a text describes as scene files do
+/// (TOML). Spheres may overlap others; springs join spheres of the text. What was added goes to `added`, which may be
+/// null.
 CaromStatus carom_world_add_toml(CaromWorld world, const char *toml, CaromAdded *added);
 
 /// Steps a world from now on as the table `[simulation]` of a scene file says (TOML): "[simulation]\nrule =

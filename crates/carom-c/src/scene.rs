@@ -1,8 +1,10 @@
 //! Scenes: worlds of built-in scenes and of the text of scene files, and what text adds to worlds.
 
+use std::collections::BTreeMap;
 use std::ffi::{CString, c_char};
 use std::sync::OnceLock;
 
+use carom::{Spring, SpringEnd};
 use carom_scene::{BUILT_IN_FILES, Library, Override, Palette, Scene, SceneError, part};
 
 use crate::described::Described;
@@ -106,8 +108,9 @@ fn made(scene: Scene) -> Result<CaromWorld, Failure> {
     Ok(CaromWorld::hold(Inner { world, described }))
 }
 
-/// Adds the spheres, generators, colliders, forces and emitters that a text describes as scene files do (TOML).
-/// Spheres may overlap others. What was added goes to `added`, which may be null.
+/// Adds the spheres, generators, springs, colliders, forces and emitters that a text describes as scene files do
+/// (TOML). Spheres may overlap others; springs join spheres of the text. What was added goes to `added`, which may be
+/// null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_add_toml(
     world: CaromWorld,
@@ -143,10 +146,20 @@ fn add(inner: &mut Inner, mut part: Scene) -> Result<CaromAdded, Failure> {
     }
     let colliders = part.all_colliders().into_owned();
     described.change_colliders(|all| all.extend(colliders));
+    // The spheres of the world by their ids in the part.
+    let mut spheres = BTreeMap::new();
     for (index, &own) in source.spheres().ids().iter().enumerate() {
-        let id = world.add_sphere(source.spheres().get(index))?.number();
-        described.palette_mut().add_sphere(id, palette.own(own.number()));
-        CaromAdded::count(&mut added.first_sphere, &mut added.spheres, id);
+        let id = world.add_sphere(source.spheres().get(index))?;
+        spheres.insert(own, id);
+        described.palette_mut().add_sphere(id.number(), palette.own(own.number()));
+        CaromAdded::count(&mut added.first_sphere, &mut added.spheres, id.number());
+    }
+    for (_, spring) in source.springs() {
+        let to = match spring.to {
+            SpringEnd::Sphere(own) => SpringEnd::Sphere(spheres[&own]),
+            point @ SpringEnd::Point(_) => point,
+        };
+        world.add_spring(Spring { sphere: spheres[&spring.sphere], to, ..*spring })?;
     }
     for ((_, emitter), told) in source.emitters().zip(&part.emitters) {
         let (id, time) = (world.add_emitter(*emitter)?.number(), world.time());

@@ -162,6 +162,33 @@ fn comparable(collider: CaromCollider) -> CaromCollider {
     CaromCollider { friction, spinning_friction, tangential_restitution, ..collider }
 }
 
+/// The state hash of a world of this text, to which `more` is added, after a step.
+fn hash_after_a_step(text: &std::ffi::CStr, more: &std::ffi::CStr) -> u64 {
+    let (mut world, mut hash) = (CaromWorld::default(), 0);
+    // SAFETY: a text, and a place for a world.
+    ok(unsafe { carom_world_from_toml(text.as_ptr(), null(), 0, &raw mut world) });
+    // SAFETY: a text.
+    ok(unsafe { carom_world_add_toml(world, more.as_ptr(), null_mut()) });
+    ok(carom_world_step(world, 0.125));
+    // SAFETY: a place for a hash.
+    ok(unsafe { carom_world_state_hash(world, &raw mut hash) });
+    ok(carom_world_free(world));
+    hash
+}
+
+#[test]
+fn springs_of_an_added_text_join_its_own_spheres() {
+    let first = c"name = \"s\"\nspheres = [{ position = [9, 0, 0], radius = 0.5 }]";
+    let pair = c"spheres = [{ radius = 0.5 }, { position = [2, 0, 0], radius = 0.5 }]\nsprings = \
+                 [{ spheres = [0, 1], rest_length = 3, stiffness = 8 }, { sphere = 1, anchor = [2, 1, 0], stiffness = 4 }]";
+    let apart = c"spheres = [{ radius = 0.5 }, { position = [2, 0, 0], radius = 0.5 }]";
+    let all = c"name = \"s\"\nspheres = [{ position = [9, 0, 0], radius = 0.5 }, { radius = 0.5 }, { position = [2, 0, 0], \
+                radius = 0.5 }]\nsprings = [{ spheres = [1, 2], rest_length = 3, stiffness = 8 }, { sphere = 2, \
+                anchor = [2, 1, 0], stiffness = 4 }]";
+    assert_eq!(hash_after_a_step(first, pair), hash_after_a_step(all, c""));
+    assert_ne!(hash_after_a_step(first, pair), hash_after_a_step(first, apart));
+}
+
 #[test]
 fn a_snapshot_of_an_edited_world_describes_what_is_in_it() {
     let world = empty();

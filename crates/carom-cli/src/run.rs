@@ -174,12 +174,17 @@ fn is_standard(path: Option<&Path>) -> bool {
     path.is_some_and(|path| path.as_os_str() == STANDARD)
 }
 
+/// Whether a trajectory of this name is an animation.
+fn is_animation(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("glb"))
+}
+
 /// The file of a trajectory; what its ending means, `recording` says, but for animations.
 fn trajectory(path: &Path, replay: &Replay) -> Result<Trajectory, Failure> {
     if is_standard(Some(path)) {
         return Ok(Trajectory::csv(io::stdout(), STANDARD));
     }
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("glb")) {
+    if is_animation(path) {
         let animation = Animation::create(path, replay.scene(), replay.world());
         let animation = animation.map_err(|error| match error {
             ExportError::Scene(error) => error.into(),
@@ -216,6 +221,8 @@ struct Outputs {
     impacts: Option<ImpactTable>,
     ledger: Option<LedgerTable>,
     every: u64,
+    /// Whether the frames of a trajectory stay where a later one fails: an animation is there as a whole, or not.
+    keeps_frames: bool,
 }
 
 impl Outputs {
@@ -244,6 +251,7 @@ impl Outputs {
             impacts: args.impacts.as_deref().map(ImpactTable::create).transpose()?,
             ledger: args.ledger.as_deref().map(LedgerTable::create).transpose()?,
             every: args.every,
+            keeps_frames: !args.out.as_deref().is_some_and(is_animation),
         })
     }
 
@@ -258,15 +266,23 @@ impl Outputs {
         if let Some(trajectory) = &mut self.trajectory
             && frame.is_multiple_of(self.every)
         {
-            trajectory.write(world).map_err(|error| with_kept(error, trajectory.frames()))?;
+            let keeps_frames = self.keeps_frames;
+            trajectory.write(world).map_err(|error| match keeps_frames {
+                true => with_kept(error, trajectory.frames()),
+                false => error.into(),
+            })?;
         }
         Ok(())
     }
 
+    /// Completes all files, and tells of all that fail.
     fn finish(self) -> Result<(), Failure> {
         let trajectory = self.trajectory.map_or(Ok(()), Trajectory::finish);
-        self.impacts.map_or(Ok(()), ImpactTable::finish)?;
-        self.ledger.map_or(Ok(()), LedgerTable::finish)?;
-        Ok(trajectory?)
+        let impacts = self.impacts.map_or(Ok(()), ImpactTable::finish);
+        let ledger = self.ledger.map_or(Ok(()), LedgerTable::finish);
+        let [trajectory, impacts, ledger] =
+            [trajectory, impacts, ledger].map(|it| it.map_err(Failure::from));
+        // A reader of the trajectory that has gone away does not hide what else failed.
+        both(both(impacts, ledger), trajectory)
     }
 }

@@ -43,6 +43,16 @@ fn a_run_of_carom_is_the_same_and_one_with_a_mistake_departs() {
 }
 
 #[test]
+fn the_page_of_one_run_goes_into_a_folder_that_is_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = plant(&folder, "none", "simtest2", "ben.csv");
+    let pages = path(&folder, "pages");
+    std::fs::create_dir(&pages).unwrap();
+    good(&["grade", &file, "--scene", "simtest2", "--report", &pages]);
+    assert!(Path::new(&pages).join("ben.html").is_file());
+}
+
+#[test]
 fn a_folder_of_submissions_gets_a_table_pages_and_the_worst_exit_code() {
     let folder = tempfile::tempdir().unwrap();
     let right = plant(&folder, "none", "simtest2", "ben_SimTest2.csv");

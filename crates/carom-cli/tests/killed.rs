@@ -189,7 +189,7 @@ fn a_killed_run_leaves_all_frames_of_a_table_but_the_one_at_work() {
 #[cfg(unix)]
 fn a_write_that_fails_is_one_line_and_what_was_written_before_is_kept() {
     for blocks in [1, 2, 3, 8, 21, 64] {
-        for name in ["t.csv", "t.npz"] {
+        for name in ["t.csv", "t.npz", "t.glb"] {
             let folder = tempfile::tempdir().unwrap();
             let file = path(&folder, name);
             // Files of this many blocks are full.
@@ -201,6 +201,8 @@ fn a_write_that_fails_is_one_line_and_what_was_written_before_is_kept() {
             assert_eq!(output.status.code(), Some(1), "{errors}");
             assert_eq!(errors.lines().count(), 1, "{errors}");
             assert!(errors.contains(&format!("cannot write {file}: File too large")), "{errors}");
+            // An animation is whole, or not there.
+            assert!(name != "t.glb" || !errors.contains("kept are"), "{errors}");
             let kept = errors.split("kept are the ").nth(1).and_then(|it| it.split(' ').next());
             let kept: usize = kept.map_or(0, |text| text.parse().unwrap());
             if name == "t.csv" {

@@ -40,6 +40,11 @@ fn text_that_is_no_gltf_is_refused_with_its_line() {
 }
 
 #[test]
+fn json_of_more_than_64_mib_is_refused_before_it_is_read() {
+    assert_eq!(refusal(&" ".repeat((64 << 20) + 1)), "JSON: is larger than 64 MiB");
+}
+
+#[test]
 fn what_refers_to_what_is_not_there_is_refused_with_its_place() {
     assert_eq!(changed("/nodes/0/mesh", json!(7)), "meshes[7]: is not there");
     assert_eq!(changed("/scene", json!(3)), "scene: is not there");

@@ -25,7 +25,7 @@ pub(crate) struct Rows<'a> {
 /// How well a recorded run follows another one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Fit {
-    /// Rows up to the first departure of their ball.
+    /// Rows up to the first departure of their ball, of those that are compared.
     pub followed: usize,
     /// All rows.
     pub rows: usize,
@@ -93,9 +93,12 @@ impl Rows<'_> {
             let ball = balls.entry((key, self.balls[number]));
             let known = ball.or_insert((None, true));
             let (before, follows) = (known.0.replace(number), known.1);
-            // Before the start, and after the end of what was run, there is nothing to compare with.
-            if !follows || tracks.frame_at(time).is_none() {
-                sums.followed += usize::from(follows);
+            if !follows {
+                continue;
+            }
+            if tracks.frame_at(time).is_none() {
+                // Before the start there is nothing to do wrong; after the end of what was run, nothing is known.
+                sums.followed += usize::from(time < 0.0);
                 continue;
             }
             let there = tracks.sample(key, time);
@@ -187,5 +190,41 @@ impl Sums {
             departure,
             residual: root_of_mean(self.residuals),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use carom::DVec3;
+
+    use super::*;
+    use crate::recorded::Reading;
+    use crate::tracks::{State, Track};
+
+    #[test]
+    fn rows_after_the_end_of_the_other_run_neither_follow_it_nor_depart() {
+        let state = State { position: DVec3::ZERO, velocity: DVec3::ZERO };
+        let tracks = Tracks {
+            times: vec![0.0, 1.0, 2.0],
+            balls: vec![Track { birth: 0, states: vec![state; 3] }],
+            ..Tracks::default()
+        };
+        let text = b"t,ball,x,y,z\n-1,0,0,0,0\n1,0,0,0,0\n2,0,0,0,0\n3,0,0,0,0\n4,0,9,0,0\n";
+        let recorded = Recorded::parse(Path::new("t.csv"), text, &Reading::default()).unwrap();
+        let rows = Rows {
+            recorded: &recorded,
+            keys: &[Key::Number(0)],
+            balls: vec![Some(0); 5],
+            tolerances: vec![1e-3; 5],
+            rounding: None,
+            frame_time: 1.0,
+        };
+        let fit = rows.follow(&tracks, 0.0);
+        // The one before the start, and two that are compared.
+        assert_eq!((fit.followed, fit.rows), (3, 5));
+        assert_eq!(fit.departure, None);
+        assert!(!fit.is_complete());
     }
 }

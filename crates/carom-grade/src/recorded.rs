@@ -23,7 +23,8 @@ const FARTHEST: f64 = 1e9;
 /// Bytes that a table has at most.
 const MOST_BYTES: u64 = 512 << 20;
 
-/// What columns are called where `--columns` does not say so, in small letters.
+/// What columns are called where `--columns` does not say so, in small letters; of several that are there, the first
+/// of this list counts.
 const USUAL: [(&str, &[&str], &str); 8] = [
     ("t", &["t", "time", "seconds"], "the time"),
     ("ball", &["ball", "id", "index", "sphere", "number"], "the ball"),
@@ -199,11 +200,14 @@ impl Places {
         let find = |number: usize| -> Result<usize, GradeError> {
             let (key, usual, what) = USUAL[number];
             let named = columns.0.get(key);
-            let is_it = |name: &str| match named {
-                Some(named) => name == named,
-                None => usual.contains(&name.to_lowercase().as_str()),
+            let place = match named {
+                Some(named) => header.iter().position(|name| name == named),
+                // Of several, the name that says it most clearly: beside `ball`, `index` numbers rows.
+                None => usual
+                    .iter()
+                    .find_map(|usual| header.iter().position(|name| name.to_lowercase() == *usual)),
             };
-            header.iter().position(is_it).ok_or_else(|| GradeError::MissingColumn {
+            place.ok_or_else(|| GradeError::MissingColumn {
                 path: path.to_owned(),
                 column: named.map_or(key, String::as_str).to_owned(),
                 what,

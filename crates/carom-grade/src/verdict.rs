@@ -15,6 +15,9 @@ use crate::tracks::{Key, Touch, Tracks};
 /// The part of the rows after the departure that a mistake must follow to be named as the cause.
 const CONVINCING: f64 = 0.25;
 
+/// A table that ends before this part of the scene's duration is worth a note.
+const WHOLE: f64 = 0.9;
+
 /// Explanations that a verdict lists: the best, and two runners-up.
 const LISTED: usize = 3;
 
@@ -31,6 +34,8 @@ pub struct Verdict {
     pub balls: usize,
     /// The first and the last time \[s\].
     pub time: [f64; 2],
+    /// Until when it is compared \[s\], where that is before its end.
+    pub compared_until: Option<f64>,
     /// How the run follows the course's rule.
     pub fit: Fit,
     /// Digits to which places are the same, of the rows that follow; those after the point within 1 m of
@@ -148,7 +153,10 @@ pub(crate) struct Parts<'a> {
     pub explanations: Vec<Explanation>,
     /// The run of the first of them.
     pub explaining: Option<&'a Tracks>,
+    /// How far places may be off \[m\]: what was asked for, or more where they have few decimals.
     pub tolerance: f64,
+    /// What was asked for \[m\].
+    pub asked: f64,
 }
 
 impl Verdict {
@@ -166,6 +174,7 @@ impl Verdict {
             tolerance: *tolerance,
             balls: recorded.labels.len(),
             time: times.map(|row| row.map_or(0.0, |row| row.time)),
+            compared_until: compared_until(&parts),
             digits: found.then(|| digits(fit.max_relative)),
             departure,
             explained,
@@ -250,6 +259,12 @@ fn notes(parts: &Parts) -> Vec<String> {
              that"
         ));
     }
+    if parts.tolerance > parts.asked {
+        let (tolerance, asked) = (parts.tolerance, parts.asked);
+        notes.push(format!(
+            "places have so few decimals that they may be off by {tolerance:.1e} m, not only by {asked:.1e} m"
+        ));
+    }
     let is_between = |time: &&f64| reference.frame_at(**time).is_some_and(|(_, part)| part > 0.0);
     let times = recorded.times();
     let between = times.iter().filter(is_between).count();
@@ -272,11 +287,20 @@ fn notes(parts: &Parts) -> Vec<String> {
             if missing == 1 { "ball of the reference is" } else { "balls of the reference are" };
         notes.push(format!("{missing} {are} not in the table"));
     }
-    if reference.times.last().is_some_and(|end| *end < recorded.end()) {
-        let end = reference.times.last().copied().unwrap_or(0.0);
+    let (end, duration) = (recorded.end(), course.duration);
+    if end < WHOLE * duration {
+        notes.push(format!("only the first {end:.2} s of {duration} s are in the table"));
+    }
+    if let Some(end) = compared_until(parts) {
         notes.push(format!("the run is longer than what is compared: {end} s"));
     }
     notes
+}
+
+/// The end of the course's run \[s\], where that is before the end of the table.
+fn compared_until(parts: &Parts) -> Option<f64> {
+    let end = parts.reference.times.last().copied();
+    end.filter(|end| *end < parts.recorded.end())
 }
 
 fn ball_at(reference: &Tracks, key: Key, time: f64) -> Option<usize> {

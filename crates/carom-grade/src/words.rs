@@ -13,7 +13,12 @@ impl Verdict {
             );
         }
         let Some(departure) = &self.departure else {
-            return "departs from the course's rule".to_owned();
+            return match self.compared_until {
+                Some(until) if self.fit.followed > 0 => format!(
+                    "the same as the course's rule up to {until:.2} s; what follows is not compared"
+                ),
+                _ => "no row is at a time that can be compared with the course's rule".to_owned(),
+            };
         };
         let Departure { time, ball, .. } = departure;
         format!("departs from the course's rule at {time:.2} s, ball {ball}")
@@ -42,7 +47,7 @@ impl Verdict {
                     format!("no known mistake explains it; nearest is {}", best.in_a_line());
                 lines.push(("mistake", nearest));
             }
-            None if !self.same => {
+            None if self.departure.is_some() => {
                 lines.push(("mistake", "no known mistake explains it".to_owned()))
             }
             None => {}
@@ -104,5 +109,42 @@ impl Explanation {
 
     fn in_a_line(&self) -> String {
         format!("{} ({})", self.named(), self.fit_in_words())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::Fit;
+
+    #[test]
+    fn a_run_that_is_compared_in_part_is_called_neither_the_same_nor_wrong() {
+        let fit = Fit {
+            followed: 2,
+            rows: 3,
+            rms: 0.0,
+            max: 0.0,
+            max_relative: 0.0,
+            max_velocity: None,
+            departure: None,
+            residual: 0.0,
+        };
+        let verdict = Verdict {
+            scene: "long".to_owned(),
+            same: fit.is_complete(),
+            tolerance: 5e-4,
+            balls: 1,
+            time: [1.0, 900.0],
+            compared_until: Some(400.0),
+            fit,
+            digits: Some(15),
+            departure: None,
+            explained: false,
+            explanations: Vec::new(),
+            notes: Vec::new(),
+        };
+        let said = "the same as the course's rule up to 400.00 s; what follows is not compared";
+        assert_eq!(verdict.headline(), said);
+        assert!(verdict.lines().is_empty());
     }
 }

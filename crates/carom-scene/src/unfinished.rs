@@ -29,7 +29,12 @@ pub fn create_beside(path: &Path) -> io::Result<(File, PathBuf)> {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
             created => {
                 let file = created?;
-                lock(&file)?;
+                if let Err(error) = lock(&file) {
+                    drop(file);
+                    // An error here comes after another one.
+                    drop(fs::remove_file(&unfinished));
+                    return Err(error);
+                }
                 return Ok((file, unfinished));
             }
         }

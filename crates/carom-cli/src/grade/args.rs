@@ -28,7 +28,7 @@ pub struct Grade {
     /// How far a place may be off, in m, besides what rounding in single precision does.
     #[arg(long, value_name = "M", default_value_t = TOLERANCE, value_parser = positive)]
     pub tolerance: f64,
-    /// Write a page about the run; of several runs, a page each into this folder.
+    /// Write a page about the run; of several runs, or where this is a folder, a page each into this folder.
     #[arg(long, value_name = "PATH")]
     pub report: Option<PathBuf>,
     /// Write a row for each run to a .csv file.

@@ -120,7 +120,9 @@ struct Reports<'a> {
 impl<'a> Reports<'a> {
     /// Refuses pages that are there already.
     fn of(args: &'a Grade) -> Result<Self, Failure> {
-        let reports = Self { path: args.report.as_deref(), is_folder: args.runs.len() > 1 };
+        let path = args.report.as_deref();
+        let is_folder = args.runs.len() > 1 || path.is_some_and(Path::is_dir);
+        let reports = Self { path, is_folder };
         let files: Vec<PathBuf> = args.runs.iter().filter_map(|run| reports.file(run)).collect();
         args.replacing.check(files.iter().map(PathBuf::as_path))?;
         let mut sorted: Vec<&PathBuf> = files.iter().collect();

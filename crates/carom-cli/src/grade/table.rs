@@ -90,7 +90,9 @@ pub fn cells(row: &Row) -> [String; 7] {
 fn result(row: &Row) -> &'static str {
     match &row.verdict {
         Some(verdict) if verdict.same => "same",
-        Some(_) => "departs",
+        Some(verdict) if verdict.departure.is_some() => "departs",
+        Some(verdict) if verdict.fit.followed > 0 => "same in part",
+        Some(_) => "not compared",
         None => "error",
     }
 }

@@ -60,6 +60,8 @@ pub struct Animation {
     times: Vec<f32>,
     /// Whether spheres turn; known from the start on.
     has_spin: bool,
+    /// Whether a frame was written in part: then rows and tracks do not belong together.
+    broken: bool,
 }
 
 impl std::fmt::Debug for Animation {
@@ -89,6 +91,7 @@ impl Animation {
             collider_nodes: Vec::new(),
             times: Vec::new(),
             has_spin: world.has_spin(),
+            broken: false,
         };
         animation.add_colliders(scene, world);
         animation.push(world)?;
@@ -123,6 +126,7 @@ impl Animation {
         if json + keys + frame + self.arrays.bytes.len() as u64 > u64::from(u32::MAX) {
             return Err(glb::too_large());
         }
+        self.broken = true;
         let is_start = self.times.is_empty();
         self.palette.follow(world.time());
         let spheres = world.spheres();
@@ -154,6 +158,7 @@ impl Animation {
             self.collider_nodes.push(node);
         }
         self.times.push(time);
+        self.broken = false;
         Ok(())
     }
 
@@ -193,6 +198,9 @@ impl Format for Animation {
     }
 
     fn finish(mut self: Box<Self>) -> io::Result<()> {
+        if self.broken {
+            return Err(io::Error::other("a frame was written in part; there is no animation"));
+        }
         let mut document = self.document();
         let Self { file, arrays, balls, colliders, .. } = *self;
         let byte_length = arrays.bytes.len() as u64 + balls.bytes() + colliders.bytes();

@@ -1,6 +1,8 @@
 //! Files: the JSON, and the buffers it refers to.
 
 use std::cell::{Cell, OnceCell};
+use std::fs;
+use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
 use base64::Engine;
@@ -14,6 +16,8 @@ use crate::glb;
 
 /// The largest file that is read, and most of all buffers \[bytes\].
 const LARGEST: u64 = 1 << 30;
+/// The largest JSON that is read \[bytes\]: what it describes takes many times as much memory.
+const LARGEST_JSON: usize = 64 << 20;
 /// Most numbers that are read of all meshes: many may refer to the same bytes.
 const MOST_NUMBERS: usize = 100_000_000;
 
@@ -41,6 +45,9 @@ impl File {
         } else {
             (&bytes[..], None)
         };
+        if json.len() > LARGEST_JSON {
+            return Err(malformed("JSON", "is larger than 64 MiB".to_owned()));
+        }
         let document = parse(json).map_err(|fault| fault.in_file(path))?;
         let buffers = document.buffers.iter().map(|_| OnceCell::new()).collect();
         let folder = whole.parent().unwrap_or(Path::new("/")).to_path_buf();
@@ -103,15 +110,18 @@ impl File {
 }
 
 /// Reads a file of so many bytes at most.
-fn read_bounded(path: &Path, most: u64) -> std::io::Result<Vec<u8>> {
-    let data = std::fs::metadata(path)?;
-    if !data.is_file() {
-        return Err(std::io::Error::other("is no file"));
+fn read_bounded(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    // To open a pipe would wait for its writer.
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("is no file"));
     }
-    if data.len() > most {
-        return Err(std::io::Error::other("is larger than 1 GiB, or all buffers together are"));
+    let mut bytes = Vec::new();
+    // A file may grow while it is read, and some have a length of 0 and no end.
+    fs::File::open(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        return Err(io::Error::other("is larger than 1 GiB, or all buffers together are"));
     }
-    std::fs::read(path)
+    Ok(bytes)
 }
 
 fn parse(json: &[u8]) -> Result<Document, Malformed> {

@@ -17,7 +17,7 @@ pub(super) const HEADER: [&str; 8] = ["t", "ball", "x", "y", "z", "vx", "vy", "v
 pub(super) const ORIENTATION: [&str; 4] = ["qx", "qy", "qz", "qw"];
 
 /// Columns after those of the orientation: angular velocity \[rad/s\].
-const ANGULAR_VELOCITY: [&str; 3] = ["wx", "wy", "wz"];
+pub(super) const ANGULAR_VELOCITY: [&str; 3] = ["wx", "wy", "wz"];
 
 pub(super) struct CsvTable {
     writer: csv::Writer<TableFile>,

@@ -11,7 +11,7 @@ use super::table_file::{TableFile, csv_file, digits};
 /// Columns: time \[s\]; kind and number of body 1 (`sphere` or `collider`) and number of body 2, a
 /// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; impulse along the normal, and of friction
 /// across it, on body 2 \[N s\].
-const HEADER: [&str; 15] = [
+pub(super) const HEADER: [&str; 15] = [
     "t",
     "kind1",
     "body1",

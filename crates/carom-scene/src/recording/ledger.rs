@@ -13,7 +13,7 @@ use super::table_file::{TableFile, csv_file, digits};
 /// impulse \[N s\]; that of friction \[N s\]; the law, the number of the group in the run and how many impacts it has; momentum
 /// of the group before and after, less what colliders gave \[kg m/s\]; its kinetic energy before, after
 /// (less the work of moving colliders), and the change that restitution demands \[J\].
-const HEADER: [&str; 28] = [
+pub(super) const HEADER: [&str; 28] = [
     "t",
     "kind1",
     "body1",

@@ -1,13 +1,13 @@
 //! What killed runs leave, made complete.
 
-use std::fs::OpenOptions;
-use std::io::{self, Read, Seek, SeekFrom};
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::npz;
 use super::npz_journal::Journal;
+use super::{csv_table, impacts, ledger, npz};
 use crate::unfinished::{Unfinished, lock};
 
 /// What was recovered of a recording.
@@ -39,6 +39,12 @@ pub enum RecoveryError {
     /// The file is none that a run left.
     #[error("{path} is no unfinished recording")]
     Foreign {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file is no table that a run writes.
+    #[error("{path} is no table of a run: its first line names other columns")]
+    ForeignTable {
         /// The file.
         path: PathBuf,
     },
@@ -83,17 +89,43 @@ pub fn recover(unfinished: &Path, target: &Path) -> Result<Recovered, RecoveryEr
 /// bytes that were.
 ///
 /// # Errors
-/// [`RecoveryError::Unreadable`], [`RecoveryError::Foreign`] for a file without an end of a line.
+/// [`RecoveryError::Unreadable`], [`RecoveryError::Foreign`] for a file whose first line has no end,
+/// [`RecoveryError::ForeignTable`] for one that does not begin as a trajectory, a table of impacts or a ledger.
 pub fn recover_table(path: &Path) -> Result<u64, RecoveryError> {
-    let cut = cut_last_line(path);
-    let cut = cut.map_err(|source| RecoveryError::Unreadable { path: path.to_owned(), source })?;
-    cut.ok_or_else(|| RecoveryError::Foreign { path: path.to_owned() })
+    let unreadable = |source| RecoveryError::Unreadable { path: path.to_owned(), source };
+    let foreign = || RecoveryError::Foreign { path: path.to_owned() };
+    let file = OpenOptions::new().read(true).write(true).open(path);
+    let mut file = file.map_err(unreadable)?;
+    lock(&file).map_err(unreadable)?;
+    let header = first_line(&mut file).map_err(unreadable)?.ok_or_else(foreign)?;
+    if !is_header(&header) {
+        return Err(RecoveryError::ForeignTable { path: path.to_owned() });
+    }
+    cut_last_line(&mut file).map_err(unreadable)?.ok_or_else(foreign)
+}
+
+/// Longer than the names of all columns of any table \[bytes\].
+const LONGEST_HEADER: u64 = 4096;
+
+/// The first line, without its end; `None` where it has none.
+fn first_line(file: &mut File) -> io::Result<Option<Vec<u8>>> {
+    let mut line = Vec::new();
+    BufReader::new(file.by_ref().take(LONGEST_HEADER)).read_until(b'\n', &mut line)?;
+    Ok(line.strip_suffix(b"\n").map(<[u8]>::to_vec))
+}
+
+/// Whether these are the names of the columns of a table that runs write.
+fn is_header(line: &[u8]) -> bool {
+    let turning =
+        [&csv_table::HEADER[..], &csv_table::ORIENTATION[..], &csv_table::ANGULAR_VELOCITY[..]]
+            .concat();
+    let known: [&[&str]; 4] =
+        [&csv_table::HEADER[..], &turning[..], &impacts::HEADER[..], &ledger::HEADER[..]];
+    known.iter().any(|names| names.join(",").as_bytes() == line)
 }
 
 /// `None` where no line has an end.
-fn cut_last_line(path: &Path) -> io::Result<Option<u64>> {
-    let mut file = OpenOptions::new().read(true).write(true).open(path)?;
-    lock(&file)?;
+fn cut_last_line(file: &mut File) -> io::Result<Option<u64>> {
     let length = file.seek(SeekFrom::End(0))?;
     let mut block = [0; 4096];
     let mut end = length;
@@ -112,4 +144,35 @@ fn cut_last_line(path: &Path) -> io::Result<Option<u64>> {
         end = start;
     }
     Ok(None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What becomes of a file with this content.
+    fn recovered(content: &str) -> (Result<u64, RecoveryError>, String) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        std::fs::write(&path, content).unwrap();
+        let cut = recover_table(&path);
+        (cut, std::fs::read_to_string(&path).unwrap())
+    }
+
+    #[test]
+    fn tables_of_runs_lose_a_line_without_end_and_other_files_stay_as_they_are() {
+        let turning = "t,ball,x,y,z,vx,vy,vz,qx,qy,qz,qw,wx,wy,wz\n".to_owned();
+        let headers =
+            [csv_table::HEADER.join(","), impacts::HEADER.join(","), ledger::HEADER.join(",")];
+        for header in headers.map(|it| it + "\n").into_iter().chain([turning]) {
+            let (cut, left) = recovered(&(header.clone() + "1,2\n3,"));
+            assert_eq!((cut.unwrap(), left), (2, header + "1,2\n"));
+        }
+        for foreign in ["name,points\nanna,3\nben,4", "notes\nof a day", "\n\nlast"] {
+            let (cut, left) = recovered(foreign);
+            assert!(matches!(cut, Err(RecoveryError::ForeignTable { .. })), "{foreign}");
+            assert_eq!(left, foreign);
+        }
+        assert!(matches!(recovered("t,ball").0, Err(RecoveryError::Foreign { .. })));
+    }
 }

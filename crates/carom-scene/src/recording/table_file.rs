@@ -1,9 +1,12 @@
 //! Tables as CSV files.
 
 use std::fmt;
-use std::fs::File;
+use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::Path;
+
+#[cfg(unix)]
+use crate::unfinished::lock;
 
 /// What a table is written to. Each flush marks the end of whole rows: after an error, a file is cut
 /// there, and what is written later is lost in silence.
@@ -19,10 +22,15 @@ pub(super) struct TableFile {
 
 impl TableFile {
     pub fn create(path: &Path) -> io::Result<Self> {
-        let file = File::create(path)?;
-        // Elsewhere, what is locked could not be read while it grows.
-        #[cfg(unix)]
-        file.try_lock().ok();
+        // Its old content stays until it is known that no other run writes it.
+        let file = OpenOptions::new().write(true).create(true).truncate(false).open(path)?;
+        // Pipes and devices have neither a lock nor a length.
+        if file.metadata()?.is_file() {
+            // Elsewhere, what is locked could not be read while it grows.
+            #[cfg(unix)]
+            lock(&file)?;
+            file.set_len(0)?;
+        }
         let same = file.try_clone()?;
         Ok(Self { file: Some(same), ..Self::new(Box::new(file)) })
     }
@@ -85,4 +93,32 @@ pub(super) fn csv_file(path: &Path, header: &[&str]) -> io::Result<csv::Writer<T
 /// A number with 17 significant digits: as many as tell any two doubles apart.
 pub(super) fn digits(value: f64) -> String {
     format!("{value:.16e}")
+}
+
+#[cfg(test)]
+#[cfg(unix)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_that_another_run_writes_is_refused_and_stays_as_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        let mut first = TableFile::create(&path).unwrap();
+        first.write_all(b"t,ball\n").unwrap();
+        first.flush().unwrap();
+        let refused = TableFile::create(&path).unwrap_err();
+        assert_eq!(refused.to_string(), "a program is still writing it");
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "t,ball\n");
+        drop(first);
+        TableFile::create(&path).unwrap();
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "");
+    }
+
+    #[test]
+    fn a_device_is_written_as_it_is() {
+        let mut file = TableFile::create(Path::new("/dev/null")).unwrap();
+        file.write_all(b"t,ball\n").unwrap();
+        file.flush().unwrap();
+    }
 }
