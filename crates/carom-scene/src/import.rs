@@ -52,7 +52,7 @@ pub fn omit(report: &mut Vec<Omission>, object: &str, component: &str, reason: i
 }
 
 /// A name without characters that steer a terminal, of 200 characters at most.
-pub fn legible(name: &str) -> String {
+pub fn plain_name(name: &str) -> String {
     name.chars().map(|it| if steers(it) { ' ' } else { it }).take(200).collect()
 }
 

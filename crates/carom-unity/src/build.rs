@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use carom_scene::import::{Omission, legible, omit};
+use carom_scene::import::{Omission, omit, plain_name};
 use carom_scene::scene::{Collider, Emitter, Finish, Force, Scene, Shape, Sphere};
 
 use crate::document::Document;
@@ -120,7 +120,7 @@ impl<'a> Building<'a> {
         let place = format!("emitters[{}]", self.scene.emitters.len());
         self.places.insert(place, script.document.fields.place.clone());
         self.scene.emitters.push(Emitter {
-            name: legible(&node.name),
+            name: plain_name(&node.name),
             position: mirrored(node.pose.position),
             rotation: mirrored_rotation(node.pose.rotation),
             period: script.number(&fields.period)?,
@@ -252,7 +252,7 @@ impl<'a> Building<'a> {
         if let Some(reason) = placed.inexact {
             omit(&mut self.report, &node.path, &document.class_name, reason);
         }
-        collider.name = legible(&node.name);
+        collider.name = plain_name(&node.name);
         collider.position = mirrored(placed.position);
         if !matches!(collider.shape, Shape::Sphere { .. }) {
             collider.rotation = mirrored_rotation(placed.rotation);
@@ -357,5 +357,5 @@ impl<'a> Building<'a> {
 fn box_name(path: &str) -> String {
     let mut names: Vec<&str> = path.rsplit('/').skip(1).take(2).collect();
     names.reverse();
-    if names.is_empty() { "box".to_owned() } else { legible(&names.join("/")) }
+    if names.is_empty() { "box".to_owned() } else { plain_name(&names.join("/")) }
 }

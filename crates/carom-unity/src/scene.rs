@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use carom_scene::SceneError;
-use carom_scene::import::{Omission, legible, made_runnable, omit};
+use carom_scene::import::{Omission, made_runnable, omit, plain_name};
 use carom_scene::scene::{Rule, Scene};
 
 use crate::build::Building;
@@ -65,7 +65,7 @@ pub fn import(path: &Path, project: &Project, options: &Options) -> Result<Impor
         .map(|node| Parts::of(node, &objects, &options.mapping, project, &mut report))
         .collect();
 
-    let name = legible(&whole.file_stem().unwrap_or_default().to_string_lossy());
+    let name = plain_name(&whole.file_stem().unwrap_or_default().to_string_lossy());
     let mut building = Building::new(&name, project, report);
     let mut physics = Physics::default();
     let moves = Moves::of(&parts);
@@ -89,7 +89,7 @@ pub fn import(path: &Path, project: &Project, options: &Options) -> Result<Impor
     building.finish();
     simulate(&mut building.scene, moves, options, project)?;
     let origin = whole.file_name().unwrap_or_default().to_string_lossy();
-    building.scene.origin = legible(&format!("Unity scene {origin}"));
+    building.scene.origin = plain_name(&format!("Unity scene {origin}"));
     checked(building, path)
 }
 

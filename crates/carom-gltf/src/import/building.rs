@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use carom_scene::import::{Omission, legible};
+use carom_scene::import::{Omission, plain_name};
 use carom_scene::scene::{Collider, Scene, Sphere};
 
 use super::graph::Placed;
@@ -19,7 +19,7 @@ pub(super) struct Building {
 impl Building {
     /// A scene without anything in it.
     pub fn new(name: &str) -> Self {
-        Self { scene: Scene::new(legible(name)), places: BTreeMap::new(), report: Vec::new() }
+        Self { scene: Scene::new(plain_name(name)), places: BTreeMap::new(), report: Vec::new() }
     }
 
     /// Adds a sphere.

@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use carom_scene::import::legible;
+use carom_scene::import::plain_name;
 use percent_encoding::percent_decode_str;
 
 use super::error::{ImportError, Malformed};
@@ -95,13 +95,13 @@ impl File {
         let relative = Path::new(name.as_ref());
         let stays = relative.components().all(|it| matches!(it, Component::Normal(_)));
         if !stays || name.contains(['\\', ':']) || name.is_empty() {
-            return Err(format!("{} is no file in the folder of the scene", legible(&name)));
+            return Err(format!("{} is no file in the folder of the scene", plain_name(&name)));
         }
-        let unreadable = |error| format!("cannot read {}: {error}", legible(&name));
+        let unreadable = |error| format!("cannot read {}: {error}", plain_name(&name));
         let whole = self.folder.join(relative).canonicalize().map_err(unreadable)?;
         // A link may lead elsewhere.
         if !whole.starts_with(&self.folder) {
-            return Err(format!("{} is no file in the folder of the scene", legible(&name)));
+            return Err(format!("{} is no file in the folder of the scene", plain_name(&name)));
         }
         let bytes = read_bounded(&whole, self.bytes_left.get()).map_err(unreadable)?;
         self.bytes_left.set(self.bytes_left.get().saturating_sub(bytes.len() as u64));
@@ -132,10 +132,10 @@ fn parse(json: &[u8]) -> Result<Document, Malformed> {
         let line = format!("line {}", error.line());
         // A question mark stands for what the text ends in.
         let path = path.trim_end_matches(['.', '?']);
-        let place = if path.is_empty() { line } else { format!("{line}, {}", legible(path)) };
+        let place = if path.is_empty() { line } else { format!("{line}, {}", plain_name(path)) };
         let text = error.to_string();
         let text = text.rsplit_once(" at line ").map_or(&text[..], |(text, _)| text);
-        Malformed::at(place, legible(text))
+        Malformed::at(place, plain_name(text))
     })?;
     reader.end().map_err(|error| {
         Malformed::at(format!("line {}", error.line()), "there is more after the end")
@@ -143,7 +143,7 @@ fn parse(json: &[u8]) -> Result<Document, Malformed> {
     match &document.asset {
         Some(asset) if asset.version.starts_with("2.") => Ok(document),
         Some(asset) => {
-            let problem = format!("is {}; 2.0 is read", legible(&asset.version));
+            let problem = format!("is {}; 2.0 is read", plain_name(&asset.version));
             Err(Malformed::at("asset.version", problem))
         }
         None => Err(Malformed::at("asset", "is missing: this is no glTF")),

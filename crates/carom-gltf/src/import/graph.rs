@@ -1,6 +1,6 @@
 //! The nodes of a scene, placed in the world.
 
-use carom_scene::import::legible;
+use carom_scene::import::plain_name;
 
 use super::error::Malformed;
 use super::pose::Pose;
@@ -50,7 +50,7 @@ pub(super) fn nodes(document: &Document) -> Result<Vec<Placed>, Malformed> {
         }
         let name = match node.name.as_str() {
             "" => format!("node {index}"),
-            name => legible(name),
+            name => plain_name(name),
         };
         let above = parent.map(|parent| &placed[parent]);
         let path = match above {

@@ -15,7 +15,7 @@ mod vertices;
 use std::path::Path;
 
 use carom_scene::SceneError;
-use carom_scene::import::{Omission, legible, made_runnable, omit};
+use carom_scene::import::{Omission, made_runnable, omit, plain_name};
 use carom_scene::scene::{Collider, Rule, Scene, Shape, Sphere};
 
 use crate::document::Document;
@@ -64,8 +64,10 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     let mut building = Building::new(&name);
     build(&file, &mut building).map_err(|fault| fault.in_file(path))?;
     let scene = &mut building.scene;
-    scene.origin =
-        legible(&format!("glTF file {}", path.file_name().unwrap_or_default().to_string_lossy()));
+    scene.origin = plain_name(&format!(
+        "glTF file {}",
+        path.file_name().unwrap_or_default().to_string_lossy()
+    ));
     let simulation = &mut scene.simulation;
     simulation.rule = options.rule.unwrap_or(Rule::Exact);
     simulation.frame_time = options.frame_time.unwrap_or(simulation.frame_time);
@@ -154,7 +156,7 @@ fn refuse_unknown(document: &Document) -> Result<(), Malformed> {
         let is_read = extensions::READ.contains(&name.as_str());
         if !is_read && !is_look.iter().any(|it| name.starts_with(it)) {
             let place = format!("extensionsRequired[{i}]");
-            return Err(Malformed::at(place, format!("{} is not read", legible(name))));
+            return Err(Malformed::at(place, format!("{} is not read", plain_name(name))));
         }
     }
     Ok(())
@@ -165,7 +167,7 @@ fn list_unread(document: &Document, building: &mut Building) {
     let Building { scene, report, .. } = building;
     for name in &document.extensions_used {
         if !extensions::READ.contains(&name.as_str()) {
-            omit(report, &scene.name, &legible(name), "is not read");
+            omit(report, &scene.name, &plain_name(name), "is not read");
         }
     }
     let mut list = |is_there: bool, component: &str, reason: &str| {
