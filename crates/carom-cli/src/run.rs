@@ -117,15 +117,13 @@ fn once(
     } else {
         summary.print(&mut io::stdout().lock(), args.json)?;
     }
-    for broken in summary.broken() {
-        complain(&format!("carom: warning: {broken}"));
-    }
     if interrupted.load(Ordering::Relaxed) {
         return Err(Failure::Interrupted);
     }
     if args.strict && !summary.broken().is_empty() {
         let rule = replay.simulation().rule.name();
-        return Err(Failure::Fault(format!("the run did not keep what the rule {rule} keeps")));
+        let broken = summary.broken().join("; ");
+        return Err(Failure::Fault(format!("the rule {rule} was not kept: {broken}")));
     }
     Ok(())
 }

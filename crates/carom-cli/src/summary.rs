@@ -332,6 +332,7 @@ impl Summary {
             );
             rows.push(("note", text));
         }
+        rows.extend(self.broken.iter().map(|broken| ("not kept", broken.clone())));
         rows.extend(self.advice.iter().map(|advice| ("advice", advice.clone())));
         rows
     }

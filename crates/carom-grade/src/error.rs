@@ -3,8 +3,11 @@
 use std::io;
 use std::path::PathBuf;
 
-use carom_scene::SceneError;
+use carom_scene::{SceneError, legible};
 use thiserror::Error;
+
+/// Longest quotation of a table in an error \[characters\].
+const LONGEST: usize = 300;
 
 /// Why a run cannot be graded.
 #[derive(Debug, Error)]
@@ -22,7 +25,8 @@ pub enum GradeError {
     #[error(
         "{path}: there is no column \"{column}\" for {what}; the columns are {there} \
          (--columns {key}=NAME names another)",
-        path = .path.display()
+        path = .path.display(),
+        there = legible(.there, LONGEST)
     )]
     MissingColumn {
         /// The file.
@@ -37,7 +41,7 @@ pub enum GradeError {
         there: String,
     },
     /// A line makes no sense.
-    #[error("{path}:{line}: {problem}", path = .path.display())]
+    #[error("{path}:{line}: {problem}", path = .path.display(), problem = legible(.problem, LONGEST))]
     Malformed {
         /// The file.
         path: PathBuf,

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use carom::DVec3;
+use carom_scene::legible;
 
 use crate::error::GradeError;
 use crate::number::{decimals, number};
@@ -295,6 +296,7 @@ impl Parts<'_> {
     ) -> Result<f64, GradeError> {
         let text = record.get(place).unwrap_or_default();
         number(text).ok_or_else(|| {
+            let text = legible(text, 60);
             let problem = format!("\"{text}\" is no number, in column {}", place + 1);
             malformed(self.path, line, problem)
         })
