@@ -211,19 +211,18 @@ mod tests {
             balls: vec![Track { birth: 0, states: vec![state; 3] }],
             ..Tracks::default()
         };
-        let text = b"t,ball,x,y,z\n-1,0,0,0,0\n1,0,0,0,0\n2,0,0,0,0\n3,0,0,0,0\n4,0,9,0,0\n";
+        let text = b"t,ball,x,y,z\n1,0,0,0,0\n2,0,0,0,0\n3,0,0,0,0\n4,0,9,0,0\n";
         let recorded = Recorded::parse(Path::new("t.csv"), text, &Reading::default()).unwrap();
         let rows = Rows {
             recorded: &recorded,
             keys: &[Key::Number(0)],
-            balls: vec![Some(0); 5],
-            tolerances: vec![1e-3; 5],
+            balls: vec![Some(0); 4],
+            tolerances: vec![1e-3; 4],
             rounding: None,
             frame_time: 1.0,
         };
         let fit = rows.follow(&tracks, 0.0);
-        // The one before the start, and two that are compared.
-        assert_eq!((fit.followed, fit.rows), (3, 5));
+        assert_eq!((fit.followed, fit.rows), (2, 4));
         assert_eq!(fit.departure, None);
         assert!(!fit.is_complete());
     }

@@ -13,11 +13,14 @@ impl Scene {
         let colliders = self.all_colliders().into_owned();
         let mut scene = Self { generators: Vec::new(), colliders, ..self.clone() };
         scene.simulation.allow_overlap = true;
+        // They may join spheres that are still to be written out.
+        let springs = std::mem::take(&mut scene.springs);
         for (i, generator) in self.generators.iter().enumerate() {
             let path = format!("generators[{i}].{}", generator.kind());
             let spheres = generator.spheres(&scene.world()?, &path);
             scene.spheres.extend(spheres.map_err(|problem| problem.in_code(&self.name))?);
         }
+        scene.springs = springs;
         scene.simulation.allow_overlap = self.simulation.allow_overlap;
         Ok(scene)
     }
