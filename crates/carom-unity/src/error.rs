@@ -3,8 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use carom_scene::SceneError;
+use carom_scene::{SceneError, legible};
 use thiserror::Error;
+
+/// Longest quotation of a file in an error \[characters\].
+const LONGEST: usize = 300;
 
 /// Why a scene is not imported.
 #[derive(Debug, Error)]
@@ -19,7 +22,7 @@ pub enum ImportError {
         source: std::io::Error,
     },
     /// A file says something that makes no sense.
-    #[error("{path}:{line}: {problem}", path = .path.display())]
+    #[error("{path}:{line}: {problem}", path = .path.display(), problem = legible(.problem, LONGEST))]
     Malformed {
         /// Which file.
         path: PathBuf,
@@ -29,7 +32,7 @@ pub enum ImportError {
         problem: String,
     },
     /// The scene as a whole cannot be imported.
-    #[error("{path}: {problem}", path = .path.display())]
+    #[error("{path}: {problem}", path = .path.display(), problem = legible(.problem, LONGEST))]
     Refused {
         /// Its file.
         path: PathBuf,

@@ -2,8 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use carom_scene::SceneError;
+use carom_scene::{SceneError, legible};
 use thiserror::Error;
+
+/// Longest quotation of a file in an error \[characters\].
+const LONGEST: usize = 300;
 
 /// Why a file is not imported.
 #[derive(Debug, Error)]
@@ -18,7 +21,12 @@ pub enum ImportError {
         source: std::io::Error,
     },
     /// A file says something that makes no sense.
-    #[error("{path}: {place}: {problem}", path = .path.display())]
+    #[error(
+        "{path}: {place}: {problem}",
+        path = .path.display(),
+        place = legible(.place, LONGEST),
+        problem = legible(.problem, LONGEST)
+    )]
     Malformed {
         /// Which file.
         path: PathBuf,
