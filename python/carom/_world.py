@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from carom.notebook import Viewer
 
 
-
 def _are_spheres(
     given: ArrayLike | Sequence[parts.Sphere],
 ) -> TypeIs[Sequence[parts.Sphere]]:

@@ -21,7 +21,10 @@ def test_a_spring_pulls_with_its_stiffness_times_its_extension() -> None:
 
 def test_points_are_joined_as_single_spheres_are() -> None:
     points = carom.Points(np.array([ball.position for ball in BALLS]), radii=0.1)
-    worlds = [carom.World(carom.Scene(name="springs", spheres=it, springs=SPRINGS)) for it in (BALLS, points)]
+    worlds = [
+        carom.World(carom.Scene(name="springs", spheres=it, springs=SPRINGS))
+        for it in (BALLS, points)
+    ]
     for world in worlds:
         world.step(frames=50)
     assert worlds[0].positions.tolist() == worlds[1].positions.tolist()
@@ -60,6 +63,8 @@ def test_kept_states_have_their_springs() -> None:
 
 
 def test_a_spring_to_a_sphere_that_is_not_there_is_refused() -> None:
-    scene = carom.Scene(name="x", spheres=BALLS, springs=[carom.Spring(stiffness=1.0, spheres=(0, 3))])
+    scene = carom.Scene(
+        name="x", spheres=BALLS, springs=[carom.Spring(stiffness=1.0, spheres=(0, 3))]
+    )
     with pytest.raises(carom.SceneError, match=r"springs\[0\]\.spheres: there is no sphere 3"):
         carom.World(scene)
