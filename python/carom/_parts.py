@@ -275,7 +275,8 @@ class MutualGravity(Part):
     """Gravity between spheres: every one attracts every other one.
 
     Attributes:
-        constant: Gravitational constant, in m³/(kg s²); nature's unless given. A negative one repels.
+        constant: Gravitational constant, in m³/(kg s²); nature's unless given. A negative one
+            repels.
         softening: Length, in m, >= 0: nearer, the force goes to zero instead of growing.
         opening_angle: Of more than a thousand spheres, those in a cube count as one where its edge
             divided by its distance is less than this; with 0 every pair is summed.
