@@ -78,7 +78,8 @@ make: Any = carom
             lambda: make.Scene(name="x", forces=carom.Gravity()),
             "Scene.forces: must be a sequence of a carom.ConstantForce, carom.Gravity, "
             "carom.ViscousDrag, carom.PointAttractor, carom.MutualGravity, carom.Wind, "
-            "carom.Vortex, carom.QuadraticDrag or carom.Buoyancy, not carom.Gravity; put it into a list",
+            "carom.Vortex, carom.QuadraticDrag or carom.Buoyancy, not carom.Gravity; put it into "
+            "a list",
         ),
         (
             lambda: make.Scene(name="x", spheres=[BALL, (0, 0, 0)]),
