@@ -47,7 +47,14 @@ test("a snapshot can be restored into another world", () => {
 });
 
 test("a world written down at its start runs on alike", () => {
-  for (const name of ["simtest1", "simtest3", "tutorial1", "tutorial4", "spring-chain", "planets"]) {
+  for (const name of [
+    "simtest1",
+    "simtest3",
+    "tutorial1",
+    "tutorial4",
+    "spring-chain",
+    "planets",
+  ]) {
     const world = World.fromScene(name);
     const again = World.fromScene(world.toToml());
     assert.equal(again.stateHash(), world.stateHash());
