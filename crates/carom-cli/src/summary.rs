@@ -34,7 +34,7 @@ pub struct Observer {
     unfinished_islands: u64,
     work: StageCounts,
     largest_overlap: f64,
-    /// The same as a part of the smallest radius at that time.
+    /// Largest overlap as a part of the smallest radius at that time.
     largest_relative_overlap: f64,
     /// In any group of impacts, under rules that keep a ledger.
     largest_momentum_error: f64,

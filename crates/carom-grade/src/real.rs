@@ -16,7 +16,7 @@ pub trait Real:
 {
     /// The nearest number to `value`.
     fn of(value: f64) -> Self;
-    /// The same number in double precision.
+    /// This number in double precision.
     fn to_f64(self) -> f64;
     /// Its square root.
     fn sqrt(self) -> Self;
@@ -73,7 +73,7 @@ impl<N: Real> Vec3<N> {
         Self::new(N::of(value.x), N::of(value.y), N::of(value.z))
     }
 
-    /// The same vector in double precision.
+    /// This vector in double precision.
     pub fn to_f64(self) -> DVec3 {
         DVec3::new(self.x.to_f64(), self.y.to_f64(), self.z.to_f64())
     }

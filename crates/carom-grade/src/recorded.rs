@@ -168,7 +168,7 @@ impl Recorded {
         Ok(Self { path: path.to_owned(), rows, labels, resolution })
     }
 
-    /// The same run with z mirrored.
+    /// This run with z mirrored.
     pub(crate) fn mirrored(&self) -> Self {
         let mut mirrored = self.clone();
         mirrored.rows.iter_mut().for_each(|row| row.position.z = -row.position.z);

@@ -75,8 +75,7 @@ impl World {
         let mut scene = self.described().clone();
         scene.colliders = colliders_now(world, &scene);
         scene.spheres = (0..world.spheres().len()).map(|i| sphere(world, members, i)).collect();
-        let ids = world.spheres().ids();
-        scene.springs = world.springs().filter_map(|(_, spring)| Spring::of(spring, ids)).collect();
+        scene.springs = Spring::all_of(world);
         // Rules that find contacts late let spheres overlap; a scene has to admit it.
         if !scene.simulation.allow_overlap && scene.world().is_err() {
             scene.simulation.allow_overlap = true;

@@ -62,23 +62,17 @@ impl Engine {
         scene.colliders = colliders_now(inner);
         // Rules that find contacts late let spheres overlap; a scene has to admit it.
         if !scene.simulation.allow_overlap {
-            let (spheres, springs) = (spheres_now(inner), springs_now(inner));
+            let (spheres, springs) = (spheres_now(inner), Spring::all_of(&inner.world));
             let whole = Scene { spheres, springs, ..scene.clone() };
             scene.simulation.allow_overlap = whole.world().is_err();
         }
-        let springs = json(&springs_now(inner))?;
+        let springs = json(&Spring::all_of(&inner.world))?;
         Ok((scene.to_toml(), points::told(py, &inner.world, &inner.palette)?, springs))
     }
 }
 
 fn json(it: &impl serde::Serialize) -> PyResult<String> {
     Ok(serde_json::to_string(it).map_err(Failure::from)?)
-}
-
-/// The springs of a world, between spheres by their places in it.
-fn springs_now(inner: &Inner) -> Vec<Spring> {
-    let ids = inner.world.spheres().ids();
-    inner.world.springs().filter_map(|(_, spring)| Spring::of(spring, ids)).collect()
 }
 
 /// The colliders of a world, where they are now.

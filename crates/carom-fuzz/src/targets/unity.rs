@@ -52,10 +52,8 @@ fn check(case: &[u8]) -> Result<Answer, Fault> {
 
 fn copy(from: &Path, to: &Path) -> io::Result<()> {
     for entry in fs::read_dir(from)? {
-        let (path, target) = (entry.as_ref().map(fs::DirEntry::path), to.to_owned());
-        let (path, name) =
-            (path.map_err(|it| io::Error::new(it.kind(), "unreadable"))?, entry?.file_name());
-        let target = target.join(name);
+        let entry = entry?;
+        let (path, target) = (entry.path(), to.join(entry.file_name()));
         if path.is_dir() {
             fs::create_dir_all(&target)?;
             copy(&path, &target)?;

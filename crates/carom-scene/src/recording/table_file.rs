@@ -12,7 +12,7 @@ use crate::unfinished::lock;
 /// there, and what is written later is lost in silence.
 pub(super) struct TableFile {
     out: Box<dyn Write + Send>,
-    /// The same, where it can be cut.
+    /// That file, where it can be cut.
     file: Option<File>,
     position: u64,
     /// Where the last whole row ends.

@@ -1,6 +1,6 @@
 //! Springs and threads.
 
-use carom::{SphereId, SpringEnd};
+use carom::{SphereId, SpringEnd, World};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +45,12 @@ pub struct Spring {
 }
 
 impl Spring {
+    /// The springs of a world, between spheres by their places in it.
+    pub fn all_of(world: &World) -> Vec<Self> {
+        let ids = world.spheres().ids();
+        world.springs().filter_map(|(_, spring)| Self::of(spring, ids)).collect()
+    }
+
     /// The description of a spring between spheres of which these are the ids, ascending; `None` if one of its ends
     /// is not among them.
     pub fn of(spring: &carom::Spring, ids: &[SphereId]) -> Option<Self> {

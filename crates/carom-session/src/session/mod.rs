@@ -223,10 +223,10 @@ impl Session {
         let is_same = Arc::ptr_eq(&view.scene, &self.scene);
         if !(is_same && view.spheres.stamp == self.stamp) {
             self.fill_properties(&mut view.spheres);
+            replace(&mut view.springs, self.world.springs().map(|(_, spring)| *spring));
             view.scene = self.scene.clone();
         }
         self.fill_motion(&mut view.spheres);
-        replace(&mut view.springs, self.world.springs().map(|(_, spring)| *spring));
         (view.setup, view.changes) = (self.setup.clone(), self.history.changes().clone());
         (view.frame, view.time) = (self.frame, self.time());
         (view.furthest_frame, view.furthest) = self.history.furthest();

@@ -26,7 +26,7 @@ impl PointAttractor {
         Self { position, gravitational_parameter, softening: 0.0 }
     }
 
-    /// The same, with this softening length \[m\].
+    /// This attractor with another softening length \[m\].
     pub fn with_softening(self, softening: f64) -> Self {
         Self { softening, ..self }
     }

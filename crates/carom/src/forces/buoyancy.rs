@@ -30,7 +30,7 @@ impl Buoyancy {
         Self { density, surface_height, gravity: DVec3::new(0.0, -9.81, 0.0) }
     }
 
-    /// The same under another gravity \[m/s²\].
+    /// This buoyancy under another gravity \[m/s²\].
     pub fn with_gravity(self, gravity: DVec3) -> Self {
         Self { gravity, ..self }
     }

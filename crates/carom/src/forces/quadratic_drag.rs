@@ -35,17 +35,17 @@ impl QuadraticDrag {
         Self { density, drag_coefficient: 0.44, viscosity: 0.0, wind: DVec3::ZERO }
     }
 
-    /// The same with this drag coefficient.
+    /// This drag with another coefficient.
     pub fn with_drag_coefficient(self, drag_coefficient: f64) -> Self {
         Self { drag_coefficient, ..self }
     }
 
-    /// The same with this dynamic viscosity \[Pa s\], so that the coefficient depends on the Reynolds number.
+    /// This drag in a medium with a dynamic viscosity \[Pa s\], so that the coefficient depends on the Reynolds number.
     pub fn with_viscosity(self, viscosity: f64) -> Self {
         Self { viscosity, ..self }
     }
 
-    /// The same in a medium that moves with this velocity \[m/s\].
+    /// This drag in a medium that moves with a velocity \[m/s\].
     pub fn with_wind(self, wind: DVec3) -> Self {
         Self { wind, ..self }
     }

@@ -65,17 +65,17 @@ impl Spring {
         Self { sphere, to, rest_length, stiffness: 1.0, damping: 0.0, only_pulls: false }
     }
 
-    /// The same with this stiffness \[N/m\].
+    /// This spring with another stiffness \[N/m\].
     pub fn with_stiffness(self, stiffness: f64) -> Self {
         Self { stiffness, ..self }
     }
 
-    /// The same with this damping \[kg/s\].
+    /// This spring with another damping \[kg/s\].
     pub fn with_damping(self, damping: f64) -> Self {
         Self { damping, ..self }
     }
 
-    /// The same as a thread, which only pulls, or as a spring that pushes, too.
+    /// This spring as a thread, which only pulls, or as one that pushes, too.
     pub fn with_only_pulls(self, only_pulls: bool) -> Self {
         Self { only_pulls, ..self }
     }

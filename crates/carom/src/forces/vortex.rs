@@ -34,12 +34,12 @@ impl Vortex {
         Self { position, axis: DVec3::Y, circulation, core_radius: 1.0, coefficient }
     }
 
-    /// The same about an axis in another direction.
+    /// This vortex about an axis in another direction.
     pub fn with_axis(self, axis: DVec3) -> Self {
         Self { axis, ..self }
     }
 
-    /// The same with this core radius \[m\].
+    /// This vortex with another core radius \[m\].
     pub fn with_core_radius(self, core_radius: f64) -> Self {
         Self { core_radius, ..self }
     }

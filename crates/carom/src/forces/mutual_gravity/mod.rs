@@ -44,12 +44,12 @@ impl MutualGravity {
         Self { constant, softening: 0.0, opening_angle: 0.5 }
     }
 
-    /// The same with this softening length \[m\].
+    /// This gravity with another softening length \[m\].
     pub fn with_softening(self, softening: f64) -> Self {
         Self { softening, ..self }
     }
 
-    /// The same with this opening angle; with 0 every pair is summed.
+    /// This gravity with another opening angle; with 0 every pair is summed.
     pub fn with_opening_angle(self, opening_angle: f64) -> Self {
         Self { opening_angle, ..self }
     }
