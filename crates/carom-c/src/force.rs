@@ -47,7 +47,7 @@ pub type CaromDestroyFunction = Option<unsafe extern "C" fn(user_data: *mut c_vo
 ///
 /// The thread that steps a world calls it; so do others where the library was built with the feature `rayon`. For the
 /// same bits everywhere it must use no function whose result depends on the platform (sin, exp, ...). Under the rule
-/// `exact` such a force is held constant over a frame.
+/// `exact` such a force is held constant from one force tick to the next.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct CaromForce {

@@ -21,15 +21,20 @@ pub struct Conduct {
     pub overlap: f64,
     /// Impacts of a sphere in a second \[1/s\].
     pub impact_rate: f64,
+    /// The length of frames, and the longest in which motion on springs is stable \[s\].
+    pub frames: [f64; 2],
 }
 
 /// What would have been better, in a sentence; `None` where all is well.
 pub fn advice(conduct: Conduct) -> Option<String> {
-    let Conduct { rule, has_spheres, has_forces, overlap, impact_rate } = conduct;
+    let Conduct { rule, has_spheres, has_forces, overlap, impact_rate, frames } = conduct;
     if !has_spheres {
         let text = "nothing can move: there are no balls, and no emitters that give some; `carom new NAME` writes \
                     a scene to start from";
         return Some(text.to_owned());
+    }
+    if let Some(text) = advice_for_springs(frames) {
+        return Some(text);
     }
     match rule {
         Rule::Discrete | Rule::Bisect if overlap > OVERLAP => Some(format!(
@@ -42,4 +47,16 @@ pub fn advice(conduct: Conduct) -> Option<String> {
         )),
         _ => None,
     }
+}
+
+/// What would keep motion on springs from growing without bound, in frames that long and of the longest
+/// length in which it is stable \[s\].
+pub fn advice_for_springs([frame, stable]: [f64; 2]) -> Option<String> {
+    let text = || {
+        format!(
+            "frames of {frame:.3e} s are too long for the springs, whose motion may grow without bound: \
+             `frame_time` has to be at most {stable:.3e} s, or the rule `exact`, which takes any"
+        )
+    };
+    (frame > stable).then(text)
 }

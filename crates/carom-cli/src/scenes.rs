@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use carom_scene::{Budget, Entry, Library, Scene, SceneText};
 use serde_json::json;
 
+use crate::advice::advice_for_springs;
 use crate::args::Show;
 use crate::failure::{Failure, complain, legible};
 use crate::standard_input::{self, STANDARD};
@@ -68,7 +69,12 @@ pub fn check(files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
             SceneText::from_file_within(file, budget)
         };
         match text.and_then(|text| text.within(budget).scene(&[])) {
-            Ok(scene) => writeln!(out, "{}: ok, \"{}\"", legible(&name), scene.name)?,
+            Ok(scene) => {
+                writeln!(out, "{}: ok, \"{}\"", legible(&name), scene.name)?;
+                if let Some(advice) = advice_for(&scene) {
+                    writeln!(out, "{}: {advice}", legible(&name))?;
+                }
+            }
             Err(error) => {
                 let faults = if is_standard {
                     Scene::faults(standard_input::text()?, &name, budget)
@@ -89,6 +95,16 @@ pub fn check(files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
         0 => Ok(()),
         _ => Err(Failure::Fault(format!("{broken} of {} scene files are broken", files.len()))),
     }
+}
+
+/// What would make a sound scene better.
+fn advice_for(scene: &Scene) -> Option<String> {
+    // Only springs need a world to tell.
+    if scene.springs.is_empty() {
+        return None;
+    }
+    let world = scene.world().ok()?;
+    advice_for_springs([scene.simulation.frame_time, world.longest_stable_frame()])
 }
 
 /// Prints a scene as TOML.

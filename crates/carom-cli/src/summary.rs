@@ -187,6 +187,7 @@ impl Conduct {
             has_forces: !replay.scene().forces.is_empty(),
             overlap: if radius > 0.0 { observer.largest_overlap / radius } else { 0.0 },
             impact_rate: observer.impacts as f64 / (spheres * world.time().max(f64::MIN_POSITIVE)),
+            frames: [replay.simulation().frame_time, world.longest_stable_frame()],
         }
     }
 }

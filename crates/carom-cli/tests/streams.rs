@@ -169,3 +169,26 @@ fn check_tells_all_faults_of_a_file_with_their_lines() {
     let told = text(&of_syntax.stderr);
     assert!(told.contains("stdin:1:") && told.contains("stdin:2:"), "{told}");
 }
+
+/// A ball of 0.1 kg on a spring of 1e5 N/m: 2 sqrt(m / k) = 2e-3 s.
+const STIFF: &str = "[simulation]\nrule = 'discrete'\nduration = 20\n\
+                     [[spheres]]\nposition = [1, 0, 0]\nradius = 0.1\nmass = 0.1\n\
+                     [[springs]]\nsphere = 0\nanchor = [0, 0, 0]\nrest_length = 0.5\nstiffness = 1e5\n";
+
+#[test]
+fn frames_too_long_for_springs_are_named_by_check_by_the_error_and_by_the_summary() {
+    let checked = fed(&["check", "-"], STIFF);
+    assert!(checked.status.success());
+    assert!(text(&checked.stdout).contains("has to be at most 2.000e-3 s"), "{checked:?}");
+    // It ends with numbers that are not finite.
+    let ended = fed(&["run", "-"], STIFF);
+    assert_eq!(ended.status.code(), Some(1));
+    assert!(text(&ended.stderr).contains("frames of at most 2.000e-3 s"), "{ended:?}");
+    let short = fed(&["run", "-", "--seconds", "0.1"], STIFF);
+    assert!(text(&short.stdout).contains("has to be at most 2.000e-3 s"), "{short:?}");
+    for fine in [STIFF.replace("discrete", "exact"), STIFF.replace("1e5", "1e2")] {
+        let checked = fed(&["check", "-"], &fine);
+        assert_eq!(text(&checked.stdout).lines().count(), 1, "{checked:?}");
+        assert!(fed(&["run", "-"], &fine).status.success());
+    }
+}

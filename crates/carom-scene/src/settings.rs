@@ -86,6 +86,7 @@ fn exact(parameters: &Exact) -> carom::Exact {
         .with_zones(zones)
         .with_zone_budget(parameters.zone_budget)
         .with_zone_tick(parameters.zone_tick)
+        .with_force_tick(parameters.force_tick)
 }
 
 fn contact(parameters: &Contact) -> carom::Contact {

@@ -66,7 +66,7 @@ const DEGREES: &str = "degrees";
 const RADIANS: &str = "rad";
 
 /// The unit of each field that has one.
-const FIELDS: [(&str, &str); 44] = [
+const FIELDS: [(&str, &str); 45] = [
     ("acceleration", "m/s²"),
     ("anchor", "m"),
     ("angular_velocity", "rad/s"),
@@ -82,6 +82,7 @@ const FIELDS: [(&str, &str); 44] = [
     ("euler_degrees", DEGREES),
     ("far", "m"),
     ("force", "N"),
+    ("force_tick", "s"),
     ("frame_time", "s"),
     ("gravity", "m/s²"),
     ("look_at", "m"),

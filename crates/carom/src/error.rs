@@ -24,7 +24,7 @@ pub enum Error {
     /// Forces or speeds grew past what a number can hold.
     #[error(
         "sphere {sphere}: {quantity} is no longer finite in the step that starts at {time} s; \
-         the state before the step was kept"
+         the state before the step was kept{}", for_springs(*stable_frame)
     )]
     NonFiniteState {
         /// The first sphere it happened to.
@@ -33,6 +33,8 @@ pub enum Error {
         quantity: &'static str,
         /// Start of the refused step \[s\].
         time: f64,
+        /// The longest frame in which motion on springs is stable \[s\], if the step was longer.
+        stable_frame: Option<f64>,
     },
     /// More work in a step than [`Exact::max_impacts`](crate::Exact::max_impacts) allows.
     #[error(
@@ -74,6 +76,16 @@ pub enum Error {
         /// Start of the step \[s\].
         time: f64,
     },
+}
+
+/// How long frames may be for springs, for a message.
+fn for_springs(stable_frame: Option<f64>) -> String {
+    let text = |frame| {
+        format!(
+            ". Springs need frames of at most {frame:.3e} s under this rule; the rule `exact` takes any"
+        )
+    };
+    stable_frame.map(text).unwrap_or_default()
 }
 
 /// What a sphere is in contact with, for a message.

@@ -168,14 +168,26 @@ impl State {
         self.timeline.as_mut()
     }
 
-    /// Refuses positions or velocities that are not finite.
-    pub fn check_finite(&self) -> Result<(), Error> {
+    /// The longest frame \[s\] in which motion on springs is sure to be stable.
+    pub fn longest_stable_frame(&self) -> f64 {
+        let stable = 2.0 / self.now().system.fastest_spring_rate();
+        match self.settings.rule {
+            Rule::Exact(_) => f64::INFINITY,
+            Rule::Contact(parameters) => stable * f64::from(parameters.sub_steps),
+            Rule::Discrete(_) | Rule::Bisect(_) => stable,
+        }
+    }
+
+    /// Refuses positions or velocities that are not finite, after a frame of `h` \[s\].
+    pub fn check_finite(&self, h: f64) -> Result<(), Error> {
         let quantities =
             [("velocity", self.spheres.velocities()), ("position", self.spheres.positions())];
         for (quantity, values) in quantities {
             if let Some(index) = values.iter().position(|value| !value.is_finite()) {
                 let sphere = self.spheres.ids()[index];
-                return Err(Error::NonFiniteState { sphere, quantity, time: self.clock.seconds() });
+                let time = self.clock.seconds();
+                let stable_frame = Some(self.longest_stable_frame()).filter(|&stable| stable < h);
+                return Err(Error::NonFiniteState { sphere, quantity, time, stable_frame });
             }
         }
         Ok(())

@@ -77,6 +77,12 @@ impl<'a> System<'a> {
         }
     }
 
+    /// An upper bound for the rate of the fastest motion on springs \[1/s\], damped or not; 0 without springs.
+    pub fn fastest_spring_rate(&self) -> f64 {
+        let Properties { id, mass, .. } = self.spheres;
+        self.interactions.map_or(0.0, |interactions| interactions.fastest_spring_rate(id, mass))
+    }
+
     /// What all bodies say of friction, as far as they say something.
     pub fn frictions(&self) -> impl Iterator<Item = Friction> {
         let of_surfaces = self.surfaces.iter().map(|surface| surface.friction);

@@ -540,12 +540,13 @@ impl Force for Spring {
 }
 
 #[test]
-fn a_force_of_its_own_is_of_second_order_in_the_frame() {
+fn a_force_of_its_own_is_of_second_order_in_the_force_tick() {
     let error = |frames: u32| {
-        let mut world = exact();
+        let force_tick = 1.0 / f64::from(frames);
+        let mut world = world(Exact::default().with_force_tick(force_tick));
         world.add_force(Spring).unwrap();
         let ball = world.add_sphere(Sphere::new(DVec3::X, 0.1)).unwrap();
-        run(&mut world, 1.0 / f64::from(frames), frames as usize);
+        run(&mut world, force_tick, frames as usize);
         world.sphere(ball).unwrap().position.distance(vec(libm::cos(1.0), 0.0, 0.0))
     };
     let order = libm::log2(error(100) / error(200));
@@ -561,7 +562,7 @@ fn a_force_of_its_own_acts_on_while_others_come() {
     let emitter = Emitter::new(Sphere::new(DVec3::ZERO, 0.1), 0.003).with_position(far);
     world.add_emitter(emitter.with_max_spheres(1)).unwrap();
     run(&mut world, 0.01, 100);
-    // As without the emitter, to the error of the scheme: third order in each piece of a frame.
+    // As without the emitter, to the error of the scheme: third order in each piece of a tick.
     let position = world.sphere(ball).unwrap().position;
     assert_close_vec(position, vec(libm::cos(1.0), 0.0, 0.0), 1e-5);
 }
@@ -614,7 +615,9 @@ fn spheres_as_far_apart_as_numbers_go_do_no_harm() {
 fn the_state_is_the_same_to_the_last_bit_on_any_number_of_threads() {
     let size = DVec3::splat(16.0);
     let boundary = Boundary::Periodic { size };
-    let mut world = World::new(Settings::default().with_boundary(boundary)).unwrap();
+    let rule = Exact::default().with_force_tick(1.0 / 16.0);
+    let settings = Settings::default().with_boundary(boundary).with_rule(rule);
+    let mut world = World::new(settings).unwrap();
     world.add_force(Spring).unwrap();
     let mut numbers = Numbers(3);
     for i in 0..3375 {

@@ -114,6 +114,15 @@ fn a_vortex_turns_rigidly_inside_and_like_an_ideal_one_outside() {
     assert!((dragged - 0.5 * (fastest - vec(0.0, 1.0, 0.0))).length() < 1e-15);
 }
 
+/// Worlds with frames, or under the rule `exact` force ticks, of a length \[s\], with the order in it.
+fn schemes() -> [(fn(f64) -> World, f64); 3] {
+    [
+        (|_| world_with(Integrator::VelocityVerlet), 2.0),
+        (|_| world_with(Integrator::RungeKutta4), 4.0),
+        (|h| world(Exact::default().with_force_tick(h)), 2.0),
+    ]
+}
+
 /// Speed \[m/s\] after a fall from rest with quadratic drag.
 fn fall(h: f64, mut world: World) -> f64 {
     world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
@@ -127,13 +136,8 @@ fn fall(h: f64, mut world: World) -> f64 {
 fn a_fall_with_quadratic_drag_is_a_hyperbolic_tangent_to_the_order_of_each_scheme() {
     let terminal = (2.0 * 2.0 * G / (1.2 * 0.5 * PI * 0.09)).sqrt();
     let expected = terminal * (G * 2.0 / terminal).tanh();
-    let worlds: [(&dyn Fn() -> World, f64); 3] = [
-        (&|| world_with(Integrator::VelocityVerlet), 2.0),
-        (&|| world_with(Integrator::RungeKutta4), 4.0),
-        (&|| world(Exact::default()), 2.0),
-    ];
-    for (world, order) in worlds {
-        let error = |h| (fall(h, world()) - expected).abs();
+    for (world, order) in schemes() {
+        let error = |h| (fall(h, world(h)) - expected).abs();
         // 0.15 covers the next term of the series at these steps.
         assert_close((error(1.0 / 16.0) / error(1.0 / 32.0)).log2(), order, 0.15);
     }
@@ -156,16 +160,18 @@ fn drag_by_reynolds_number_is_stokes_when_slow_and_newton_when_fast() {
     assert_eq!(with_wind.on(&at(DVec3::ZERO, vec(2.0, 0.0, 0.0)), 0.0), DVec3::ZERO);
 }
 
-/// Distance \[m\] from the start after a Kepler orbit of eccentricity 1/4.
-fn orbit_error(mut world: World, frames: u32) -> f64 {
-    let (a, e, mu) = (1.0, 0.25, 3.0);
+/// Distance \[m\] from the start after a Kepler orbit of eccentricity 1/4, in a world with frames of a length
+/// \[s\].
+fn orbit_error(world: fn(f64) -> World, frames: u32) -> f64 {
+    let (a, e, mu): (f64, f64, f64) = (1.0, 0.25, 3.0);
+    let h = TAU * (a * a * a / mu).sqrt() / f64::from(frames);
+    let mut world = world(h);
     world.add_force(PointAttractor::new(DVec3::ZERO, mu)).unwrap();
     let start = vec(a * (1.0 - e), 0.0, 0.0);
     let speed: f64 = (mu / a * (1.0 + e) / (1.0 - e)).sqrt();
     let planet = Sphere::new(start, 0.01).with_velocity(vec(0.0, 0.0, speed)).with_mass(7.0);
     let planet = world.add_sphere(planet).unwrap();
     assert_close(world.total_energy(), -7.0 * mu / (2.0 * a), 1e-13);
-    let h = TAU * (a * a * a / mu).sqrt() / f64::from(frames);
     for _ in 0..frames {
         world.step(h).unwrap();
     }
@@ -174,13 +180,8 @@ fn orbit_error(mut world: World, frames: u32) -> f64 {
 
 #[test]
 fn a_kepler_ellipse_closes_to_the_order_of_each_scheme() {
-    let worlds: [(&dyn Fn() -> World, f64); 3] = [
-        (&|| world_with(Integrator::VelocityVerlet), 2.0),
-        (&|| world_with(Integrator::RungeKutta4), 4.0),
-        (&|| world(Exact::default()), 2.0),
-    ];
-    for (world, order) in worlds {
-        let [coarse, fine] = [1000, 2000].map(|frames| orbit_error(world(), frames));
+    for (world, order) in schemes() {
+        let [coarse, fine] = [1000, 2000].map(|frames| orbit_error(world, frames));
         assert_close((coarse / fine).log2(), order, 0.15);
     }
 }

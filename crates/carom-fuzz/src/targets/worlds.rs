@@ -37,6 +37,16 @@ struct Drawn {
     turn: Vector,
     obstacles: Vec<Obstacle>,
     balls: Vec<Ball>,
+    springs: Option<Springs>,
+}
+
+/// Springs from each ball to the next, and from the first to the middle.
+#[derive(Debug, Clone)]
+struct Springs {
+    /// A power of ten.
+    stiffness: f64,
+    damping: f64,
+    only_pulls: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -78,12 +88,15 @@ fn drawn() -> impl Strategy<Value = Drawn> {
         // Turned or not.
         prop_oneof![Just([0.0; 3]), vector().prop_map(|it| scaled(it, 180.0))],
     );
-    let bodies = (vec(obstacle(), 0..3), vec(ball(), 1..12));
-    (settings, bodies).prop_map(|(settings, (obstacles, balls))| {
+    let bodies =
+        (vec(obstacle(), 0..3), vec(ball(), 1..12), proptest::option::weighted(0.2, springs()));
+    (settings, bodies).prop_map(|(settings, (obstacles, balls, springs))| {
         let (rule, boundary, restitution, friction, gravity, turn) = settings;
+        // Under other rules stiff ones are not stable.
+        let springs = springs.filter(|_| rule == "exact");
         // There `exact` refuses what has no closed form, for it steps nothing.
         let friction = friction.filter(|_| boundary != "periodic");
-        Drawn { rule, boundary, restitution, friction, gravity, turn, obstacles, balls }
+        Drawn { rule, boundary, restitution, friction, gravity, turn, obstacles, balls, springs }
     })
 }
 
@@ -113,6 +126,12 @@ fn ball() -> impl Strategy<Value = Ball> {
             place,
             touches,
         },
+    )
+}
+
+fn springs() -> impl Strategy<Value = Springs> {
+    (-1.0..3.0, prop_oneof![Just(0.0), 0.0..2.0], any::<bool>()).prop_map(
+        |(stiffness, damping, only_pulls)| Springs { stiffness, damping, only_pulls },
     )
 }
 
@@ -163,12 +182,24 @@ fn written(drawn: &Drawn) -> String {
     if let Some(acceleration) = gravity {
         add(format_args!("[[forces]]\ngravity = {{ acceleration = {acceleration:?} }}\n"));
     }
-    for (position, radius, ball) in placed(drawn) {
+    let placed = placed(drawn);
+    for &(position, radius, ball) in &placed {
         let (mass, velocity) = (10f64.powf(ball.mass), ball.velocity);
         add(format_args!(
             "[[spheres]]\nposition = {position:?}\nvelocity = {velocity:?}\nradius = {radius:?}\n\
              mass = {mass:?}\n{material}"
         ));
+    }
+    if let Some(Springs { stiffness, damping, only_pulls }) = &drawn.springs {
+        let stiffness = 10f64.powf(*stiffness);
+        let to_middle = (!placed.is_empty()).then(|| "sphere = 0\nanchor = [0.0, 0.0, 0.0]".to_owned());
+        let along = (placed.len() > 1).then(|| format!("chain = [0, {}]", placed.len() - 1));
+        for ends in to_middle.into_iter().chain(along) {
+            add(format_args!(
+                "[[springs]]\n{ends}\nstiffness = {stiffness:?}\ndamping = {damping:?}\n\
+                 only_pulls = {only_pulls}\n"
+            ));
+        }
     }
     if *boundary == "container" {
         add(format_args!(

@@ -155,6 +155,11 @@ pub struct Exact {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(skip_serializing_if = "is_default_zone_tick")]
     pub zone_tick: f64,
+    /// Time between two force ticks, in s, > 0: springs, forces between spheres and others that are not linear
+    /// are held constant from one to the next. It is halved where springs need it.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[serde(skip_serializing_if = "is_default_force_tick")]
+    pub force_tick: f64,
 }
 
 fn is_default_zone_budget(zone_budget: &u32) -> bool {
@@ -165,10 +170,15 @@ fn is_default_zone_tick(zone_tick: &f64) -> bool {
     *zone_tick == Exact::default().zone_tick
 }
 
+fn is_default_force_tick(force_tick: &f64) -> bool {
+    *force_tick == Exact::default().force_tick
+}
+
 impl Default for Exact {
     fn default() -> Self {
-        let carom::Exact { contact_duration, max_impacts, zone_budget, zone_tick, .. } =
-            carom::Exact::default();
+        let carom::Exact {
+            contact_duration, max_impacts, zone_budget, zone_tick, force_tick, ..
+        } = carom::Exact::default();
         Self {
             impact_law: ImpactLaw::default(),
             contact_duration,
@@ -176,6 +186,7 @@ impl Default for Exact {
             zones: Zones::default(),
             zone_budget,
             zone_tick,
+            force_tick,
         }
     }
 }

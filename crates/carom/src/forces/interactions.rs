@@ -3,6 +3,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{Force, Interaction, SphereStates, Spring};
+use crate::id::SphereId;
 use crate::numbered::Numbered;
 
 /// The forces of a world that act between spheres.
@@ -40,6 +41,23 @@ impl<'a> Interactions<'a> {
         let of_forces = self.list().map(move |it| it.potential_energy(spheres, time));
         let of_springs = self.springs.iter().map(|(_, spring)| spring.potential_energy(spheres));
         of_forces.chain(of_springs)
+    }
+
+    /// An upper bound for the rate of the fastest motion on springs \[1/s\], of spheres with these ids and masses
+    /// \[kg\]: by Gershgorin's circles no eigenvalue of the matrix of stiffness by mass is larger than
+    /// `max Σ 2 k / m` over the springs at a sphere (`k / m` for one to a fixed point), and likewise that of
+    /// damping by mass.
+    pub fn fastest_spring_rate(&self, ids: &[SphereId], masses: &[f64]) -> f64 {
+        let mut sums = vec![[0.0; 2]; ids.len()];
+        for (_, spring) in self.springs.iter() {
+            let ends = spring.spheres().count() as f64;
+            for index in spring.spheres().flat_map(|id| ids.binary_search(&id)) {
+                sums[index][0] += ends * spring.stiffness / masses[index];
+                sums[index][1] += ends * spring.damping / masses[index];
+            }
+        }
+        let largest = |which: usize| sums.iter().map(|sum| sum[which]).fold(0.0, f64::max);
+        largest(0).sqrt() + largest(1)
     }
 
     /// Whether one of them depends on velocities.

@@ -84,7 +84,7 @@ pub trait Force: Any + Debug + Send + Sync {
     /// \[m\] and `mass` \[kg\]; `None` (the default) for a force that depends on more than that.
     ///
     /// The rule `exact` moves spheres under such forces in closed form; any other force it holds
-    /// constant over a frame.
+    /// constant from one force tick to the next (`Exact::force_tick`).
     fn linear(&self, _radius: f64, _mass: f64) -> Option<LinearForce> {
         None
     }

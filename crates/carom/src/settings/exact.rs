@@ -27,6 +27,10 @@ pub struct Exact {
     /// Time between two ticks, at which zones are stepped \[s\], > 0. Ticks are at its multiples on the
     /// world's clock.
     pub zone_tick: f64,
+    /// Time between two force ticks \[s\], > 0: forces that are not linear in the velocity alone, and
+    /// those between spheres, are held constant from one to the next. They are at its multiples on the
+    /// world's clock, whatever the frames; where springs need it, it is halved until they are stable.
+    pub force_tick: f64,
 }
 
 impl Default for Exact {
@@ -44,6 +48,8 @@ impl Default for Exact {
             zone_budget: 300_000,
             // A sub-step of the rule `contact` at 60 frames a second.
             zone_tick: 1.0 / 480.0,
+            // The error of a frame of a course is a sixteenth, and usual frames are whole numbers of ticks.
+            force_tick: 1.0 / 240.0,
         }
     }
 }
@@ -79,10 +85,16 @@ impl Exact {
         Self { zone_tick, ..self }
     }
 
+    /// These parameters with another [`Self::force_tick`] \[s\].
+    pub fn with_force_tick(self, force_tick: f64) -> Self {
+        Self { force_tick, ..self }
+    }
+
     pub(super) fn validate(&self) -> Result<(), InvalidValue> {
         validate::positive("contact_duration", self.contact_duration)?;
         validate::at_least_one("max_impacts", self.max_impacts)?;
         validate::at_least_one("zone_budget", self.zone_budget)?;
-        validate::positive("zone_tick", self.zone_tick)
+        validate::positive("zone_tick", self.zone_tick)?;
+        validate::positive("force_tick", self.force_tick)
     }
 }

@@ -5,9 +5,11 @@ use super::attempt::Attempt;
 use crate::emitter;
 use crate::error::{Error, Subject};
 use crate::forces;
+use crate::id::SphereId;
 use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Until};
 use crate::settings::Exact;
 use crate::state::State;
+use crate::system::System;
 use crate::validate;
 
 /// Takes a step from event to event. If that fails, no sphere was moved.
@@ -40,7 +42,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
 ///
 /// # Errors
 /// [`Error::NonFiniteState`] if a force is not finite, [`Error::Invalid`] if a periodic box is too small
-/// for the spheres or if there are too many of them.
+/// for the spheres, if there are too many of them, or if springs are too stiff.
 fn begin(attempt: &mut Attempt, parameters: Exact, end: f64) -> Result<Timeline, Error> {
     let (state, time) = (&mut *attempt.state, attempt.start);
     check_count(state)?;
@@ -48,10 +50,13 @@ fn begin(attempt: &mut Attempt, parameters: Exact, end: f64) -> Result<Timeline,
     let (before, zone) = (state.timeline.take(), std::mem::take(&mut state.zone));
     let next_emission = emitter::next_due(&state.emitters);
     let (system, motion) = state.split();
+    if before.is_none() {
+        check_stiffness(&system, parameters)?;
+    }
     let mut timeline =
         before.unwrap_or_else(|| exact::start(&system, parameters, motion, zone, time));
     exact::begin(&mut timeline, &system, [time, end], next_emission)
-        .map_err(|sphere| Error::NonFiniteState { sphere, quantity: "velocity", time })?;
+        .map_err(|sphere| no_longer_finite(sphere, "velocity", time))?;
     Ok(timeline)
 }
 
@@ -128,7 +133,7 @@ fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result
     exact::end(timeline, &system, motion, Span { start, length, end }).map_err(
         |(index, quantity)| {
             let sphere = attempt.state.spheres.ids()[index];
-            Error::NonFiniteState { sphere, quantity, time: start }
+            no_longer_finite(sphere, quantity, start)
         },
     )
 }
@@ -137,6 +142,7 @@ fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result
 fn refusal(unfinished: Unfinished, time: f64) -> Error {
     match unfinished {
         Unfinished::Stopped => Error::Stopped { time },
+        Unfinished::NonFiniteForce { sphere } => no_longer_finite(sphere, "velocity", time),
         Unfinished::NoClosedForm { sphere, time: at } => Error::NeedsZone { sphere, at, time },
         Unfinished::TooManyImpacts { sphere, limit, companions, time: at } => {
             Error::TooManyImpacts { sphere, limit, companions, at, time }
@@ -144,11 +150,26 @@ fn refusal(unfinished: Unfinished, time: f64) -> Error {
     }
 }
 
+/// What is said of a sphere with a quantity that grew past what numbers hold, in a step that starts at `time`
+/// \[s\]: springs are stable in frames of any length.
+fn no_longer_finite(sphere: SphereId, quantity: &'static str, time: f64) -> Error {
+    Error::NonFiniteState { sphere, quantity, time, stable_frame: None }
+}
+
 /// Refuses more spheres than the rule `exact` can tell apart.
 fn check_count(state: &State) -> Result<(), Error> {
     let (count, most) = (state.spheres.ids().len(), exact::MAX_SPHERES);
     let requirement = "few enough for the rule exact: at most 2^27 spheres";
     validate::require(count <= most, "spheres", requirement, count as f64)
+        .map_err(|invalid| invalid.about(Subject::Step))
+}
+
+/// Refuses springs on which spheres move faster than force ticks can follow.
+fn check_stiffness(system: &System, parameters: Exact) -> Result<(), Error> {
+    let rate = system.fastest_spring_rate();
+    let requirement = "of springs, with their damping and the masses of their spheres, such that motion on \
+                       them has a rate of at most 2048 divided by the `force_tick` of the rule exact, in 1/s";
+    validate::require(rate <= exact::fastest_stable_rate(parameters), "stiffness", requirement, rate)
         .map_err(|invalid| invalid.about(Subject::Step))
 }
 

@@ -21,7 +21,7 @@ pub(super) fn step(
         let Attempt { state, scratch, report, .. } = attempt;
         let is_done = advance(state, frame, scratch, report);
         let stopped = Error::Stopped { time: frame.time };
-        let checked = if is_done { state.check_finite() } else { Err(stopped) };
+        let checked = if is_done { state.check_finite(frame.h) } else { Err(stopped) };
         if checked.is_err() {
             std::mem::swap(&mut state.spheres.motion, &mut scratch.start);
         }

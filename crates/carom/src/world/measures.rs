@@ -44,6 +44,16 @@ impl World {
         invariants::angular_momentum(self.spheres())
     }
 
+    /// The longest frame \[s\] in which motion on springs is sure to be stable; infinite without springs, and
+    /// under the rule `exact`, which shortens its force ticks for them. In longer ones it may grow without
+    /// bound. By explicit Euler it grows in all, without damping.
+    ///
+    /// A frame, or a sub-step under the rule `contact`, has to be shorter than `2 / w`, with the fastest
+    /// frequency w (Hairer, Lubich, Wanner, *Geometric Numerical Integration*, I.5.2).
+    pub fn longest_stable_frame(&self) -> f64 {
+        self.state.longest_stable_frame()
+    }
+
     /// Whether spheres are turned or turn, or may come to: an emitter emits such, or friction of a sphere,
     /// an emitter or a solid collider acts, which it does under the rules `exact` and `contact`.
     pub fn has_spin(&self) -> bool {

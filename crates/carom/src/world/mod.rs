@@ -89,8 +89,8 @@ impl World {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Invalid`] under another rule, and with springs or forces that are not linear: they are held over a
-    /// frame, which this has not. Else those of [`Self::step`].
+    /// [`Error::Invalid`] under another rule, and with springs or forces that are not linear: they are held for a
+    /// time, which may end before that. Else those of [`Self::step`].
     pub fn step_to_next_event(&mut self, within: f64) -> Result<&StepReport, Error> {
         let Self { state, report, scratch, stop_request } = self;
         let stop_request = stop_request.as_ref();

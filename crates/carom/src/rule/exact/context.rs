@@ -31,6 +31,8 @@ pub(super) struct StepContext<'a> {
     pub length: f64,
     /// Edges of the periodic box \[m\]; infinite along an open axis.
     pub period: DVec3,
+    /// Flights that began anew at force ticks.
+    pub renewed: u64,
     /// The slot of a sphere on which friction acts in a way that has no closed form, where nothing is
     /// stepped.
     pub unanswered: Option<u32>,
@@ -47,7 +49,7 @@ impl<'a> StepContext<'a> {
         report: &'a mut StepReport,
     ) -> Self {
         let period = system.settings.boundary.period();
-        let (searches, counts, unanswered) = Default::default();
+        let (searches, counts, renewed, unanswered) = Default::default();
         Self {
             system,
             parameters,
@@ -57,6 +59,7 @@ impl<'a> StepContext<'a> {
             start,
             length,
             period,
+            renewed,
             unanswered,
             searches,
         }

@@ -63,6 +63,7 @@ pub(crate) fn start(
     zone.restart(system, time, parameters.zone_tick, &motion.velocity);
     let frame = [time; 2];
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
+    (timeline.force_tick, timeline.held_until) = (held_forces::tick(system, parameters), time);
     arrange(&mut timeline, system, time);
     predict_all(&mut timeline, system, time);
     timeline
@@ -99,8 +100,9 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     flights.set_stepped(&zone.indices(&system.spheres.id));
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     arrange(&mut timeline, system, time);
+    (timeline.force_tick, timeline.next_emission) = (before.force_tick, arrivals.next);
     if timeline.flights.hold_forces {
-        held_forces::renew(&mut timeline, system, [time, arrivals.next.min(before.frame[1])]);
+        held_forces::renew(&mut timeline, system, time);
     }
     predict_all(&mut timeline, system, time);
     timeline
@@ -121,28 +123,54 @@ pub(crate) fn begin(
     frame: [f64; 2],
     next: f64,
 ) -> Result<(), SphereId> {
-    timeline.frame = frame;
-    let hold_forces = timeline.flights.hold_forces;
-    if hold_forces {
-        // What is due already comes at the start of the frame, when this is done again.
-        held_forces::renew(timeline, system, [frame[0], next.clamp(frame[0], frame[1])]);
-        let Flights { bodies, species, index_of, .. } = &timeline.flights;
-        let is_lost = |body: &Body| !species[body.species as usize].acceleration.is_finite();
-        if let Some(slot) = bodies.iter().position(is_lost) {
-            return Err(system.spheres.id[index_of[slot] as usize]);
-        }
+    (timeline.frame, timeline.next_emission) = (frame, next);
+    let is_renewed = is_renewal_due(timeline, system, frame[0]);
+    if is_renewed {
+        held_forces::renew(timeline, system, frame[0]);
+        check_accelerations(timeline, system)?;
     }
     let is_due = is_arrangement_due(timeline, system);
     if is_due {
         arrange(timeline, system, frame[0]);
     }
-    if is_due || hold_forces || !timeline.moving_surfaces.is_empty() {
+    if is_due || is_renewed || !timeline.moving_surfaces.is_empty() {
         predict_all(timeline, system, frame[0]);
     } else {
         timeline.schedule.tidy();
     }
     timeline.work.begin(&timeline.flights.bodies);
     Ok(())
+}
+
+/// Whether forces are to be found anew at the start of a frame \[s\]: those that are held over it, and others
+/// at a force tick.
+fn is_renewal_due(timeline: &Timeline, system: &System, start: f64) -> bool {
+    let Flights { hold_forces, forces_vary, .. } = timeline.flights;
+    let are_applied = !system.spheres.applied_force.is_empty();
+    hold_forces && (are_applied || !forces_vary || timeline.held_until <= start)
+}
+
+/// Finds forces anew at a force tick that is now \[s\].
+///
+/// # Errors
+/// A sphere on which a force is not finite.
+pub(super) fn force_tick(
+    timeline: &mut Timeline,
+    system: &System,
+    now: f64,
+) -> Result<(), SphereId> {
+    held_forces::renew(timeline, system, now);
+    check_accelerations(timeline, system)?;
+    predict_all(timeline, system, now);
+    Ok(())
+}
+
+/// Refuses a force that is not finite, with the sphere that it acts on.
+fn check_accelerations(timeline: &Timeline, system: &System) -> Result<(), SphereId> {
+    let Flights { bodies, species, index_of, .. } = &timeline.flights;
+    let is_lost = |body: &Body| !species[body.species as usize].acceleration.is_finite();
+    let lost = bodies.iter().position(is_lost);
+    lost.map_or(Ok(()), |slot| Err(system.spheres.id[index_of[slot] as usize]))
 }
 
 /// Writes where all spheres are at the end of a part of a step, and how they move there.

@@ -1,6 +1,6 @@
 //! The rule `exact`: spheres fly in closed form from event to event.
 //!
-//! 1. **Begin** (`frame`): forces without a closed form are held for the frame
+//! 1. **Begin** (`frame`): forces without a closed form are held until the next force tick
 //! 2. **Predict** (`predict`): what each sphere meets next, another sphere or a surface, and when it leaves
 //!    its neighbour region
 //! 3. **Queue** (`events`): the first event of all
@@ -37,6 +37,7 @@ mod zone;
 
 pub(crate) use frame::{Arrivals, adopt, begin, end, persistent_contacts, start};
 pub(crate) use neighbours::MAX_SPHERES;
+pub(crate) use persistent::held_forces::fastest_stable_rate;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
 pub(crate) use zone::Zone;
@@ -74,6 +75,11 @@ pub(crate) enum Unfinished {
         /// When it happened, on the world's clock \[s\].
         time: f64,
     },
+    /// A force on a sphere is not finite.
+    NonFiniteForce {
+        /// The sphere.
+        sphere: SphereId,
+    },
     /// A stop request came.
     Stopped,
 }
@@ -103,10 +109,12 @@ pub(crate) fn advance(
     let before = WorkSoFar::of(timeline, work);
     let mut end = span.end;
     loop {
-        let tick = timeline.zone.next_tick();
-        let now = match timeline.next(end.min(tick)) {
+        let (tick, force_tick) = (timeline.zone.next_tick(), timeline.next_force_tick());
+        let now = match timeline.next(end.min(tick).min(force_tick)) {
             Some((slot, next)) => happen(timeline, &mut context, slot, next)?,
-            None if tick <= end => stepped::tick(timeline, &mut context),
+            None if tick <= end.min(force_tick) => stepped::tick(timeline, &mut context),
+            // One at the end belongs to the next span.
+            None if force_tick < end => renew_forces(timeline, &mut context, force_tick)?,
             None => break,
         };
         if work.is_stopped() {
@@ -122,6 +130,19 @@ pub(crate) fn advance(
     context.report.zone_account.spheres = timeline.zone.len() as u32;
     context.report.contact_account.asleep = timeline.zone.asleep();
     Ok(end)
+}
+
+/// Finds forces anew at a force tick \[s\]. Gives the time \[s\].
+fn renew_forces(
+    timeline: &mut Timeline,
+    context: &mut StepContext,
+    now: f64,
+) -> Result<f64, Unfinished> {
+    let is_lost = |sphere| Unfinished::NonFiniteForce { sphere };
+    frame::force_tick(timeline, context.system, now).map_err(is_lost)?;
+    let flights = timeline.flights.bodies.len() as u64;
+    context.renewed += flights;
+    if context.work.spend(UNITS_PER_FLIGHT * flights) { Ok(now) } else { Err(Unfinished::Stopped) }
 }
 
 /// Has happen what is next to the sphere at `slot`. Gives the time \[s\].
@@ -206,7 +227,7 @@ impl WorkSoFar {
             events,
             cell_crossings: timeline.cell_crossings - self.cell_crossings,
             pair_tests: context.searches.iter().map(PairSearch::tests).sum(),
-            solver_iterations: units - UNITS_PER_FLIGHT * events,
+            solver_iterations: units - UNITS_PER_FLIGHT * (events + context.renewed),
             ..context.counts
         }
     }

@@ -221,7 +221,7 @@ fn meet_surfaces(
         flight.position -= shift;
         let turns = motion.angular_velocity != DVec3::ZERO;
         // Where a turning surface will be is known until the end of the frame.
-        let until = if turns { timeline.frame[1] } else { horizon };
+        let until = if turns { timeline.frame[1].min(horizon) } else { horizon };
         let delay =
             contact_time::sphere_surface(&flight, species.radius, &form, &motion, until - start);
         if let Some(delay) = delay {

@@ -29,7 +29,7 @@ pub(crate) struct Timeline {
     pub(super) schedule: Schedule,
     /// Surfaces that move: near every sphere.
     pub(super) moving_surfaces: Vec<u32>,
-    /// By slot, where flights begin anew in each frame, near surfaces none of which moves; else empty.
+    /// By slot, where flights begin anew time and again, near surfaces none of which moves; else empty.
     pub(super) clearances: Vec<Clearance>,
     pub(super) work: FrameWork,
     /// What groups spent in a tick.
@@ -39,16 +39,27 @@ pub(crate) struct Timeline {
     /// When surfaces are where the system says, and until when that tells how they turn, on the
     /// world's clock \[s\]: the frame.
     pub(super) frame: [f64; 2],
+    /// Time between two force ticks \[s\].
+    pub(super) force_tick: f64,
+    /// Until when forces are held as they are, on the world's clock \[s\].
+    pub(super) held_until: f64,
+    /// When the next spheres are emitted, on the world's clock \[s\].
+    pub(super) next_emission: f64,
     /// Events, and cell crossings among them, since the spheres were put in order of place.
     pub(super) events: u64,
     pub(super) cell_crossings: u64,
 }
 
 impl Timeline {
-    /// Whether all flights begin anew at the start of each frame, for forces that are held over it, and
-    /// none of them is in a zone.
+    /// Whether all flights begin anew at the start of each frame, for applied forces that are held over it,
+    /// and none of them is in a zone.
     pub fn is_renewed_each_frame(&self) -> bool {
-        self.flights.hold_forces && self.zone.is_empty()
+        self.flights.hold_forces && !self.flights.forces_vary && self.zone.is_empty()
+    }
+
+    /// The next force tick, on the world's clock \[s\]; infinite if no force changes with where spheres are.
+    pub(super) fn next_force_tick(&self) -> f64 {
+        if self.flights.forces_vary { self.held_until } else { f64::INFINITY }
     }
 
     /// Whether friction acts, so that spins change.
@@ -70,7 +81,7 @@ impl Timeline {
     /// Until when predictions are of use, on the world's clock \[s\]: until all flights begin anew.
     #[inline]
     pub fn horizon(&self) -> f64 {
-        if self.flights.hold_forces { self.frame[1] } else { f64::INFINITY }
+        if self.flights.hold_forces { self.held_until } else { f64::INFINITY }
     }
 
     /// Until when a sphere of this species stays on its flight at most, on the world's clock \[s\]:
@@ -152,13 +163,13 @@ impl Timeline {
         self.neighbours.surfaces_near(slot, level).chain(moving)
     }
 
-    /// Whether a sphere is certain to meet no surface in this frame, but those that hold it.
+    /// Whether a sphere is certain to meet no surface on its flight, but those that hold it.
     #[inline]
     pub(super) fn is_clear_of_surfaces(&self, slot: u32) -> bool {
         self.clearances.get(slot as usize).is_some_and(|clearance| {
             let body = &self.flights.bodies[slot as usize];
             let flight = body.flight(self.flights.species_of(slot));
-            clearance.holds(&flight, self.frame[1] - body.time)
+            clearance.holds(&flight, self.horizon() - body.time)
         })
     }
 

@@ -53,7 +53,7 @@ pub(crate) struct Zone {
     ticks: [f64; 2],
     /// How often a tick is halved, for small spheres to be stepped well.
     halvings: u32,
-    /// Forces between spheres that are held over the frame \[N\], by index in the arrays of the world; empty
+    /// Forces between spheres as they are held \[N\], by index in the arrays of the world; empty
     /// where there are none.
     pub held_forces: Vec<DVec3>,
     /// Slots of spheres that are in no zone and have one that is among their neighbours; more than once,
@@ -375,7 +375,7 @@ fn halvings_for(system: &System, index: usize, tick: f64) -> u32 {
 }
 
 /// The first tick after a time, both on the world's clock \[s\].
-fn first_tick_after(time: f64, tick: f64) -> f64 {
+pub(super) fn first_tick_after(time: f64, tick: f64) -> f64 {
     let number = (time / tick).floor() + 1.0;
     let first = number * tick;
     if first > time { first } else { ((number + 1.0) * tick).max(time.next_up()) }

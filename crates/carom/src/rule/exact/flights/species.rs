@@ -59,9 +59,10 @@ pub(super) struct SpeciesOfSpheres {
     pub species: Vec<Species>,
     /// By index: the number of the species of each sphere.
     pub number_of: Vec<u32>,
-    /// Whether some forces have no closed form and are held constant over a frame. Then each sphere is
-    /// a species of its own.
+    /// Whether some forces are held constant for a time. Then each sphere is a species of its own.
     pub hold_forces: bool,
+    /// Whether some of them have no closed form, so that they change with where spheres are.
+    pub forces_vary: bool,
 }
 
 impl SpeciesOfSpheres {
@@ -69,8 +70,8 @@ impl SpeciesOfSpheres {
     pub fn of(system: &System) -> Self {
         let spheres = system.spheres;
         let levels = levels_of(&spheres.radius);
-        let has_own_forces = !spheres.applied_force.is_empty() || system.has_interactions();
-        let mut hold_forces = has_own_forces;
+        let mut forces_vary = system.has_interactions();
+        let has_own_forces = !spheres.applied_force.is_empty() || forces_vary;
         let mut species: Vec<Species> = Vec::new();
         let mut known = BTreeMap::new();
         let mut number_of = Vec::with_capacity(levels.len());
@@ -78,7 +79,7 @@ impl SpeciesOfSpheres {
             let (radius, mass) = (spheres.radius[index], spheres.mass[index]);
             let restitution = spheres.restitution[index];
             let (force, is_all) = forces::total_linear(system.forces, radius, mass);
-            hold_forces |= !is_all;
+            forces_vary |= !is_all;
             let own = if is_all && !has_own_forces { 0 } else { index + 1 };
             let key = ([radius, mass, restitution].map(f64::to_bits), own);
             let next = species.len() as u32;
@@ -99,7 +100,8 @@ impl SpeciesOfSpheres {
             }
             number_of.push(number);
         }
-        Self { species, number_of, hold_forces }
+        let hold_forces = has_own_forces || forces_vary;
+        Self { species, number_of, hold_forces, forces_vary }
     }
 }
 

@@ -29,8 +29,10 @@ pub(crate) struct Flights {
     pub clusters: Clusters,
     /// How spheres turn, by index; empty where no friction acts.
     pub rotations: Vec<Rotation>,
-    /// Whether some forces have no closed form and are held constant over a frame.
+    /// Whether some forces are held constant for a time.
     pub hold_forces: bool,
+    /// Whether some of them have no closed form, so that they change with where spheres are.
+    pub forces_vary: bool,
 }
 
 impl Flights {
@@ -41,7 +43,8 @@ impl Flights {
         motion: &Motion,
         flight_of: impl Fn(usize) -> Result<Body, f64>,
     ) -> Self {
-        let SpeciesOfSpheres { species, number_of, hold_forces } = SpeciesOfSpheres::of(system);
+        let SpeciesOfSpheres { species, number_of, hold_forces, forces_vary } =
+            SpeciesOfSpheres::of(system);
         let count = number_of.len();
         let body = |index: usize| {
             let (position, velocity) = (motion.position[index], motion.velocity[index]);
@@ -60,6 +63,7 @@ impl Flights {
             clusters: Clusters::default(),
             rotations: Vec::new(),
             hold_forces,
+            forces_vary,
         }
     }
 

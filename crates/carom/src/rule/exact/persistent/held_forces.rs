@@ -1,4 +1,5 @@
-//! Held forces: forces without a closed form, constant over a frame.
+//! Held forces: forces without a closed form, constant from one force tick to the next, and applied forces,
+//! which are constant over a frame.
 
 use glam::DVec3;
 
@@ -8,16 +9,57 @@ use crate::forces::{self, SphereState};
 use crate::integrate;
 use crate::rule::exact::contacts::{Corner, Member, Plane};
 use crate::rule::exact::timeline::Timeline;
+use crate::rule::exact::zone::first_tick_after;
+use crate::settings::Exact;
 use crate::system::System;
 
-/// Begins a new flight of every sphere at the start of a frame, or of a part of it, under the forces
-/// that act on it in the middle: an error of the third order in its length, of the second over all
-/// frames (the midpoint rule). Persistent contacts with planes go on where forces are the same
-/// everywhere; others are found anew.
+/// The fastest motion on springs turns by at most this angle from one force tick to the next \[rad\]: the
+/// leapfrog scheme is stable up to 2, and the phase of that motion is off by a hundredth of it.
+const MOST_TURN: f64 = 0.5;
+/// Force ticks are halved so often at most.
+const MOST_HALVINGS: u32 = 12;
+
+/// The time between two force ticks \[s\].
+pub(crate) fn tick(system: &System, parameters: Exact) -> f64 {
+    let rate = system.fastest_spring_rate();
+    let halvings = (0..MOST_HALVINGS).find(|&n| rate * part(parameters.force_tick, n) <= MOST_TURN);
+    part(parameters.force_tick, halvings.unwrap_or(MOST_HALVINGS))
+}
+
+/// The fastest rate of motion on springs for which force ticks are short enough \[1/s\].
+pub(crate) fn fastest_stable_rate(parameters: Exact) -> f64 {
+    MOST_TURN / part(parameters.force_tick, MOST_HALVINGS)
+}
+
+/// A time, halved so often.
+fn part(time: f64, halvings: u32) -> f64 {
+    time / f64::from(1u32 << halvings)
+}
+
+/// Until when forces that are found anew `now` \[s\] are held: until the next force tick, or for applied
+/// forces the end of the frame, and no longer than until the next spheres come.
+fn held_until(timeline: &Timeline, system: &System, now: f64) -> f64 {
+    let next_tick = first_tick_after(now, timeline.force_tick);
+    let next_frame = timeline.frame[1].max(now);
+    let until = match (timeline.flights.forces_vary, system.spheres.applied_force.is_empty()) {
+        (true, true) => next_tick,
+        (true, false) => next_tick.min(next_frame),
+        (false, _) => next_frame,
+    };
+    // What is due already comes at once, when this is done again.
+    until.min(timeline.next_emission.max(now))
+}
+
+/// Begins a new flight of every sphere `now` \[s\] under the forces that act on it in the middle of the time
+/// for which they are held: an error of the third order in its length, of the second over all ticks (the
+/// midpoint rule). Persistent contacts with planes go on where forces are the same everywhere; others are
+/// found anew.
 ///
 /// Forces between spheres are those where all would be in the middle if nothing accelerated them, a drift,
 /// a kick and a drift: the leapfrog scheme, which keeps energy, without damping, as velocity Verlet does.
-pub(crate) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64; 2]) {
+pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) {
+    let end = held_until(timeline, system, start);
+    timeline.held_until = end;
     let between = forces_between(timeline, system, [start, end]);
     timeline.zone.held_forces.clone_from(&between);
     for slot in 0..timeline.flights.bodies.len() as u32 {
@@ -40,7 +82,7 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, [start, end]: [f64
     }
 }
 
-/// The forces between spheres in the middle of a frame \[N\], by index; empty where there are none.
+/// The forces between spheres in the middle of an interval \[N\], by index; empty where there are none.
 fn forces_between(timeline: &Timeline, system: &System, [start, end]: [f64; 2]) -> Vec<DVec3> {
     let mut forces = Vec::new();
     if !system.has_interactions() {
@@ -91,7 +133,7 @@ fn begin_under(
     let member = Member::at(&timeline.flights, slot, start);
     timeline.flights.set_free_acceleration(slot, acceleration);
     let member = Member { species: *timeline.flights.free_species_of(slot), ..member };
-    let Some((cluster, planar)) = planar_support(timeline, system, &member, end - start) else {
+    let Some((cluster, planar)) = planar_support(timeline, system, &member, [start, end]) else {
         timeline.set_free(slot, start);
         timeline.begin_flight(slot, member.position, member.velocity, start);
         return;
@@ -110,12 +152,12 @@ fn begin_under(
 }
 
 /// How the persistent contacts of a sphere go on, with the number of its cluster, if that is known
-/// for a `duration` \[s\] without finding them anew.
+/// from a start to an end \[s\] without finding them anew.
 fn planar_support(
     timeline: &Timeline,
     system: &System,
     member: &Member,
-    duration: f64,
+    [start, end]: [f64; 2],
 ) -> Option<(u32, PlanarSupport)> {
     let number = timeline.flights.species_of(member.slot).cluster?;
     let cluster = timeline.flights.clusters.get(number);
@@ -132,8 +174,8 @@ fn planar_support(
         corner.add(plane_of(contact)?)?;
     }
     let scale = member.scale(false);
-    let contact_duration = scale.duration(timeline.parameters.contact_duration, timeline.frame[0]);
-    let planar = planar::support(system, member, &corner, contact_duration, duration).ok()??;
+    let contact_duration = scale.duration(timeline.parameters.contact_duration, start);
+    let planar = planar::support(system, member, &corner, contact_duration, end - start).ok()??;
     Some((number, planar))
 }
 
