@@ -40,9 +40,9 @@ impl Budget {
     pub const FILE: Self =
         Self { spheres: 2_000_000, colliders: 1_000_000, springs: 4_000_000, bytes: 256 << 20 };
 
-    /// For links, which anyone can send.
+    /// For links, which anyone can send: of the most bytes, half a gigabyte of memory is taken at worst.
     pub const LINK: Self =
-        Self { spheres: 200_000, colliders: 100_000, springs: 400_000, bytes: 16 << 20 };
+        Self { spheres: 200_000, colliders: 100_000, springs: 400_000, bytes: 8 << 20 };
 
     /// For scenes that were checked, or put together in code: more than this is a slip of the
     /// keyboard.

@@ -37,19 +37,32 @@ pub(crate) fn check_numbers(scene: &Scene) -> Result<(), Problem> {
     check_tolerance(scene)
 }
 
-/// Refuses characters in texts for people that would steer what shows them.
+/// The longest name, title, and description or origin of a scene, in characters.
+const LONGEST: [usize; 3] = [255, 500, 20_000];
+
+/// Refuses texts for people that are too long, and characters in them that would steer what shows them.
 pub(crate) fn check_texts(scene: &Scene) -> Result<(), Problem> {
+    let [of_name, of_title, of_description] = LONGEST;
     let texts = [
-        ("name", &scene.name),
-        ("title", &scene.title),
-        ("description", &scene.description),
-        ("origin", &scene.origin),
+        ("name", &scene.name, of_name),
+        ("title", &scene.title, of_title),
+        ("description", &scene.description, of_description),
+        ("origin", &scene.origin, of_description),
     ];
-    for (field, text) in texts {
+    for (field, text, longest) in texts {
         // Lines end with either of them, as the file's do.
         let is_space = |it: char| field == "description" && matches!(it, '\n' | '\r' | '\t');
         let is_shown = |it: char| !it.is_control() || is_space(it);
         check(text.chars().all(is_shown), field, || "must have no control characters".into())?;
+        check(text.chars().nth(longest).is_none(), field, || {
+            format!("must have at most {longest} characters")
+        })?;
+    }
+    let named = scene.colliders.iter().map(|collider| &collider.name).enumerate();
+    for (i, name) in named {
+        check(name.chars().nth(of_name).is_none(), &format!("colliders[{i}].name"), || {
+            format!("must have at most {of_name} characters")
+        })?;
     }
     Ok(())
 }

@@ -226,6 +226,28 @@ fn broken_tables_are_refused_by_the_line() {
 }
 
 #[test]
+fn a_recording_of_another_scene_is_refused_by_where_its_balls_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let names = ["billiards", "cradle", "tutorial1", "tutorial2", "gas"];
+    for name in names {
+        let path = folder.path().join(name).with_extension("csv");
+        record(&scene(name, Rule::Exact), 2, 1, &path);
+        for other in names {
+            let mut replay = Replay::open(&path, &scene(other, Rule::Exact)).unwrap();
+            let refused = match replay.next_frame() {
+                Ok(_) => false,
+                Err(ReplayError::Line { problem, .. }) => matches!(
+                    problem,
+                    LineProblem::Elsewhere { .. } | LineProblem::UnknownBall { .. }
+                ),
+                Err(error) => panic!("{error}"),
+            };
+            assert_eq!(refused, name != other, "{name} as {other}");
+        }
+    }
+}
+
+#[test]
 fn what_is_no_rotation_is_refused_by_the_line() {
     const HEADER: &str = "t,ball,x,y,z,vx,vy,vz,qx,qy,qz,qw";
     let problem = |rotation: &str| {

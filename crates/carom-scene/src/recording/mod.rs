@@ -16,6 +16,7 @@ mod recovery;
 mod replay;
 mod rotation;
 mod short_lines;
+mod start;
 mod table_file;
 mod vtk;
 

@@ -10,6 +10,7 @@ use thiserror::Error;
 use super::csv_table::{HEADER, ORIENTATION};
 use super::rotation;
 use super::short_lines::{LONGEST_LINE, ShortLines, TooLong};
+use super::start::Start;
 use crate::error::SceneError;
 use crate::legible::legible;
 use crate::origin::{Origin, Origins};
@@ -116,6 +117,21 @@ pub enum LineProblem {
         /// Time of the line \[s\].
         time: f64,
     },
+    /// In the first frame, a ball is where it cannot have come from its start in the scene.
+    #[error(
+        "ball {ball} is {distance:.3} m from its start after {time} s, at the speed of {speed:.3} m/s; is it \
+         another scene, or changed?"
+    )]
+    Elsewhere {
+        /// Its number.
+        ball: u64,
+        /// From where it is in the scene at its start \[m\].
+        distance: f64,
+        /// Time of the line \[s\].
+        time: f64,
+        /// The larger one of its speeds at both \[m/s\].
+        speed: f64,
+    },
 }
 
 /// The spheres at one time.
@@ -162,8 +178,7 @@ pub struct Replay {
     next: Option<Row>,
     has_begun: bool,
     /// The scene at its start, which is not in the file.
-    start: ReplayFrame,
-    boundary: Boundary,
+    start: Start,
 }
 
 /// Where the columns of a table are.
@@ -232,30 +247,32 @@ impl Replay {
         let world = scene.world()?;
         let balls = Balls::new(scene, &world)?;
         let at_start = balls.at_start(&world, columns.orientation.is_some());
-        let start = ReplayFrame { time: world.time(), balls: at_start };
-        let boundary = world.settings().boundary;
+        let frame = ReplayFrame { time: world.time(), balls: at_start };
+        let start = Start::new(scene, frame, world.settings().boundary);
         let path = path.to_owned();
-        Ok(Self { path, reader, columns, balls, next: None, has_begun: false, start, boundary })
+        Ok(Self { path, reader, columns, balls, next: None, has_begun: false, start })
     }
 
     /// The scene at its start, at time 0: before the first recorded frame.
     pub fn start(&self) -> &ReplayFrame {
-        &self.start
+        &self.start.frame
     }
 
     /// What is around the balls.
     pub(super) fn boundary(&self) -> Boundary {
-        self.boundary
+        self.start.boundary
     }
 
     /// The next frame; `None` after the last one.
     ///
     /// # Errors
-    /// [`ReplayError::Line`] for a line that makes no sense, or a ball that is not in the scene;
+    /// [`ReplayError::Line`] for a line that makes no sense, a ball that is not in the scene, or one that cannot
+    /// have come from where it starts there to its first line;
     /// [`ReplayError::Empty`] where there is none at all;
     /// [`ReplayError::Unreadable`] if the disk is gone.
     pub fn next_frame(&mut self) -> Result<Option<ReplayFrame>, ReplayError> {
-        if !self.has_begun {
+        let is_first = !self.has_begun;
+        if is_first {
             self.has_begun = true;
             self.next = self.read_row()?;
             if self.next.is_none() {
@@ -266,6 +283,7 @@ impl Replay {
             return Ok(None);
         };
         let mut frame = ReplayFrame { time: last.time, balls: vec![self.ball(&last)?] };
+        let first_line = last.line;
         while let Some(row) = self.read_row()? {
             if row.time < last.time {
                 let problem = LineProblem::TimeGoesBack { time: row.time, last: last.time };
@@ -281,6 +299,10 @@ impl Replay {
             }
             frame.balls.push(self.ball(&row)?);
             last = row;
+        }
+        if is_first {
+            let stray = self.start.first_stray(&frame);
+            stray.map_or(Ok(()), |(row, stray)| Err(self.line(first_line + row, stray)))?;
         }
         Ok(Some(frame))
     }

@@ -16,6 +16,8 @@ use crate::table::read;
 
 /// Faults of one scene in a list, at most: those after them are likely to follow from them.
 const MOST: usize = 20;
+/// Each takes as long as to read the scene. All together are to take as long as so many bytes.
+const BYTES: usize = 4_000_000;
 
 impl Scene {
     /// What is wrong with the text of a scene, within this budget: see [`SceneText::faults`].
@@ -55,8 +57,8 @@ impl Scene {
 }
 
 impl SceneText {
-    /// What is wrong with it, in the order of its lines, up to twenty faults; nothing if
-    /// [`Self::scene`] reads it. Of each sphere, collider and so on, it is the first fault.
+    /// What is wrong with it, in the order of its lines, up to twenty faults, fewer of a text of more than
+    /// 200 kB; nothing if [`Self::scene`] reads it. Of each sphere, collider and so on, it is the first fault.
     ///
     /// ```
     /// use carom_scene::SceneText;
@@ -71,7 +73,9 @@ impl SceneText {
         let mut table = self.table.clone();
         let mut originals = originals(&table);
         let (mut faults, mut taken): (Vec<Fault>, Vec<String>) = Default::default();
-        while faults.len() < MOST
+        let bytes: usize = self.sources.iter().map(|source| source.text.len()).sum();
+        let most = (BYTES / bytes.max(1)).clamp(1, MOST);
+        while faults.len() < most
             && let Err(problem) = read(table.clone(), self.budget)
         {
             let field = as_written(&problem.field, &originals);

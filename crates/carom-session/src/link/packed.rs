@@ -9,9 +9,9 @@ use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use thiserror::Error;
 
-/// Most that something packed may unpack to \[bytes\]: a scene of 100,000 single spheres, far more
-/// than an address can hold of any but the dullest; little enough not to be felt in memory.
-pub const MAX_UNPACKED: usize = 16 << 20;
+/// Most that something packed may unpack to \[bytes\]: a scene of 50,000 single spheres, far more
+/// than an address can hold of any but the dullest; a reader of TOML takes fifty times as much memory.
+pub const MAX_UNPACKED: usize = 8 << 20;
 
 /// Why something packed cannot be unpacked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]

@@ -104,7 +104,7 @@ fn what_would_fill_the_memory_is_refused() {
     assert!(most.len() < MAX_UNPACKED / 100);
     Link::parse(&format!("file={most}")).unwrap();
     let error = refusal(&format!("file={}", packed(&vec![b'#'; MAX_UNPACKED + 1])));
-    assert_eq!(error, "file of the link unpacks to more than 16 MiB, which is more than is taken");
+    assert_eq!(error, "file of the link unpacks to more than 8 MiB, which is more than is taken");
 }
 
 #[test]
