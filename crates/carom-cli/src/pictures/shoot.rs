@@ -48,7 +48,7 @@ pub fn shoot(
         Err(error) => Err(error.into()),
     };
     if matches!(result, Err(Failure::Interrupted)) {
-        // The frame at work was given up; a film of those before that fails is told first.
+        // The frame at work was given up; where a film of those before fails, the line says that.
         result = Ok(());
     }
     both(result, told)?;
