@@ -54,7 +54,7 @@ Usage: cargo xtask COMMAND
             (an hour; `soak --hours H` for another time)
   fuzz      hostile input for every reader, and worlds that are hard to step: the campaign of
             docs/reliability.md; `fuzz --help` says how to choose
-  kills     kills a hundred runs in each format of recordings: what is lost (some minutes)
+  kills     kills a hundred runs in each format of recordings, and films: what is lost (some minutes)
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
             pictures and of the interface, `bench web` the JavaScript package against the native
             engine";

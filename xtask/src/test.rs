@@ -79,10 +79,14 @@ pub fn fuzz(options: &[&str]) -> Outcome {
     cargo(&[&["run", "--release", "--package", "carom-fuzz", "--"], options].concat())
 }
 
-/// Kills runs that record, a hundred in each format.
+/// Kills runs that record, a hundred in each format, and as many that film.
 pub fn kills() -> Outcome {
-    let test = ["--features", "rayon", "--test", "killed", "--", "--nocapture"];
-    cargo_with(&[&["test"], &PLAIN[..], &test].concat(), &[("KILLS", "100")])
+    let test = |features, name| {
+        let test = ["--features", features, "--test", name, "--", "--nocapture"];
+        cargo_with(&[&["test"], &PLAIN[..], &test].concat(), &[("KILLS", "100")])
+    };
+    test("rayon", "killed")?;
+    test("rayon,pictures", "killed_films")
 }
 
 /// Checks what needs no build: formats, words, names in documents, the order of modules.

@@ -268,7 +268,7 @@ pub struct Run {
     pub json: bool,
 }
 
-/// Make the complete file of what a killed run left.
+/// Make the complete file of what a killed run left: a recording, .npz, a film, .mp4, or a table, .csv.
 #[derive(Debug, clap::Args)]
 pub struct Recover {
     /// The unfinished file, or the name of the file that it was to become.

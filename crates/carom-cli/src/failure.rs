@@ -63,6 +63,17 @@ pub fn legible(message: &str) -> String {
     carom_scene::legible(&message.trim_end().lines().collect::<Vec<_>>().join(" "), LONGEST)
 }
 
+/// Two results as one: if both failed, one line says so.
+pub fn both(first: Result<(), Failure>, second: Result<(), Failure>) -> Result<(), Failure> {
+    match (first, second) {
+        (Err(Failure::Fault(first)), Err(Failure::Fault(second))) => {
+            Err(Failure::Fault(format!("{first}; {second}")))
+        }
+        (Ok(()), second) => second,
+        (first, _) => first,
+    }
+}
+
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
         let message = error.to_string();

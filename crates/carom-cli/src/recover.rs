@@ -17,8 +17,24 @@ pub fn recover(args: &Recover) -> Result<(), Failure> {
     }
     let (unfinished, target) = places(args)?;
     args.replacing.check([target.as_path()])?;
-    let recovered = recording::recover(&unfinished, &target).map_err(refused)?;
-    Ok(tell(&unfinished, &target, recovered)?)
+    let recovered = match recording::recover(&unfinished, &target) {
+        Err(RecoveryError::Foreign { .. }) => film(&unfinished, &target),
+        recovered => recovered.map_err(refused),
+    };
+    Ok(tell(&unfinished, &target, recovered?)?)
+}
+
+/// Makes a film of what is no recording.
+#[cfg(feature = "pictures")]
+fn film(unfinished: &Path, target: &Path) -> Result<Recovered, Failure> {
+    carom_render::recover_film(unfinished, target).map_err(refused)
+}
+
+#[cfg(not(feature = "pictures"))]
+fn film(unfinished: &Path, _target: &Path) -> Result<Recovered, Failure> {
+    let name = unfinished.display();
+    let text = format!("{name} is no unfinished recording; films need the feature `pictures`");
+    Err(Failure::Usage(text))
 }
 
 /// The unfinished file, and the one to make of it.

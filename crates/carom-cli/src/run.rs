@@ -14,7 +14,7 @@ use carom_scene::{Budget, ChangedFile, Library, Source};
 use carom_session::Replay;
 
 use crate::args::Run;
-use crate::failure::{Failure, complain};
+use crate::failure::{Failure, both, complain};
 use crate::interruption::interruption;
 use crate::link;
 use crate::progress::Progress;
@@ -126,17 +126,6 @@ fn once(
         return Err(Failure::Fault(format!("the rule {rule} was not kept: {broken}")));
     }
     Ok(())
-}
-
-/// Two results as one: if both failed, one line says so.
-fn both(first: Result<(), Failure>, second: Result<(), Failure>) -> Result<(), Failure> {
-    match (first, second) {
-        (Err(Failure::Fault(first)), Err(Failure::Fault(second))) => {
-            Err(Failure::Fault(format!("{first}; {second}")))
-        }
-        (Ok(()), second) => second,
-        (first, _) => first,
-    }
 }
 
 /// Refuses to sum up a run whose numbers have grown too large for a computer.

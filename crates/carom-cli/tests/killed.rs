@@ -4,11 +4,11 @@
 mod command;
 
 use std::io::{BufRead, BufReader, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use command::{carom, path};
+use command::{carom, moments, path};
 
 /// Longer than anything here takes on a machine that is shared.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -68,11 +68,6 @@ fn a_killed_run_leaves_the_rows_of_its_tables() {
     }
 }
 
-/// How many runs are killed in each format.
-fn kills() -> u64 {
-    std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(4)
-}
-
 /// Records a gas to a file until it is killed, some milliseconds after its first impact; returns the time of the last
 /// impact that it told of before \[s\].
 fn killed_gas(file: &str, milliseconds: u64) -> f64 {
@@ -130,9 +125,60 @@ impl Gas {
     }
 }
 
-/// Moments of kills \[ms\], spread over the first two seconds without order.
-fn moments() -> impl Iterator<Item = u64> {
-    (1..=kills()).map(|k| k * 7919 % 1999)
+/// The times of a series \[s\], with the files of their frames.
+fn listed(list: &str) -> Vec<(f64, PathBuf)> {
+    let text = read(list);
+    assert!(text.ends_with("</VTKFile>\n"));
+    let attribute = |line: &str, name: &str| {
+        let value = line.split(&format!("{name}=\"")).nth(1)?.split('"').next()?;
+        Some(value.to_owned())
+    };
+    let row = |line| {
+        let time = attribute(line, "timestep")?.parse().unwrap();
+        Some((time, Path::new(list).with_file_name(attribute(line, "file")?)))
+    };
+    text.lines().filter_map(row).collect()
+}
+
+/// Positions \[m\] in a frame of a series, as numbers in a row.
+fn positions(frame: &Path) -> Vec<f64> {
+    use vtkio::model::{DataSet, Piece};
+
+    let DataSet::PolyData { pieces, .. } = vtkio::Vtk::import(frame).unwrap().data else {
+        panic!("poly data")
+    };
+    let Piece::Inline(piece) = &pieces[0] else { panic!("inline") };
+    piece.points.clone().into_vec().unwrap()
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn the_list_of_a_killed_series_lacks_the_frames_of_a_second_at_most() {
+    /// Times of files are those of the system's last tick.
+    const TICK: Duration = Duration::from_millis(20);
+    let mut gas = Gas::new();
+    for moment in moments() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = path(&folder, "run.pvd");
+        killed_gas(&file, moment);
+        let rows = listed(&file);
+        for (time, frame) in &rows {
+            assert!(read(frame.to_str().unwrap()).trim_end().ends_with("</VTKFile>"), "{time} s");
+        }
+        for place in [0, rows.len() / 2, rows.len().saturating_sub(1)] {
+            let Some((time, frame)) = rows.get(place) else { continue };
+            assert_eq!((*time, positions(frame)), *gas.frame(place));
+        }
+        // Whatever this machine does besides: a frame later than that has the list written before the next one begins.
+        let modified = |file: &Path| std::fs::metadata(file).and_then(|it| it.modified());
+        let written = modified(Path::new(&file)).unwrap();
+        let frames = (rows.len()..).map(|frame| format!("run_frames/{frame:06}.vtp"));
+        let times = frames.map_while(|frame| modified(&folder.path().join(frame)).ok());
+        let mut later: Vec<_> = times.map(|it| it.duration_since(written).ok()).collect();
+        // The last one may be at work.
+        later.pop();
+        assert!(later.iter().flatten().all(|later| *later < Duration::from_secs(1) + TICK));
+    }
 }
 
 #[test]
@@ -182,39 +228,6 @@ fn a_killed_run_leaves_all_frames_of_a_table_but_the_one_at_work() {
         frames.pop_if(|frame| frame.1.len() < whole);
         gas.check(&frames, told);
         std::fs::remove_file(&file).unwrap();
-    }
-}
-
-#[test]
-#[cfg(unix)]
-fn a_write_that_fails_is_one_line_and_what_was_written_before_is_kept() {
-    for blocks in [1, 2, 3, 8, 21, 64] {
-        for name in ["t.csv", "t.npz", "t.glb"] {
-            let folder = tempfile::tempdir().unwrap();
-            let file = path(&folder, name);
-            // Files of this many blocks are full.
-            let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
-            let mut shell = std::process::Command::new("sh");
-            shell.args(["-c", &script, "sh", command::CAROM, "run", "gas", "--out", &file]);
-            let output = shell.env("XDG_CONFIG_HOME", "/nowhere").output().unwrap();
-            let errors = String::from_utf8(output.stderr).unwrap();
-            assert_eq!(output.status.code(), Some(1), "{errors}");
-            assert_eq!(errors.lines().count(), 1, "{errors}");
-            assert!(errors.contains(&format!("cannot write {file}: File too large")), "{errors}");
-            // An animation is whole, or not there.
-            assert!(name != "t.glb" || !errors.contains("kept are"), "{errors}");
-            let kept = errors.split("kept are the ").nth(1).and_then(|it| it.split(' ').next());
-            let kept: usize = kept.map_or(0, |text| text.parse().unwrap());
-            if name == "t.csv" {
-                let text = read(&file);
-                let mut times: Vec<_> = text.lines().skip(1).map(|it| &it[..22]).collect();
-                times.dedup();
-                assert_eq!(times.len(), kept, "{errors}");
-            } else if !Path::new(&file).exists() {
-                let told = command::good(&["recover", &file]);
-                assert!(told.contains(&format!(" {kept} frames")), "{told} {errors}");
-            }
-        }
     }
 }
 

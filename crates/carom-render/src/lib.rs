@@ -14,6 +14,12 @@ mod cutaway;
 mod drawing;
 #[cfg(feature = "film")]
 mod film;
+#[cfg(feature = "film")]
+mod film_error;
+#[cfg(feature = "film")]
+mod film_form;
+#[cfg(feature = "film")]
+mod fragments;
 mod framing;
 mod gpu;
 mod instances;
@@ -23,6 +29,8 @@ mod new_file;
 mod offscreen;
 mod picture;
 mod pipelines;
+#[cfg(feature = "film")]
+mod plain_film;
 mod preset;
 mod quality;
 mod readback;
@@ -37,12 +45,16 @@ pub use bounds::Bounds;
 pub use camera::Camera;
 pub use drawing::{Arrow, Ball, Drawing, Light, Panel, Pattern};
 #[cfg(feature = "film")]
-pub use film::{Film, FilmError, FilmSummary};
+pub use film::{Film, FilmSummary};
+#[cfg(feature = "film")]
+pub use film_error::FilmError;
 pub use framing::Framing;
 pub use gpu::{Gpu, GpuError};
 pub use look::{Roll, draw_world, spring_line};
 pub use offscreen::Offscreen;
 pub use picture::{Picture, PictureError};
+#[cfg(feature = "film")]
+pub use plain_film::recover_film;
 pub use preset::Preset;
 pub use quality::Quality;
 pub use readback::Readback;

@@ -4,9 +4,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Beside one file, so many unfinished ones can wait: those of programs at work at the same time,
-/// and what crashed ones left behind.
-const MOST_UNFINISHED: u32 = 1000;
+use carom_scene::unfinished::create_beside;
 
 /// A file under a temporary name in the same folder, until [`Self::complete`]. Dropped before, it
 /// is removed; what bore the name before stays as it was.
@@ -45,24 +43,6 @@ impl NewFile {
         self.unfinished = None;
         Ok(())
     }
-}
-
-/// A new file named after `path`, and its own path.
-fn create_beside(path: &Path) -> io::Result<(File, PathBuf)> {
-    let Some(name) = path.file_name() else {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "this names no file"));
-    };
-    for number in 0..MOST_UNFINISHED {
-        let mut unfinished = name.to_owned();
-        unfinished.push(format!(".{number}.unfinished"));
-        let unfinished = path.with_file_name(unfinished);
-        match OpenOptions::new().write(true).create_new(true).open(&unfinished) {
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            created => return Ok((created?, unfinished)),
-        }
-    }
-    let text = format!("{MOST_UNFINISHED} unfinished files (*.unfinished) lie beside it");
-    Err(io::Error::new(io::ErrorKind::AlreadyExists, text))
 }
 
 impl Write for NewFile {

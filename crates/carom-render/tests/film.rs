@@ -5,9 +5,15 @@
 #![allow(missing_docs)]
 
 use std::path::Path;
+#[cfg(unix)]
+use std::path::PathBuf;
 use std::process::Command;
 
+#[cfg(unix)]
+use carom_render::recover_film;
 use carom_render::{Film, FilmError, Picture};
+#[cfg(unix)]
+use carom_scene::recording::{Recovered, RecoveryError};
 
 const WIDTH: u32 = 320;
 const HEIGHT: u32 = 180;
@@ -196,6 +202,128 @@ fn a_film_without_frames_leaves_what_was_there() {
     assert!(matches!(finished, Err(FilmError::Empty { .. })));
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "older");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+/// What a process that is killed now would leave of a film at `path`, under the name that it would have as an
+/// unfinished one beside `other`.
+#[cfg(unix)]
+fn left_by_a_kill(path: &Path, other: &Path) -> PathBuf {
+    let named = |path: &Path| PathBuf::from(format!("{}.0.unfinished", path.display()));
+    std::fs::copy(named(path), named(other)).unwrap();
+    named(other)
+}
+
+#[test]
+#[cfg(unix)]
+fn players_open_the_unfinished_file_with_every_frame_added_so_far() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, seen] = ["film.mp4", "seen.mp4"].map(|name| folder.path().join(name));
+    for rate in [1, 24, 30, 240] {
+        let mut film = Film::create(&path, WIDTH, HEIGHT, rate).unwrap();
+        for count in 1..=4 {
+            film.add(&bar(count)).unwrap();
+            let copy = left_by_a_kill(&path, &seen);
+            let times: Vec<String> =
+                (0..count).map(|k| format!("pts={}", k * 90_000 / rate)).collect();
+            assert_eq!(probe(&copy, "packet=pts"), times, "{rate}");
+            assert_eq!(probe(&copy, "frame=pict_type").len(), count as usize, "all are decoded");
+        }
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_recovered_film_is_byte_for_byte_the_film_of_its_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, other] = ["film.mp4", "other.mp4"].map(|name| folder.path().join(name));
+    // Two frames of these stand for themselves.
+    let mut film = Film::create(&path, WIDTH, HEIGHT, 25).unwrap();
+    for frame in 0..60 {
+        film.add(&bar(frame)).unwrap();
+    }
+    let left = left_by_a_kill(&path, &other);
+    film.finish().unwrap();
+    let recovered = recover_film(&left, &other).unwrap();
+    let Recovered { frames, last, left_out, is_damaged } = recovered;
+    assert_eq!((frames, last, left_out, is_damaged), (60, Some(59.0 / 25.0), 0, false));
+    assert!(std::fs::read(&path).unwrap() == std::fs::read(&other).unwrap());
+    assert!(!left.exists());
+}
+
+#[test]
+#[cfg(unix)]
+fn a_frame_that_is_cut_short_anywhere_is_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, other] = ["film.mp4", "other.mp4"].map(|name| folder.path().join(name));
+    let mut film = Film::create(&path, WIDTH, HEIGHT, 30).unwrap();
+    let mut ends = Vec::new();
+    let mut left = PathBuf::new();
+    for frame in 0..4 {
+        film.add(&bar(frame)).unwrap();
+        left = left_by_a_kill(&path, &other);
+        ends.push(std::fs::metadata(&left).unwrap().len());
+    }
+    let bytes = std::fs::read(&left).unwrap();
+    let places = (ends[0]..=ends[3]).step_by(37).chain([1, 3].map(|frame: usize| ends[frame]));
+    for length in places {
+        std::fs::write(&left, &bytes[..length as usize]).unwrap();
+        let whole = ends.iter().filter(|end| **end <= length).count();
+        let Recovered { frames, left_out, is_damaged, .. } = recover_film(&left, &other).unwrap();
+        assert_eq!(frames, whole as u64, "{length} of {ends:?}");
+        assert_eq!((left_out, is_damaged), (length - ends[whole - 1], false));
+    }
+    // Before the end of the first frame, there is no film, and what is there stays.
+    for length in [0, ends[0] - 1] {
+        std::fs::write(&left, &bytes[..length as usize]).unwrap();
+        let error = recover_film(&left, &other).unwrap_err();
+        assert!(matches!(error, RecoveryError::Empty { .. }), "{length}: {error}");
+        assert!(left.exists());
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn what_is_damaged_ends_a_recovered_film_and_the_unfinished_file_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, other] = ["film.mp4", "other.mp4"].map(|name| folder.path().join(name));
+    let mut film = Film::create(&path, WIDTH, HEIGHT, 30).unwrap();
+    let mut ends = Vec::new();
+    let mut left = PathBuf::new();
+    for frame in 0..4 {
+        film.add(&bar(frame)).unwrap();
+        left = left_by_a_kill(&path, &other);
+        ends.push(std::fs::metadata(&left).unwrap().len() as usize);
+    }
+    let bytes = std::fs::read(&left).unwrap();
+    // In what is said of the third frame, and in the length of its first part.
+    for place in [ends[1] + 3, ends[1] + 50, ends[1] + 90, ends[1] + 104, ends[1] + 110] {
+        let mut damaged = bytes.clone();
+        damaged[place] ^= 0x10;
+        std::fs::write(&left, &damaged).unwrap();
+        let Recovered { frames, is_damaged, .. } = recover_film(&left, &other).unwrap();
+        assert_eq!((frames, is_damaged), (2, true), "{place}");
+        assert!(left.exists());
+    }
+    for foreign in [&b"something else"[..], &[0; 2000], &bytes[7..]] {
+        std::fs::write(&left, foreign).unwrap();
+        let error = recover_film(&left, &other).unwrap_err();
+        assert!(matches!(error, RecoveryError::Foreign { .. }), "{error}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_film_goes_through_a_pipe() {
+    let folder = tempfile::tempdir().unwrap();
+    let [pipe, copy] = ["pipe.mp4", "copy.mp4"].map(|name| folder.path().join(name));
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let out = std::fs::File::create(&copy).unwrap();
+    let mut reader = Command::new("cat").arg(&pipe).stdout(out).spawn().unwrap();
+    let mut film = Film::create(&pipe, WIDTH, HEIGHT, 30).unwrap();
+    (0..5).for_each(|frame| film.add(&bar(frame)).unwrap());
+    film.finish().unwrap();
+    assert!(reader.wait().unwrap().success());
+    assert_eq!(frames(&copy).len(), 5);
 }
 
 #[test]

@@ -81,6 +81,8 @@ pub struct Unfinished {
     /// `None` where the target is no regular file, like a pipe: then it has no name.
     place: Option<PathBuf>,
     target: PathBuf,
+    /// The target where it is no regular file: its reader takes it for complete once it is closed.
+    stream: Option<File>,
 }
 
 impl Unfinished {
@@ -93,14 +95,14 @@ impl Unfinished {
         // Through a link, what it points to is replaced, not the link.
         let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
         if fs::metadata(&target).is_ok_and(|found| !found.is_file()) {
-            drop(OpenOptions::new().write(true).open(&target)?);
-            return Ok(Self { file: tempfile::tempfile()?, place: None, target });
+            let stream = Some(OpenOptions::new().write(true).open(&target)?);
+            return Ok(Self { file: tempfile::tempfile()?, place: None, target, stream });
         }
         if let Some(folder) = target.parent() {
             fs::create_dir_all(folder)?;
         }
         let (file, place) = create_beside(&target)?;
-        Ok(Self { file, place: Some(place), target })
+        Ok(Self { file, place: Some(place), target, stream: None })
     }
 
     /// Opens one that a program left, to make `target` of it.
@@ -110,7 +112,8 @@ impl Unfinished {
     pub fn open(place: &Path, target: &Path) -> io::Result<Self> {
         let file = File::open(place)?;
         lock(&file)?;
-        Ok(Self { file, place: Some(place.to_owned()), target: target.to_owned() })
+        let (place, target) = (Some(place.to_owned()), target.to_owned());
+        Ok(Self { file, place, target, stream: None })
     }
 
     /// What is written to.
@@ -134,8 +137,9 @@ impl Unfinished {
     ) -> Result<T, E> {
         io::Seek::rewind(&mut self.file)?;
         let Some(place) = &self.place else {
-            let target = OpenOptions::new().write(true).open(&self.target)?;
-            return close(&mut self.file, target);
+            let stream = self.stream.take();
+            let stream = stream.ok_or_else(|| io::Error::other("it is complete already"))?;
+            return close(&mut self.file, stream);
         };
         let closing = closing(place, &self.target);
         let closed = File::create(&closing).map_err(E::from).and_then(|target| {

@@ -7,12 +7,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use carom::StopRequest;
-use carom_render::FilmSummary;
+use carom_render::{FilmError, FilmSummary};
 
 use super::film::{Filming, Order};
 use super::footage::Footage;
 use super::studio::Studio;
-use crate::failure::Failure;
+use crate::failure::{Failure, both};
 use crate::length::whole_frames;
 use crate::progress::Progress;
 
@@ -32,18 +32,26 @@ pub fn shoot(
     let frames = whole_frames(seconds, 1.0 / f64::from(order.fps))?.max(1);
     let mut filming = Filming::begin(order, footage.as_mut(), studio)?;
     let progress = Progress::new(frames);
-    let mut result = Ok(());
+    let mut result: Result<(), Failure> = Ok(());
     for frame in 1..=frames {
-        result = filming.take_frame().map(|time| progress.show(frame, time));
+        let taken = filming.take_frame().map_err(Failure::from);
+        result = taken.map(|time| progress.show(frame, time));
         if result.is_err() || interrupted.load(Ordering::Relaxed) {
             break;
         }
     }
     drop(progress);
-    let finished = filming.finish().map_err(Failure::from);
-    let told = finished.and_then(|summary| Ok(tell(path, summary, began)?));
-    result?;
-    told?;
+    let told = match filming.finish() {
+        Ok(summary) => tell(path, summary, began).map_err(Failure::from),
+        // Why there is no frame is known.
+        Err(FilmError::Empty { .. }) if result.is_err() => Ok(()),
+        Err(error) => Err(error.into()),
+    };
+    if matches!(result, Err(Failure::Interrupted)) {
+        // The frame at work was given up; where a film of those before fails, the line says that.
+        result = Ok(());
+    }
+    both(result, told)?;
     if interrupted.load(Ordering::Relaxed) { Err(Failure::Interrupted) } else { Ok(()) }
 }
 

@@ -60,3 +60,13 @@ pub fn bad_line(arguments: &[&str], code: i32) -> String {
 pub fn path(folder: &TempDir, name: &str) -> String {
     folder.path().join(name).to_str().unwrap().to_owned()
 }
+
+/// How many runs are killed in each format.
+pub fn kills() -> u64 {
+    std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(4)
+}
+
+/// Moments of kills \[ms\], spread over the first two seconds without order.
+pub fn moments() -> impl Iterator<Item = u64> {
+    (1..=kills()).map(|k| k * 7919 % 1999)
+}

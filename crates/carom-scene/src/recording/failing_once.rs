@@ -8,17 +8,22 @@ pub(super) struct FailingOnce<W> {
     inner: W,
     /// Where the next byte goes.
     position: u64,
+    /// Where the last byte is. After an error the position is there: what is completed then must not begin after it ends.
+    end: u64,
     has_failed: bool,
 }
 
 impl<W> FailingOnce<W> {
     /// Begins at the beginning of `inner`.
     pub fn new(inner: W) -> Self {
-        Self { inner, position: 0, has_failed: false }
+        Self { inner, position: 0, end: 0, has_failed: false }
     }
 
     fn noting<T>(&mut self, result: io::Result<T>) -> io::Result<T> {
-        self.has_failed |= result.is_err();
+        if result.is_err() && !self.has_failed {
+            self.has_failed = true;
+            self.position = self.end;
+        }
         result
     }
 }
@@ -28,6 +33,7 @@ impl<W: Write> Write for FailingOnce<W> {
         let written = if self.has_failed { Ok(bytes.len()) } else { self.inner.write(bytes) };
         let written = self.noting(written)?;
         self.position += written as u64;
+        self.end = self.end.max(self.position);
         Ok(written)
     }
 
@@ -43,7 +49,7 @@ impl<W: Seek> Seek for FailingOnce<W> {
             _ if !self.has_failed => self.inner.seek(to),
             SeekFrom::Start(position) => Ok(position),
             SeekFrom::Current(by) => Ok(self.position.saturating_add_signed(by)),
-            SeekFrom::End(_) => Ok(self.position),
+            SeekFrom::End(_) => Ok(self.end),
         };
         self.position = self.noting(sought)?;
         Ok(self.position)

@@ -6,12 +6,12 @@
 //! sphere of any frame `id`, `radius` and `mass`, as they were last.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::Path;
 
 use carom::World;
 use npyz::WriterBuilder;
+use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
 
 use super::failing_once::FailingOnce;
@@ -29,8 +29,14 @@ pub(super) struct Npz {
 impl Npz {
     pub fn create(path: &Path) -> io::Result<Self> {
         let mut unfinished = Unfinished::create(path)?;
-        let journal = JournalWriter::begin(unfinished.file())?;
-        Ok(Self { unfinished, journal })
+        match JournalWriter::begin(unfinished.file()) {
+            Ok(journal) => Ok(Self { unfinished, journal }),
+            Err(error) => {
+                // An error here comes after another one.
+                unfinished.remove().ok();
+                Err(error)
+            }
+        }
     }
 }
 
@@ -59,7 +65,18 @@ impl Format for Npz {
 }
 
 /// Writes the archive of the whole frames of a journal.
-pub(super) fn archive(journal: &mut Journal, file: File) -> io::Result<()> {
+pub(super) fn archive(journal: &mut Journal, file: impl Write + Seek) -> io::Result<()> {
+    write_archive(journal, file).map_err(|error| {
+        let of_zip = error.get_ref().and_then(|it| it.downcast_ref::<ZipError>());
+        match of_zip {
+            // What failed is the disk, not the form of the archive.
+            Some(ZipError::Io(inner)) => io::Error::new(inner.kind(), inner.to_string()),
+            _ => error,
+        }
+    })
+}
+
+fn write_archive(journal: &mut Journal, file: impl Write + Seek) -> io::Result<()> {
     let mut zip = zip::ZipWriter::new(FailingOnce::new(BufWriter::new(file)));
     let rows = journal.extent.rows;
     let real = f64::from_le_bytes;
@@ -172,4 +189,65 @@ fn column<T: npyz::AutoSerialize, W: Write + Seek>(
     let mut array = begin(zip, name, shape)?;
     journal.frames(|_, columns| columns.words(column, |word| array.push(&value(word))))?;
     array.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Cursor, SeekFrom};
+
+    use carom::{DVec3, Sphere};
+
+    use super::*;
+
+    /// A disk that is full from a write on.
+    struct Full {
+        content: Cursor<Vec<u8>>,
+        /// Writes that succeed.
+        left: usize,
+    }
+
+    impl Write for Full {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.left = self.left.checked_sub(1).ok_or(io::ErrorKind::StorageFull)?;
+            self.content.write(bytes)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    impl Seek for Full {
+        fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+            self.content.seek(to)
+        }
+    }
+
+    #[test]
+    fn an_archive_fails_in_order_at_whichever_write_the_disk_is_full() {
+        let mut world = World::default();
+        world.add_sphere(Sphere::new(DVec3::ZERO, 0.5).with_velocity(DVec3::X)).unwrap();
+        let mut file = tempfile::tempfile().unwrap();
+        let mut writer = JournalWriter::begin(&mut file).unwrap();
+        for _ in 0..3 {
+            world.step(0.5).unwrap();
+            writer.write(&world, &mut file).unwrap();
+        }
+        let mut journal = Journal::open(&mut file).unwrap().unwrap();
+        let mut fill = |left| {
+            let mut full = Full { content: Cursor::default(), left };
+            (archive(&mut journal, &mut full), full.content.into_inner())
+        };
+        let failing = (0..).take_while(|writes| {
+            let (written, _) = fill(*writes);
+            written
+                .inspect_err(|error| assert_eq!(error.kind(), io::ErrorKind::StorageFull))
+                .is_err()
+        });
+        let writes = failing.count();
+        assert!(writes > 10, "{writes}");
+        let (written, content) = fill(writes);
+        written.unwrap();
+        assert!(zip::ZipArchive::new(Cursor::new(content)).unwrap().len() > 5);
+    }
 }

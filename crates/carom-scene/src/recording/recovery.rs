@@ -42,6 +42,12 @@ pub enum RecoveryError {
         /// The file.
         path: PathBuf,
     },
+    /// The file has no frame that is whole.
+    #[error("{path} has no whole frame")]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
     /// The file is no table that a run writes.
     #[error("{path} is no table of a run: its first line names other columns")]
     ForeignTable {
