@@ -143,7 +143,8 @@ impl Keeps {
         // What moves may press a sphere through what stands.
         let is_kept = is_solid && !is_driven;
         // Where an impact cuts the time for which they are held, springs keep energy to the second order only.
-        let keeps_energy = scene.simulation.boundary == Boundary::default() && scene.springs.is_empty();
+        let keeps_energy =
+            scene.simulation.boundary == Boundary::default() && scene.springs.is_empty();
         Self {
             gain: match rule {
                 Rule::Exact if is_kept && keeps_energy => Some(EXACT_GAIN),

@@ -114,8 +114,11 @@ fn a_vortex_turns_rigidly_inside_and_like_an_ideal_one_outside() {
     assert!((dragged - 0.5 * (fastest - vec(0.0, 1.0, 0.0))).length() < 1e-15);
 }
 
+/// A world with frames of a length \[s\].
+type WorldOfFrames = fn(f64) -> World;
+
 /// Worlds with frames, or under the rule `exact` force ticks, of a length \[s\], with the order in it.
-fn schemes() -> [(fn(f64) -> World, f64); 3] {
+fn schemes() -> [(WorldOfFrames, f64); 3] {
     [
         (|_| world_with(Integrator::VelocityVerlet), 2.0),
         (|_| world_with(Integrator::RungeKutta4), 4.0),
@@ -162,7 +165,7 @@ fn drag_by_reynolds_number_is_stokes_when_slow_and_newton_when_fast() {
 
 /// Distance \[m\] from the start after a Kepler orbit of eccentricity 1/4, in a world with frames of a length
 /// \[s\].
-fn orbit_error(world: fn(f64) -> World, frames: u32) -> f64 {
+fn orbit_error(world: WorldOfFrames, frames: u32) -> f64 {
     let (a, e, mu): (f64, f64, f64) = (1.0, 0.25, 3.0);
     let h = TAU * (a * a * a / mu).sqrt() / f64::from(frames);
     let mut world = world(h);

@@ -130,9 +130,8 @@ fn ball() -> impl Strategy<Value = Ball> {
 }
 
 fn springs() -> impl Strategy<Value = Springs> {
-    (-1.0..2.0, prop_oneof![Just(0.0), 0.0..0.05], any::<bool>()).prop_map(
-        |(stiffness, damping, only_pulls)| Springs { stiffness, damping, only_pulls },
-    )
+    (-1.0..2.0, prop_oneof![Just(0.0), 0.0..0.05], any::<bool>())
+        .prop_map(|(stiffness, damping, only_pulls)| Springs { stiffness, damping, only_pulls })
 }
 
 /// Places of the balls with their radii, without those that overlap one before or leave the box.
@@ -192,7 +191,8 @@ fn written(drawn: &Drawn) -> String {
     }
     if let Some(Springs { stiffness, damping, only_pulls }) = &drawn.springs {
         let stiffness = 10f64.powf(*stiffness);
-        let to_middle = (!placed.is_empty()).then(|| "sphere = 0\nanchor = [0.0, 0.0, 0.0]".to_owned());
+        let to_middle =
+            (!placed.is_empty()).then(|| "sphere = 0\nanchor = [0.0, 0.0, 0.0]".to_owned());
         let along = (placed.len() > 1).then(|| format!("chain = [0, {}]", placed.len() - 1));
         for ends in to_middle.into_iter().chain(along) {
             add(format_args!(

@@ -169,8 +169,13 @@ fn check_stiffness(system: &System, parameters: Exact) -> Result<(), Error> {
     let rate = system.fastest_spring_rate();
     let requirement = "of springs, with their damping and the masses of their spheres, such that motion on \
                        them has a rate of at most 2048 divided by the `force_tick` of the rule exact, in 1/s";
-    validate::require(rate <= exact::fastest_stable_rate(parameters), "stiffness", requirement, rate)
-        .map_err(|invalid| invalid.about(Subject::Step))
+    validate::require(
+        rate <= exact::fastest_stable_rate(parameters),
+        "stiffness",
+        requirement,
+        rate,
+    )
+    .map_err(|invalid| invalid.about(Subject::Step))
 }
 
 /// Refuses a periodic box in which a sphere could touch two images of another one.
