@@ -71,7 +71,7 @@ impl Engine {
     }
 }
 
-/// What is told, as JSON.
+/// A description as JSON.
 pub fn json(it: &impl serde::Serialize) -> PyResult<String> {
     Ok(serde_json::to_string(it).map_err(Failure::from)?)
 }
