@@ -93,7 +93,7 @@ Count: TypeAlias = Annotated[int, _AT_LEAST_ONE, _IN_32_BITS]
 Number: TypeAlias = Annotated[int, _IN_32_BITS]
 """The number of a sphere, from 0."""
 TwoNumbers: TypeAlias = Annotated[
-    Sequence[int],
+    Sequence[int] | NDArray[Any],
     Numbers("two whole numbers", 2, are_whole=True),
     Requirement("in [0, 2^32) each", lambda values: all(0 <= value < 2**32 for value in values)),
 ]
@@ -377,8 +377,9 @@ FORCES: tuple[type[Part], ...] = get_args(Force)
 class Spring(Part):
     """A spring with a damper beside it, or a chain of such.
 
-    Spheres are named by their numbers, from 0: the single ones of the scene first, then those of
-    generators. Give ``spheres``, ``sphere`` with ``anchor``, or ``chain``.
+    Spheres go by their numbers, from 0: the single ones of the scene first, then those of
+    generators. In a running world they go by their ids (`World.add_spring`). Give ``spheres``,
+    ``sphere`` with ``anchor``, or ``chain``.
 
     Attributes:
         stiffness: In N/m, >= 0.

@@ -429,7 +429,7 @@ class World(Strict, Engine):
         parts.expect("sphere", sphere, parts.Sphere)
         self._set_sphere(id, f"spheres = [{toml_value(sphere, 'sphere')}]")
 
-    # Forces, colliders, emitters
+    # Forces, springs, colliders, emitters
 
     @property
     def forces(self) -> dict[int, parts.Force | ForceFunction]:
@@ -494,6 +494,45 @@ class World(Strict, Engine):
     def _refuse_functions(self, what: str) -> None:
         if self._functions is not None:
             raise CaromError(f"{what} knows no functions among the forces: remove them", "forces")
+
+    @property
+    def springs(self) -> dict[int, parts.Spring]:
+        """The springs by their ids, in the order in which their forces are added up. A copy.
+
+        Spheres go by their ids here: those of a spring that came with the scene, too.
+        """
+        return read_parts("springs", self._springs_json())
+
+    def add_spring(self, spring: parts.Spring) -> int:
+        """Adds a spring between two spheres, or from one to a fixed point, and returns its id.
+
+        The spring names spheres by their ids, where a scene has numbers; without a ``rest_length``
+        it is at rest now. It goes with either sphere. A chain is added spring by spring.
+
+        Raises:
+            UnknownError: If one of its spheres is not in the world (any more).
+            SceneError: For a spring that makes no sense.
+
+        >>> import carom
+        >>> world = carom.World()
+        >>> one, other = world.add_spheres([(0, 0, 0), (1, 0, 0)], radii=0.1)
+        >>> world.add_spring(carom.Spring(spheres=(one, other), rest_length=0.5, stiffness=8))
+        0
+        >>> world.potential_energy
+        1.0
+        """
+        parts.expect("spring", spring, parts.Spring)
+        return self._add_spring(f"springs = [{toml_value(spring, 'spring')}]")
+
+    def set_spring(self, id: int, spring: parts.Spring) -> None:
+        """Puts a spring in the place of another.
+
+        Raises:
+            UnknownError: If it, or one of its spheres, is not in the world (any more).
+            SceneError: For a spring that makes no sense.
+        """
+        parts.expect("spring", spring, parts.Spring)
+        self._set_spring(id, f"springs = [{toml_value(spring, 'spring')}]")
 
     def next_event_time(self, within: float) -> float | None:
         """The time of the next impact on the world's clock [s], if one comes so soon.

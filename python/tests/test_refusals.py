@@ -165,7 +165,7 @@ def test_what_is_no_scene_makes_no_world() -> None:
         carom.World("simtest1")  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("kind", ["sphere", "force", "collider", "emitter"])
+@pytest.mark.parametrize("kind", ["sphere", "force", "spring", "collider", "emitter"])
 def test_an_id_that_was_never_given(world: carom.World, kind: str) -> None:
     words = f"there is no {kind} 99 in this world"
     refused(world, lambda: getattr(world, f"remove_{kind}")(99), carom.UnknownError, words)

@@ -68,7 +68,7 @@ namespace Carom
     /// <summary>A list of ids.</summary>
     public enum CaromList
     {
-        Spheres, Colliders, Forces, Emitters, Emitted, Retired, LeftOut,
+        Spheres, Colliders, Forces, Emitters, Emitted, Retired, LeftOut, Springs,
     }
 
     /// <summary>Why the library refused a call. The world is as it was before, but for <see cref="CaromWorld.Advance"/>,
@@ -132,6 +132,38 @@ namespace Carom
 
         /// <summary>A solid half-space below y = 0, at rest.</summary>
         public static CaromCollider Default { get { return Native.carom_collider(); } }
+    }
+
+    /// <summary>A spring with a damper beside it, from a sphere to another one (ToPoint 0) or to a fixed point (ToPoint 1).
+    /// With OnlyPulls 1 it is a thread. <see cref="Between"/> and <see cref="To"/> make one.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct CaromSpring
+    {
+        public ulong Sphere, Other;
+        public uint ToPoint, OnlyPulls;
+        public Double3 Point;
+        public double RestLength, Stiffness, Damping;
+
+        /// <summary>A spring between two spheres, without damping. SI units.</summary>
+        public static CaromSpring Between(ulong sphere, ulong other, double restLength, double stiffness)
+        {
+            var spring = Native.carom_spring();
+            spring.Sphere = sphere;
+            spring.Other = other;
+            spring.ToPoint = 0;
+            spring.RestLength = restLength;
+            spring.Stiffness = stiffness;
+            return spring;
+        }
+
+        /// <summary>A spring from a sphere to a fixed point, without damping. SI units.</summary>
+        public static CaromSpring To(ulong sphere, Double3 point, double restLength, double stiffness)
+        {
+            var spring = Between(sphere, 0, restLength, stiffness);
+            spring.ToPoint = 1;
+            spring.Point = point;
+            return spring;
+        }
     }
 
     /// <summary>What a force may depend on.</summary>
@@ -370,6 +402,28 @@ namespace Carom
 
         /// <summary>Takes a force out of the world.</summary>
         public void RemoveForce(ulong id) { Check(Native.carom_world_remove_force(Id, id)); }
+
+        /// <summary>Adds a spring. Returns its id.</summary>
+        public ulong AddSpring(CaromSpring spring)
+        {
+            ulong id;
+            Check(Native.carom_world_add_spring(Id, ref spring, out id));
+            return id;
+        }
+
+        /// <summary>One spring.</summary>
+        public CaromSpring Spring(ulong id)
+        {
+            CaromSpring spring;
+            Check(Native.carom_world_spring(Id, id, out spring));
+            return spring;
+        }
+
+        /// <summary>Changes a spring.</summary>
+        public void SetSpring(ulong id, CaromSpring spring) { Check(Native.carom_world_set_spring(Id, id, ref spring)); }
+
+        /// <summary>Takes a spring out of the world; its spheres stay.</summary>
+        public void RemoveSpring(ulong id) { Check(Native.carom_world_remove_spring(Id, id)); }
 
         /// <summary>Adds the spheres, generators, springs, colliders, forces and emitters of a text (TOML).</summary>
         public CaromAdded AddToml(string toml)
@@ -897,6 +951,16 @@ namespace Carom
         internal static extern CaromStatus carom_world_add_drag(WorldId world, double coefficient, out ulong id);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_remove_force(WorldId world, ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromSpring carom_spring();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_add_spring(WorldId world, ref CaromSpring spring, out ulong id);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_spring(WorldId world, ulong id, out CaromSpring spring);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_set_spring(WorldId world, ulong id, ref CaromSpring spring);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern CaromStatus carom_world_remove_spring(WorldId world, ulong id);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern CaromStatus carom_world_ids(
             WorldId world, CaromList list, [Out] ulong[] ids, UIntPtr stride, UIntPtr capacity, out UIntPtr count);

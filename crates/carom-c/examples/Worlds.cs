@@ -105,6 +105,30 @@ static class Worlds
         }
     }
 
+    static void Springs()
+    {
+        using (var world = new CaromWorld())
+        {
+            var ball = CaromSphere.Default;
+            ball.Position.X = 3.0;
+            var first = world.AddSphere(ball);
+            ball.Position.X = 6.0;
+            var second = world.AddSphere(ball);
+            world.AddSpring(CaromSpring.To(first, new Double3(0.0, 0.0, 0.0), 1.0, 2.0));
+            var id = world.AddSpring(CaromSpring.Between(first, second, 2.0, 8.0));
+            Expect(world.Totals.PotentialEnergy == 4.0 + 4.0, "springs are stretched");
+            var spring = world.Spring(id);
+            spring.Stiffness = 2.0;
+            world.SetSpring(id, spring);
+            Expect(world.Totals.PotentialEnergy == 4.0 + 1.0, "a spring is changed");
+            world.RemoveSpring(id);
+            Expect(world.Ids(CaromList.Springs).Length == 1, "a spring is taken out");
+            Expect(Refused(() => world.RemoveSpring(id)).Status == CaromStatus.Unknown, "a stale id is refused");
+            spring.Damping = double.NaN;
+            Expect(Refused(() => world.AddSpring(spring)).Status == CaromStatus.Invalid, "NaN is no damping");
+        }
+    }
+
     static void Scenes(string[] hashes)
     {
         foreach (var pair in hashes)
@@ -157,6 +181,7 @@ static class Worlds
         {
             Bounce();
             Functions();
+            Springs();
             Scenes(arguments);
 #if UNITY_5_3_OR_NEWER
             Unity();

@@ -187,7 +187,7 @@ static void spheres(void) {
     EXPECT(count == 2 && ids[0] == 1 && ids[1] == 2);
     FAILS(CAROM_STATUS_LENGTH, carom_world_ids(world, CAROM_LIST_SPHERES, ids, 0, 1, &count));
     EXPECT(count == 2);
-    FAILS(CAROM_STATUS_ARGUMENT, carom_world_ids(world, 7, ids, 0, 3, &count));
+    FAILS(CAROM_STATUS_ARGUMENT, carom_world_ids(world, 8, ids, 0, 3, &count));
     OK(carom_world_add_sphere(world, &ball, &id));
     EXPECT(id == 3);
     OK(carom_world_free(world));
@@ -334,6 +334,53 @@ static void forces(void) {
     OK(carom_world_free(copy));
 }
 
+static void springs(void) {
+    CaromWorld world;
+    OK(carom_world_new(&world));
+    CaromSphere ball = carom_sphere();
+    ball.position[0] = 3.0;
+    uint64_t first, second, id;
+    OK(carom_world_add_sphere(world, &ball, &first));
+    ball.position[0] = 6.0;
+    OK(carom_world_add_sphere(world, &ball, &second));
+    CaromSpring spring = carom_spring();
+    EXPECT(spring.to_point == 1 && spring.stiffness == 1.0 && spring.damping == 0.0);
+    spring.sphere = first;
+    OK(carom_world_add_spring(world, &spring, NULL));
+    spring.to_point = 0;
+    spring.other = second;
+    spring.rest_length = 2.0;
+    spring.only_pulls = 1;
+    OK(carom_world_add_spring(world, &spring, &id));
+    CaromTotals totals;
+    OK(carom_world_totals(world, &totals));
+    // Half of k (l - l0)^2 of each.
+    EXPECT(totals.potential_energy == 4.5 + 0.5);
+    CaromSpring read;
+    OK(carom_world_spring(world, id, &read));
+    EXPECT(read.other == second && read.rest_length == 2.0 && read.only_pulls == 1);
+    read.stiffness = 3.0;
+    OK(carom_world_set_spring(world, id, &read));
+    OK(carom_world_totals(world, &totals));
+    EXPECT(totals.potential_energy == 4.5 + 1.5);
+    read.damping = -1.0;
+    FAILS(CAROM_STATUS_INVALID, carom_world_set_spring(world, id, &read));
+    read.other = first;
+    FAILS(CAROM_STATUS_INVALID, carom_world_add_spring(world, &read, NULL));
+    FAILS(CAROM_STATUS_NULL, carom_world_add_spring(world, NULL, NULL));
+    OK(carom_world_remove_spring(world, id));
+    FAILS(CAROM_STATUS_UNKNOWN, carom_world_remove_spring(world, id));
+    FAILS(CAROM_STATUS_UNKNOWN, carom_world_spring(world, id, &read));
+    size_t count;
+    OK(carom_world_ids(world, CAROM_LIST_SPRINGS, NULL, 0, 0, &count));
+    EXPECT(count == 1);
+    // Springs go with their spheres.
+    OK(carom_world_remove_spheres(world, &first, 1));
+    OK(carom_world_ids(world, CAROM_LIST_SPRINGS, NULL, 0, 0, &count));
+    EXPECT(count == 0);
+    OK(carom_world_free(world));
+}
+
 static void snapshots(void) {
     CaromWorld world, other;
     OK(carom_world_from_scene("tutorial1", NULL, 0, &world));
@@ -390,6 +437,7 @@ int main(void) {
     arrays();
     colliders_and_reports();
     forces();
+    springs();
     snapshots();
     printf("every function: ok\n");
     return 0;

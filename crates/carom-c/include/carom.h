@@ -185,6 +185,8 @@ enum CaromList
     CAROM_LIST_RETIRED = 5,
     /// Ids of spheres that emitters left out in the last step, for there was no room: no sphere ever has them.
     CAROM_LIST_LEFT_OUT = 6,
+    /// Springs, in the order in which their forces add up.
+    CAROM_LIST_SPRINGS = 7,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -326,6 +328,28 @@ typedef struct {
     /// that was added is destroyed.
     CaromDestroyFunction destroy;
 } CaromForce;
+
+/// A spring with a damper beside it, between the centres of two spheres or from one to a fixed point. At the length l
+/// it pulls with stiffness (l - rest_length) + damping dl/dt. It goes with either sphere. carom_spring() makes one
+/// with usual values.
+typedef struct {
+    /// Id of the sphere at its first end.
+    uint64_t sphere;
+    /// Id of the sphere at its second end, another one; not read where `to_point` is 1.
+    uint64_t other;
+    /// 1 for a spring that ends at `point`, 0 for one that ends at the sphere `other`.
+    uint32_t to_point;
+    /// 1 for a thread, which only pulls: it is slack up to its rest length; 0 for a spring that pushes, too.
+    uint32_t only_pulls;
+    /// The fixed point [m]; not read where `to_point` is 0.
+    double point[3];
+    /// Length without force [m], >= 0.
+    double rest_length;
+    /// Stiffness [N/m], >= 0.
+    double stiffness;
+    /// Damping [kg/s], >= 0.
+    double damping;
+} CaromSpring;
 
 /// The last step in numbers.
 typedef struct {
@@ -595,6 +619,21 @@ CaromStatus carom_world_add_drag(CaromWorld world, double coefficient, uint64_t 
 
 /// Takes a force out of a world.
 CaromStatus carom_world_remove_force(CaromWorld world, uint64_t id);
+
+/// A spring of 1 N/m without damping, of no length without force, from sphere 0 to the origin.
+CaromSpring carom_spring(void);
+
+/// Adds a spring. Its id, which is never given twice, goes to `id`, which may be null.
+CaromStatus carom_world_add_spring(CaromWorld world, const CaromSpring *spring, uint64_t *id);
+
+/// One spring, by its id.
+CaromStatus carom_world_spring(CaromWorld world, uint64_t id, CaromSpring *spring);
+
+/// Changes a spring to another one, which keeps the id.
+CaromStatus carom_world_set_spring(CaromWorld world, uint64_t id, const CaromSpring *spring);
+
+/// Takes a spring out of a world; its spheres stay.
+CaromStatus carom_world_remove_spring(CaromWorld world, uint64_t id);
 
 /// Reads a list of ids (CaromList), `stride` bytes from one to the next (0: no gaps), and their number to `count`. Null for
 /// `ids` reads the number only. Ids that do not fit into `capacity` places are an error.

@@ -1,4 +1,4 @@
-//! Ids: which spheres, colliders, forces and emitters there are.
+//! Ids: which spheres, colliders, forces, emitters and springs there are.
 
 use carom::{EmitterId, SphereId};
 
@@ -24,6 +24,8 @@ pub enum CaromList {
     Retired = 5,
     /// Ids of spheres that emitters left out in the last step, for there was no room: no sphere ever has them.
     LeftOut = 6,
+    /// Springs, in the order in which their forces add up.
+    Springs = 7,
 }
 
 /// Reads a list of ids (CaromList), `stride` bytes from one to the next (0: no gaps), and their number to `count`. Null for
@@ -55,6 +57,7 @@ fn of_list(inner: &Inner, list: i32) -> Result<Vec<u64>, Failure> {
         CaromList::Emitted,
         CaromList::Retired,
         CaromList::LeftOut,
+        CaromList::Springs,
     ];
     let found = lists.into_iter().find(|it| *it as i32 == list);
     Ok(match found {
@@ -65,6 +68,7 @@ fn of_list(inner: &Inner, list: i32) -> Result<Vec<u64>, Failure> {
         Some(CaromList::Emitted) => of_spheres(&report.emitted),
         Some(CaromList::Retired) => of_spheres(&report.retired),
         Some(CaromList::LeftOut) => of_spheres(&report.left_out),
+        Some(CaromList::Springs) => world.springs().map(|(id, _)| id.number()).collect(),
         None => {
             let problem = format!("there is no list {list}");
             return Err(Failure::new(CaromStatus::Argument, problem));

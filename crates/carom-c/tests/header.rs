@@ -9,9 +9,9 @@ use std::path::Path;
 use cbindgen::{Builder, Config};
 
 /// The sources, in the order in which the header has what they declare.
-const SOURCES: [&str; 13] = [
+const SOURCES: [&str; 14] = [
     "version", "status", "world", "scene", "step", "sphere", "quantity", "collider", "force",
-    "listing", "report", "measures", "snapshot",
+    "spring", "listing", "report", "measures", "snapshot",
 ];
 /// Sources that declare nothing of the header.
 const OTHERS: [&str; 4] = ["described", "handle", "lib", "pointer"];

@@ -41,6 +41,9 @@ fn structures_of_version_1_lie_as_they_did() {
     assert_eq!(collider, [16, 72, 152]);
     let impact = [offset_of!(CaromImpact, point), offset_of!(CaromImpact, tangential_impulse)];
     assert_eq!(impact, [32, 104]);
+    assert_eq!(size_of::<CaromSpring>(), 72);
+    let spring = [offset_of!(CaromSpring, to_point), offset_of!(CaromSpring, rest_length)];
+    assert_eq!(spring, [16, 48]);
 }
 
 #[test]
@@ -50,4 +53,5 @@ fn constants_of_version_1_are_what_they_were() {
     assert_eq!(CaromShape::Other as i32, 5);
     assert_eq!(CaromSide::Front as i32, 32);
     assert_eq!(CaromList::LeftOut as i32, 6);
+    assert_eq!(CaromList::Springs as i32, 7);
 }

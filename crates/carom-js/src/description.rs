@@ -13,10 +13,10 @@ use crate::world::World;
 
 /// Something with the number it is known by.
 #[derive(Serialize)]
-struct Numbered<T> {
-    id: u64,
+pub struct Numbered<T> {
+    pub id: u64,
     #[serde(flatten)]
-    it: T,
+    pub it: T,
 }
 
 /// What is in it.

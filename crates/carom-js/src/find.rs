@@ -1,6 +1,6 @@
 //! From the numbers that JavaScript holds to the ids of a world.
 
-use carom::{ColliderId, ForceId, SphereId, World};
+use carom::{ColliderId, ForceId, SphereId, SpringId, World};
 
 use crate::failure::Failure;
 
@@ -21,6 +21,12 @@ pub fn collider(world: &World, number: f64) -> Result<(ColliderId, usize), Failu
 pub fn force(world: &World, number: f64) -> Result<(ForceId, usize), Failure> {
     let mut ids = world.forces().map(|(id, _)| id).zip(0..);
     ids.find(|(id, _)| id.number() as f64 == number).ok_or_else(|| unknown("force", number))
+}
+
+/// The id of a spring.
+pub fn spring(world: &World, number: f64) -> Result<SpringId, Failure> {
+    let mut ids = world.springs().map(|(id, _)| id);
+    ids.find(|id| id.number() as f64 == number).ok_or_else(|| unknown("spring", number))
 }
 
 /// In the words of [`carom::Error::Unknown`].

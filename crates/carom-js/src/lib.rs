@@ -25,6 +25,7 @@ mod members;
 mod next_event;
 mod place;
 mod snapshot;
+mod springs;
 mod world;
 
 use carom_scene::{BUILT_IN_FILES, Scene};

@@ -71,7 +71,8 @@ impl Engine {
     }
 }
 
-fn json(it: &impl serde::Serialize) -> PyResult<String> {
+/// A description as JSON.
+pub fn json(it: &impl serde::Serialize) -> PyResult<String> {
     Ok(serde_json::to_string(it).map_err(Failure::from)?)
 }
 

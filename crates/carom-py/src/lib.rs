@@ -45,6 +45,7 @@ mod running;
 mod scenes;
 mod setting;
 mod snapshot;
+mod springs;
 mod stop;
 mod tables;
 mod threads;

@@ -1,12 +1,15 @@
 //! Parts of a scene, described in code: read and checked as if they were a scene of their own.
 
+use carom::World;
 use serde::Deserialize;
 use thiserror::Error;
+use toml::Table;
 
-use crate::error::{Fault, SceneError};
+use crate::error::{Fault, Problem, SceneError};
 use crate::legible::legible;
 use crate::overrides::Override;
 use crate::scene::{Scene, Spring};
+use crate::{parameters, springs, table};
 
 /// What is wrong with something that was described in code: it has no lines, and no name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -56,18 +59,49 @@ pub fn read_simulation(text: &str) -> Result<Scene, PartError> {
 /// # Errors
 /// [`PartError`] for what is no spring.
 pub fn springs(text: &str) -> Result<Vec<Spring>, PartError> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct Springs {
-        #[serde(default)]
-        springs: Vec<Spring>,
-    }
-    let read = toml::from_str::<Springs>(text).map(|it| it.springs);
-    let failed = |error: toml::de::Error| PartError {
-        message: format!("springs: {}", legible(error.message(), LONGEST)),
-        field: "springs".to_owned(),
+    let read = |text: &str| {
+        let mut table: Table = text.parse().map_err(|error: toml::de::Error| {
+            Problem::new("springs", legible(error.message(), LONGEST))
+        })?;
+        parameters::resolve(&mut table)?;
+        table::told::<Springs>(table)
     };
-    read.map_err(failed)
+    Ok(read(text).map_err(in_part)?.springs)
+}
+
+/// Springs by themselves, as a scene file has them.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Springs {
+    #[serde(default)]
+    springs: Vec<Spring>,
+}
+
+/// Reads one spring from TOML for a running world, in which spheres go by their ids: that spring between spheres of
+/// `world`, with the length of now where the text gives no rest length.
+///
+/// # Errors
+/// [`SpringError`] for what is no spring, for a chain, and for spheres that the world does not have.
+pub fn spring_of(text: &str, world: &World) -> Result<carom::Spring, SpringError> {
+    let springs = springs(text)?;
+    let (sphere, to) = springs::ends_by_id(only(&springs)?, "springs[0]").map_err(in_part)?;
+    Ok(springs::between(&springs[0], world, sphere, to)?)
+}
+
+/// Why a world gets no spring that was described in code.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SpringError {
+    /// The description makes no sense.
+    #[error(transparent)]
+    Part(#[from] PartError),
+    /// The world refuses it.
+    #[error(transparent)]
+    World(#[from] carom::Error),
+}
+
+/// A problem of something that was described in code.
+fn in_part(problem: Problem) -> PartError {
+    SceneError::from(problem.in_code(NAME)).into()
 }
 
 /// Longest message of the reader of TOML \[characters\].
@@ -102,6 +136,41 @@ mod tests {
     fn spheres_of_a_part_may_overlap() {
         let part = read("spheres = [{ radius = 1.0 }, { radius = 2.0 }]").unwrap();
         assert_eq!(part.world().unwrap().spheres().len(), 2);
+    }
+
+    #[test]
+    fn a_spring_of_a_running_world_names_spheres_by_their_ids() {
+        let part = read("spheres = [{ radius = 1.0 }, { position = [3, 0, 0], radius = 1.0 }]");
+        let mut world = part.unwrap().world().unwrap();
+        let sphere = carom::Sphere::new(carom::DVec3::new(0.0, 0.0, 7.0), 1.0);
+        let third = world.add_sphere(sphere).unwrap();
+        world.remove_sphere(world.spheres().ids()[1]).unwrap();
+        let text = "springs = [{ spheres = [0, 2], stiffness = '2 kN/m' }]";
+        let spring = spring_of(text, &world).unwrap();
+        assert_eq!((spring.to, spring.stiffness), (carom::SpringEnd::Sphere(third), 2000.0));
+        // The length of now.
+        assert_eq!(spring.rest_length, 7.0);
+        let gone = "springs = [{ spheres = [0, 1], stiffness = 1.0 }]";
+        let error = spring_of(gone, &world).unwrap_err();
+        assert_eq!(error.to_string(), "there is no sphere 1 in this world");
+    }
+
+    #[test]
+    fn a_spring_that_makes_no_sense_is_refused_by_its_field() {
+        let world = World::default();
+        for (spring, message) in [
+            ("spheres = [3, 3], stiffness = 1.0", "springs[0].spheres: must be two spheres"),
+            ("chain = [0, 3], stiffness = 1.0", "springs[0].chain: a running world takes"),
+            ("sphere = 0, stiffness = 1.0", "springs[0]: needs `spheres`"),
+            ("sphere = 0, anchor = [0, nan, 0], stiffness = 1.0", "springs[0].anchor: must be"),
+            ("spheres = [0, 1], stiffness = nan", "springs[0].stiffness: must be zero"),
+            ("spheres = [0, 1], stiffness = 1, rest_length = -1", "springs[0].rest_length: must"),
+            ("spheres = [0, 1], stifness = 1.0", "springs[0].stifness: unknown field"),
+            ("spheres = [0, 1], stiffness = '2 kg'", "springs[0].stiffness: "),
+        ] {
+            let error = spring_of(&format!("springs = [{{ {spring} }}]"), &world).unwrap_err();
+            assert!(error.to_string().starts_with(message), "{error}");
+        }
     }
 
     #[test]

@@ -1,30 +1,22 @@
 //! Springs of scene files in worlds.
 
-use carom::{SphereId, SpringEnd, World};
+use carom::{Error, SphereId, SpringEnd, World};
 
 use crate::error::Problem;
-use crate::requirement::{check, check_vector};
+use crate::requirement::{check, check_non_negative, check_vector};
 use crate::scene::Spring;
-use crate::scene::values::vector;
+use crate::scene::values::{Vector, vector};
 
 /// Adds the spring, or the chain of springs, written at `path` to a world with all spheres of its scene.
 pub(crate) fn add(world: &mut World, spring: &Spring, path: &str) -> Result<(), Problem> {
-    match (spring.spheres, spring.sphere, spring.anchor, spring.chain) {
-        (Some([first, second]), None, None, None) => {
-            let path_of_spheres = format!("{path}.spheres");
-            let [first, second] =
-                [sphere(world, first, &path_of_spheres)?, sphere(world, second, &path_of_spheres)?];
-            check(first != second, &path_of_spheres, || "must be two spheres".into())?;
-            join(world, spring, first, SpringEnd::Sphere(second), path)
+    match form(spring, path)? {
+        Form::Single(ends) => {
+            let (first, to) = ends.find(path, |number, path| numbered(world, number, path))?;
+            join(world, spring, first, to, path)
         }
-        (None, Some(number), Some(anchor), None) => {
-            let id = sphere(world, number, &format!("{path}.sphere"))?;
-            check_vector(anchor, &format!("{path}.anchor"))?;
-            join(world, spring, id, SpringEnd::Point(vector(anchor)), path)
-        }
-        (None, None, None, Some([first, last])) => {
+        Form::Chain([first, last]) => {
             let path_of_chain = format!("{path}.chain");
-            sphere(world, last, &path_of_chain)?;
+            numbered(world, last, &path_of_chain)?;
             check(first < last, &path_of_chain, || {
                 "must be the first sphere of a chain and a later one".into()
             })?;
@@ -32,20 +24,47 @@ pub(crate) fn add(world: &mut World, spring: &Spring, path: &str) -> Result<(), 
             ids.windows(2)
                 .try_for_each(|pair| join(world, spring, pair[0], SpringEnd::Sphere(pair[1]), path))
         }
-        _ => Err(Problem::new(path, "needs `spheres`, `sphere` and `anchor`, or `chain`")),
     }
 }
 
-/// The sphere of this number.
-fn sphere(world: &World, number: u32, path: &str) -> Result<SphereId, Problem> {
-    let ids = world.spheres().ids();
-    ids.get(number as usize).copied().ok_or_else(|| {
-        let there_are = match ids.len() {
-            0 => "the scene has no spheres".to_owned(),
-            count => format!("spheres are numbered from 0 to {}", count - 1),
+/// The spring written at `path` in a running world, where spheres go by their ids; they need not be in it.
+pub(crate) fn ends_by_id(spring: &Spring, path: &str) -> Result<(SphereId, SpringEnd), Problem> {
+    let Form::Single(ends) = form(spring, path)? else {
+        let problem = "a running world takes its springs one by one";
+        return Err(Problem::new(format!("{path}.chain"), problem));
+    };
+    let numbers = [
+        ("rest_length", spring.rest_length),
+        ("stiffness", Some(spring.stiffness)),
+        ("damping", Some(spring.damping)),
+    ];
+    for (name, value) in numbers {
+        value.map_or(Ok(()), |value| check_non_negative(value, &format!("{path}.{name}")))?;
+    }
+    ends.find(path, |number, _| Ok(SphereId::from_number(number.into())))
+}
+
+/// The spring that a description tells of, between these ends in a world.
+///
+/// # Errors
+/// [`Error::Unknown`] if it has no rest length, and the world does not have one of its spheres.
+pub(crate) fn between(
+    spring: &Spring,
+    world: &World,
+    sphere: SphereId,
+    to: SpringEnd,
+) -> Result<carom::Spring, Error> {
+    let place = |id| world.sphere(id).map(|sphere| sphere.position);
+    let length = || {
+        let end = match to {
+            SpringEnd::Sphere(id) => place(id)?,
+            SpringEnd::Point(point) => point,
         };
-        Problem::new(path, format!("there is no sphere {number}: {there_are}"))
-    })
+        Ok(world.settings().boundary.nearest_image(place(sphere)? - end).length())
+    };
+    let rest_length = spring.rest_length.map_or_else(length, Ok)?;
+    let Spring { stiffness, damping, only_pulls, .. } = *spring;
+    Ok(carom::Spring { sphere, to, rest_length, stiffness, damping, only_pulls })
 }
 
 fn join(
@@ -55,23 +74,63 @@ fn join(
     to: SpringEnd,
     path: &str,
 ) -> Result<(), Problem> {
-    let place = |id| world.sphere(id).map(|sphere| sphere.position);
-    let length = || {
-        let end = match to {
-            SpringEnd::Sphere(id) => place(id)?,
-            SpringEnd::Point(point) => point,
+    let made = between(spring, world, first, to).and_then(|spring| world.add_spring(spring));
+    made.map(drop).map_err(|error| Problem::of_physics(path, error))
+}
+
+/// What a description joins.
+enum Form {
+    Single(Ends),
+    /// Each sphere from one number to another to the next one.
+    Chain([u32; 2]),
+}
+
+/// Both ends of a spring, spheres by their numbers.
+enum Ends {
+    Spheres([u32; 2]),
+    Anchor(u32, Vector),
+}
+
+fn form(spring: &Spring, path: &str) -> Result<Form, Problem> {
+    match (spring.spheres, spring.sphere, spring.anchor, spring.chain) {
+        (Some(spheres), None, None, None) => Ok(Form::Single(Ends::Spheres(spheres))),
+        (None, Some(sphere), Some(anchor), None) => Ok(Form::Single(Ends::Anchor(sphere, anchor))),
+        (None, None, None, Some(chain)) => Ok(Form::Chain(chain)),
+        _ => Err(Problem::new(path, "needs `spheres`, `sphere` and `anchor`, or `chain`")),
+    }
+}
+
+impl Ends {
+    /// Finds the spheres of the spring at `path`: `sphere` knows the one of a number that is written somewhere.
+    fn find(
+        self,
+        path: &str,
+        sphere: impl Fn(u32, &str) -> Result<SphereId, Problem>,
+    ) -> Result<(SphereId, SpringEnd), Problem> {
+        match self {
+            Self::Spheres([first, second]) => {
+                let path = format!("{path}.spheres");
+                let [first, second] = [sphere(first, &path)?, sphere(second, &path)?];
+                check(first != second, &path, || "must be two spheres".into())?;
+                Ok((first, SpringEnd::Sphere(second)))
+            }
+            Self::Anchor(number, anchor) => {
+                let id = sphere(number, &format!("{path}.sphere"))?;
+                check_vector(anchor, &format!("{path}.anchor"))?;
+                Ok((id, SpringEnd::Point(vector(anchor))))
+            }
+        }
+    }
+}
+
+/// The sphere of this number, counted from the first of a scene.
+fn numbered(world: &World, number: u32, path: &str) -> Result<SphereId, Problem> {
+    let ids = world.spheres().ids();
+    ids.get(number as usize).copied().ok_or_else(|| {
+        let there_are = match ids.len() {
+            0 => "the scene has no spheres".to_owned(),
+            count => format!("spheres are numbered from 0 to {}", count - 1),
         };
-        Ok(world.settings().boundary.nearest_image(place(first)? - end).length())
-    };
-    let refused = |error| Problem::of_physics(path, error);
-    let rest_length = spring.rest_length.map_or_else(length, Ok).map_err(refused)?;
-    let spring = carom::Spring {
-        sphere: first,
-        to,
-        rest_length,
-        stiffness: spring.stiffness,
-        damping: spring.damping,
-        only_pulls: spring.only_pulls,
-    };
-    world.add_spring(spring).map(drop).map_err(refused)
+        Problem::new(path, format!("there is no sphere {number}: {there_are}"))
+    })
 }

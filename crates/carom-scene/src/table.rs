@@ -1,5 +1,6 @@
 //! The table of a scene file to a scene.
 
+use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
 use crate::budget::Budget;
@@ -15,11 +16,7 @@ pub(crate) const INCLUDE: &str = "include";
 /// A scene within this budget from its table, or the first problem with it.
 pub(crate) fn read(mut table: Table, budget: Budget) -> Result<Scene, Problem> {
     parameters::resolve(&mut table)?;
-    let scene: Scene = serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
-        let path = error.path().to_string();
-        let path = if path == "." { String::new() } else { path };
-        let problem = in_plain_words(error.into_inner().message().trim());
-        let problem = with_form(problem, &path);
+    let scene: Scene = told(table).map_err(|Problem { field: path, problem }| {
         if let Some(problem) = of_simulation(&problem, &path) {
             return Problem::new(path, problem);
         }
@@ -35,6 +32,16 @@ pub(crate) fn read(mut table: Table, budget: Budget) -> Result<Scene, Problem> {
     })?;
     world::build(&scene, budget)?;
     Ok(scene)
+}
+
+/// What a table without formulas and units tells, or what of it cannot be read.
+pub(crate) fn told<T: DeserializeOwned>(table: Table) -> Result<T, Problem> {
+    serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
+        let path = error.path().to_string();
+        let path = if path == "." { String::new() } else { path };
+        let problem = in_plain_words(error.into_inner().message().trim());
+        Problem::new(&*path, with_form(problem, &path))
+    })
 }
 
 /// What to write for a field of the simulation that stands before the first table.

@@ -1,6 +1,8 @@
 //! Everything that can be changed while a scene runs.
 
-use carom::{ColliderId, DVec3, Emitter, EmitterId, ForceId, Friction, Mass, SphereId};
+use carom::{
+    ColliderId, DVec3, Emitter, EmitterId, ForceId, Friction, Mass, SphereId, Spring, SpringId,
+};
 use carom_scene::scene::{Color, Force, Simulation};
 
 /// A change from outside.
@@ -17,6 +19,12 @@ pub enum Edit {
     AddForce(Force),
     /// A force less.
     RemoveForce(ForceId),
+    /// Another spring in the place of one.
+    Spring(SpringId, Spring),
+    /// One more spring.
+    AddSpring(Spring),
+    /// A spring less; its spheres stay.
+    RemoveSpring(SpringId),
     /// Coefficient of restitution of a collider.
     ColliderRestitution(ColliderId, f64),
     /// Coefficient of restitution of all colliders.
@@ -93,6 +101,8 @@ impl Edit {
     pub(crate) fn value(&self) -> Option<Self> {
         match self {
             Self::Throw { .. } | Self::RemoveSphere(_) => None,
+            // As the spheres that they join.
+            Self::AddSpring(_) | Self::RemoveSpring(_) => None,
             Self::Sphere(id, change) => {
                 let SphereChange { radius, mass, restitution, friction, .. } = **change;
                 let value =
@@ -114,6 +124,7 @@ impl Edit {
             | (Self::AllColliderRestitutions(_), Self::AllColliderRestitutions(_))
             | (Self::AllColliderFrictions(_), Self::AllColliderFrictions(_)) => Some(later.clone()),
             (Self::Force(id, _), Self::Force(same, _)) if id == same => Some(later.clone()),
+            (Self::Spring(id, _), Self::Spring(same, _)) if id == same => Some(later.clone()),
             (Self::Emitter(id, _), Self::Emitter(same, _)) if id == same => Some(later.clone()),
             (Self::ColliderRestitution(id, _), Self::ColliderRestitution(same, _))
                 if id == same =>

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom::{Collider, ColliderId, Emitter, EmitterId, Error, ForceId, Subject, World};
+use carom::{Collider, ColliderId, Emitter, EmitterId, Error, ForceId, SpringId, Subject, World};
 use carom_scene::scene::{self, Force, Scene, Simulation};
 use carom_scene::{Paint, SceneError};
 
@@ -40,6 +40,9 @@ impl Subjects<'_> {
                 Ok(())
             }
             Edit::RemoveForce(id) => remove_force(*id, world, setup),
+            Edit::Spring(id, spring) => Ok(world.set_spring(*id, *spring)?),
+            Edit::AddSpring(spring) => Ok(world.add_spring(*spring).map(drop)?),
+            Edit::RemoveSpring(id) => remove_spring(*id, world),
             Edit::ColliderRestitution(id, restitution) => {
                 set_collider(*id, world, setup, |it| it.with_restitution(*restitution))
             }
@@ -149,6 +152,12 @@ fn remove_force(
     world.remove_force(id)?;
     Arc::make_mut(setup).forces.retain(|it| it.0 != id);
     Ok(())
+}
+
+fn remove_spring(id: SpringId, world: &mut World) -> Result<(), SessionError> {
+    // Looked up first: a world that does not know the spring would let all flights begin anew.
+    world.spring(id)?;
+    Ok(world.remove_spring(id).map(drop)?)
 }
 
 /// Changes what a collider is like, not where it is or what it is.

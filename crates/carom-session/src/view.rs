@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use carom::{DQuat, DVec3, Friction, PersistentContact, Pose, SphereId, Spring, StateHash};
+use carom::{
+    DQuat, DVec3, Friction, PersistentContact, Pose, SphereId, Spring, SpringId, StateHash,
+};
 use carom_scene::Paint;
 use carom_scene::scene::{Scene, Sphere};
 
@@ -44,7 +46,7 @@ pub struct View {
     /// All spheres.
     pub spheres: SphereArrays,
     /// Springs, in the order in which their forces are added up.
-    pub springs: Vec<Spring>,
+    pub springs: Vec<(SpringId, Spring)>,
     /// Where the colliders of [`Setup::colliders`] are now.
     pub poses: Vec<Pose>,
     /// What is measured now.
@@ -182,7 +184,7 @@ impl View {
         }
         scene.spheres.extend((0..self.spheres.ids.len()).map(|i| self.spheres.described(i)));
         let springs = self.springs.iter();
-        let described = |spring| carom_scene::scene::Spring::of(spring, &self.spheres.ids);
+        let described = |(_, spring): &_| carom_scene::scene::Spring::of(spring, &self.spheres.ids);
         scene.springs.extend(springs.filter_map(described));
         // Rules that find contacts late let spheres overlap; a scene has to admit it.
         if !scene.simulation.allow_overlap && scene.world().is_err() {

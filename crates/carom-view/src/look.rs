@@ -123,7 +123,7 @@ fn add_springs(view: &View, look: &Look, drawing: &mut Drawing) {
     let center = |id| Some(place(view, view.spheres.index_of(id)?, look.blend));
     let boundary = view.setup.simulation.boundary.into();
     let lines = view.springs.iter();
-    let lines = lines.filter_map(|spring| spring_line(spring, boundary, center));
+    let lines = lines.filter_map(|(_, spring)| spring_line(spring, boundary, center));
     drawing.arrows.extend(lines);
 }
 

@@ -254,6 +254,45 @@ export type Force =
   /** Buoyancy in a fluid with a level surface: density [kg/m³], height [m], gravity [m/s²]. */
   | { buoyancy: { density: number; surfaceHeight?: number; gravity?: Vector } };
 
+/** What a spring joins: two spheres, or a sphere and a fixed point `anchor` [m]. Spheres go by their ids. */
+export type SpringEnds = { spheres: [number, number] } | { sphere: number; anchor: Vector };
+
+/** How a spring pulls. */
+export interface SpringNumbers {
+  /** Length without force [m], >= 0; the length at the moment it is added unless given. */
+  restLength?: number;
+  /** [N/m], >= 0 */
+  stiffness: number;
+  /** [kg/s], >= 0; 0 unless given. */
+  damping?: number;
+  /** Whether it only pulls, as a thread does, which is slack up to its rest length. */
+  onlyPulls?: boolean;
+}
+
+/** A spring with a damper beside it, as it is added. */
+export type SpringDescription = SpringEnds & SpringNumbers;
+
+/** What changes of a spring. */
+export interface SpringChanges extends Partial<SpringNumbers> {
+  /** Ids of the two spheres that it joins, instead of what it joined. */
+  spheres?: [number, number];
+  /** Id of the sphere at its first end, of a spring that ends at a point. */
+  sphere?: number;
+  /** The fixed point [m] at which it ends. */
+  anchor?: Vector;
+}
+
+/** A spring as it is: it has `spheres`, or `sphere` and `anchor`. */
+export interface Spring extends Required<SpringNumbers> {
+  id: number;
+  /** Ids of the two spheres that it joins. */
+  spheres?: [number, number];
+  /** Id of the sphere that it joins to a fixed point. */
+  sphere?: number;
+  /** The fixed point [m]. */
+  anchor?: [number, number, number];
+}
+
 /** How spheres move under forces, by `bisect` and `discrete`; `exact` needs none. */
 export type Integrator =
   "semi-implicit-euler" | "explicit-euler" | "velocity-verlet" | "runge-kutta-4";
@@ -598,7 +637,7 @@ export class World {
   kineticEnergy(): number;
   /** Kinetic energy of rotation [J]. */
   rotationalEnergy(): number;
-  /** [J], in all forces that have one. */
+  /** [J], in all springs and all forces that have one. */
   potentialEnergy(): number;
   /** [J] */
   totalEnergy(): number;
@@ -615,6 +654,8 @@ export class World {
   readonly colliders: Collider[];
   /** Forces, each with its id. */
   readonly forces: (Force & { id: number })[];
+  /** Springs, each with its id. */
+  readonly springs: Spring[];
   /** One sphere. @throws {CaromError} if it is not in the world */
   sphere(id: number): Sphere;
   /** The world of now as the text of a scene file: there, time begins at 0, and emitters begin
@@ -636,6 +677,10 @@ export class World {
   /** Adds one, and answers with its id. @throws {SceneError} */
   addForce(force: Force): number;
 
+  /** Adds a spring between two spheres, or from one to a fixed point, and answers with its id. It goes with
+   *  either sphere. @throws {CaromError} */
+  addSpring(spring: SpringDescription): number;
+
   /** Changes what is given of a sphere. @throws {CaromError} */
   setSphere(id: number, changes: SphereDescription): void;
   /** Changes what is given of a collider. In a new place it is at once: what is there it does not push, and
@@ -644,6 +689,8 @@ export class World {
   setCollider(id: number, changes: Partial<ColliderDescription>): void;
   /** Puts a force in the place of another. @throws {CaromError} */
   setForce(id: number, force: Force): void;
+  /** Changes what is given of a spring: what it joins, or how it pulls. @throws {CaromError} */
+  setSpring(id: number, changes: SpringChanges): void;
   /** Changes what is given of how the world is stepped. @throws {SceneError} */
   setSimulation(changes: SimulationChanges): void;
   /** @throws {CaromError} if it is not in the world */
@@ -652,6 +699,8 @@ export class World {
   removeCollider(id: number): void;
   /** @throws {CaromError} if there is no such force */
   removeForce(id: number): void;
+  /** @throws {CaromError} if there is no such spring */
+  removeSpring(id: number): void;
 
   /** Gives the memory of the world back now, and not when it is collected as garbage. */
   free(): void;

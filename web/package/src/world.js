@@ -274,6 +274,10 @@ export class World {
     return parse(this.#world.forces());
   }
 
+  get springs() {
+    return parse(this.#world.springs()).map((spring) => ({ ...SPRING, ...spring }));
+  }
+
   sphere(id) {
     const world = this.#world;
     return parse(attempt(() => world.sphere(id)));
@@ -307,6 +311,11 @@ export class World {
     return this.add({ forces: [force] }).forces[0];
   }
 
+  addSpring(spring) {
+    const world = this.#world;
+    return attemptPart(() => world.addSpring(tables({ springs: [spring] })));
+  }
+
   setSphere(id, changes) {
     // A size or mass of another kind takes the place of the one there is.
     const { radius, mass, ...rest } = this.sphere(id);
@@ -325,6 +334,17 @@ export class World {
   setForce(id, force) {
     const text = tables({ forces: [force] });
     attemptPart(() => this.#world.setForce(id, text));
+  }
+
+  setSpring(id, changes) {
+    const { id: _, ...now } = this.springs.find((spring) => spring.id === id) ?? {};
+    // A pair takes the place of a sphere and a point, and these of a pair.
+    const { spheres, sphere, anchor, ...numbers } = now;
+    const isToPoint = (changes.sphere ?? changes.anchor) !== undefined;
+    const pair = isToPoint ? {} : { spheres };
+    const ends = changes.spheres === undefined ? { sphere, anchor, ...pair } : {};
+    const text = tables({ springs: [{ ...numbers, ...ends, ...changes }] });
+    attemptPart(() => this.#world.setSpring(id, text));
   }
 
   setSimulation(changes) {
@@ -348,6 +368,10 @@ export class World {
   removeForce(id) {
     attempt(() => this.#world.removeForce(id));
   }
+
+  removeSpring(id) {
+    attempt(() => this.#world.removeSpring(id));
+  }
 }
 
 // `using world = ...`, where the language has it.
@@ -368,3 +392,6 @@ const COLLIDER = {
   trigger: false,
   visible: true,
 };
+
+/** What scene files leave out of a spring. */
+const SPRING = { damping: 0, onlyPulls: false };

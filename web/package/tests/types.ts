@@ -33,6 +33,15 @@ own.addCollider({ shape: { container: { size: [1, 2, 3], open: "above" } } });
 // @ts-expect-error: a collider needs a shape
 own.addCollider({ position: [0, 0, 0] });
 own.addForce({ viscousDrag: { coefficient: 0.1 } });
+const spring: number = own.addSpring({ sphere: ball, anchor: [0, 1, 0], stiffness: 8 });
+own.addSpring({ spheres: [0, 1], stiffness: 8, restLength: 0.5, damping: 1, onlyPulls: true });
+// @ts-expect-error: a spring has two ends
+own.addSpring({ sphere: ball, stiffness: 8 });
+// @ts-expect-error: a spring has a stiffness
+own.addSpring({ spheres: [0, 1] });
+own.setSpring(spring, { damping: 2 });
+own.removeSpring(spring);
+const lengths: number[] = own.springs.map(({ restLength }) => restLength);
 own.setSphere(ball, { velocity: [0, 1, 0] });
 own.setCollider(0, { restitution: 0.5 });
 const changes: SimulationChanges = { exact: { impactLaw: "simultaneous", maxImpacts: 100 } };
@@ -94,6 +103,7 @@ console.log(
   told,
   firstTime,
   largest,
+  lengths,
   x,
   z,
   own.stateHash(),

@@ -54,7 +54,16 @@ impl Spring {
     /// The description of a spring between spheres of which these are the ids, ascending; `None` if one of its ends
     /// is not among them.
     pub fn of(spring: &carom::Spring, ids: &[SphereId]) -> Option<Self> {
-        let number = |id: SphereId| Some(ids.binary_search(&id).ok()? as u32);
+        Self::naming(spring, |id| Some(ids.binary_search(&id).ok()? as u32))
+    }
+
+    /// The description of a spring of a running world, where spheres go by their ids; `None` if one of these needs
+    /// more than 32 bits.
+    pub fn by_ids(spring: &carom::Spring) -> Option<Self> {
+        Self::naming(spring, |id| u32::try_from(id.number()).ok())
+    }
+
+    fn naming(spring: &carom::Spring, number: impl Fn(SphereId) -> Option<u32>) -> Option<Self> {
         let own = number(spring.sphere)?;
         let (spheres, sphere, anchor) = match spring.to {
             SpringEnd::Sphere(other) => (Some([own, number(other)?]), None, None),

@@ -8,7 +8,10 @@
 //!
 //! Things go by the numbers of their ids. TOML gives every number back to the bit.
 
-use carom::{ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Mass, SOLID_BALL, SphereId};
+use carom::{
+    ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Mass, SOLID_BALL, SphereId, SpringEnd,
+    SpringId,
+};
 use carom_scene::legible;
 use carom_scene::scene::{Color, Force, Quaternion, Simulation, Vector};
 use serde::{Deserialize, Serialize};
@@ -17,7 +20,7 @@ use crate::change::{Change, PastChange};
 use crate::edit::{Edit, SphereChange};
 
 /// Longest account of what is wrong \[characters\]: enough for all kinds of edits there are.
-const LONGEST_PROBLEM: usize = 300;
+const LONGEST_PROBLEM: usize = 330;
 
 /// Changes as TOML.
 pub fn to_toml(changes: &[PastChange]) -> String {
@@ -86,6 +89,9 @@ enum Written {
     Force { force: u64, is: Force },
     AddForce(Force),
     RemoveForce(u64),
+    Spring { spring: u64, is: Spring },
+    AddSpring(Spring),
+    RemoveSpring(u64),
     ColliderRestitution { collider: u64, restitution: f64 },
     AllColliderRestitutions(f64),
     ColliderFriction { collider: u64, friction: SurfaceFriction },
@@ -94,6 +100,26 @@ enum Written {
     Sphere { sphere: u64, changes: Box<SphereFields> },
     Throw { sphere: Box<Sphere>, color: Option<Color> },
     RemoveSphere(u64),
+}
+
+/// [`carom::Spring`], written.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Spring {
+    sphere: u64,
+    to: WrittenEnd,
+    rest_length: f64,
+    stiffness: f64,
+    damping: f64,
+    only_pulls: bool,
+}
+
+/// [`SpringEnd`], written.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+enum WrittenEnd {
+    Sphere(u64),
+    Point(Vector),
 }
 
 /// [`SphereChange`], written.
@@ -187,6 +213,9 @@ impl From<&Change> for Written {
             Edit::Force(id, force) => Self::Force { force: id.number(), is: force.clone() },
             Edit::AddForce(force) => Self::AddForce(force.clone()),
             Edit::RemoveForce(id) => Self::RemoveForce(id.number()),
+            Edit::Spring(id, spring) => Self::Spring { spring: id.number(), is: spring.into() },
+            Edit::AddSpring(spring) => Self::AddSpring(spring.into()),
+            Edit::RemoveSpring(id) => Self::RemoveSpring(id.number()),
             Edit::ColliderRestitution(id, restitution) => {
                 Self::ColliderRestitution { collider: id.number(), restitution: *restitution }
             }
@@ -220,6 +249,11 @@ impl From<Written> for Change {
             Written::Force { force, is } => Edit::Force(ForceId::from_number(force), is),
             Written::AddForce(force) => Edit::AddForce(force),
             Written::RemoveForce(force) => Edit::RemoveForce(ForceId::from_number(force)),
+            Written::Spring { spring, is } => {
+                Edit::Spring(SpringId::from_number(spring), is.into())
+            }
+            Written::AddSpring(spring) => Edit::AddSpring(spring.into()),
+            Written::RemoveSpring(spring) => Edit::RemoveSpring(SpringId::from_number(spring)),
             Written::ColliderRestitution { collider, restitution } => {
                 Edit::ColliderRestitution(ColliderId::from_number(collider), restitution)
             }
@@ -241,6 +275,38 @@ impl From<Written> for Change {
             }
             Written::RemoveSphere(sphere) => Edit::RemoveSphere(SphereId::from_number(sphere)),
         })
+    }
+}
+
+impl From<&carom::Spring> for Spring {
+    fn from(spring: &carom::Spring) -> Self {
+        Self {
+            sphere: spring.sphere.number(),
+            to: match spring.to {
+                SpringEnd::Sphere(sphere) => WrittenEnd::Sphere(sphere.number()),
+                SpringEnd::Point(point) => WrittenEnd::Point(point.to_array()),
+            },
+            rest_length: spring.rest_length,
+            stiffness: spring.stiffness,
+            damping: spring.damping,
+            only_pulls: spring.only_pulls,
+        }
+    }
+}
+
+impl From<Spring> for carom::Spring {
+    fn from(spring: Spring) -> Self {
+        Self {
+            sphere: SphereId::from_number(spring.sphere),
+            to: match spring.to {
+                WrittenEnd::Sphere(sphere) => SpringEnd::Sphere(SphereId::from_number(sphere)),
+                WrittenEnd::Point(point) => SpringEnd::Point(DVec3::from_array(point)),
+            },
+            rest_length: spring.rest_length,
+            stiffness: spring.stiffness,
+            damping: spring.damping,
+            only_pulls: spring.only_pulls,
+        }
     }
 }
 

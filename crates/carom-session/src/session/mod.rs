@@ -223,7 +223,7 @@ impl Session {
         let is_same = Arc::ptr_eq(&view.scene, &self.scene);
         if !(is_same && view.spheres.stamp == self.stamp) {
             self.fill_properties(&mut view.spheres);
-            replace(&mut view.springs, self.world.springs().map(|(_, spring)| *spring));
+            replace(&mut view.springs, self.world.springs().map(|(id, spring)| (id, *spring)));
             view.scene = self.scene.clone();
         }
         self.fill_motion(&mut view.spheres);

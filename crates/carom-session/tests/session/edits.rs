@@ -1,6 +1,6 @@
 //! Edits: each changes the world and what is said of it, or nothing.
 
-use carom::{Bisect, ConstantForce, DVec3, Exact, Friction, Sphere};
+use carom::{Bisect, ConstantForce, DVec3, Exact, Friction, Sphere, Spring, SpringId};
 use carom_scene::scene::{self, Color, Force, ImpactLaw, Integrator};
 use carom_session::{Edit, Session, SphereChange, View};
 
@@ -66,6 +66,37 @@ fn forces_are_changed_added_and_removed_in_both() {
     assert!(session.edit(Edit::AddForce(negative.clone())).is_err());
     assert!(session.edit(Edit::Force(gravity, negative)).is_err());
     assert_eq!(session.setup().forces.len(), 2);
+}
+
+#[test]
+fn springs_are_changed_added_and_removed_and_shown_and_saved() {
+    let mut session = busy();
+    let ids = session.world().spheres().ids().to_vec();
+    let pair = Spring::between(ids[0], ids[1], 0.5).with_stiffness(20.0);
+    let thread = Spring::to_point(ids[2], DVec3::Y, 1.0).with_only_pulls(true);
+    session.edit(Edit::AddSpring(pair)).unwrap();
+    session.edit(Edit::AddSpring(thread)).unwrap();
+    let stiff = pair.with_stiffness(50.0).with_damping(0.25);
+    let [first, second] = [0, 1].map(SpringId::from_number);
+    session.edit(Edit::Spring(first, stiff)).unwrap();
+    assert_eq!(view(&session).springs, [(first, stiff), (second, thread)]);
+    session.edit(Edit::RemoveSpring(second)).unwrap();
+    assert_eq!(view(&session).springs, [(first, stiff)]);
+    let saved = session.scene_now().springs;
+    assert_eq!((saved[0].spheres, saved[0].damping), (Some([0, 1]), 0.25));
+    // What makes no sense changes nothing.
+    for wrong in [
+        Edit::AddSpring(pair.with_damping(-1.0)),
+        Edit::Spring(first, pair.with_stiffness(f64::NAN)),
+        Edit::AddSpring(Spring::between(ids[0], ids[0], 1.0)),
+        Edit::Spring(second, thread),
+        Edit::RemoveSpring(second),
+    ] {
+        assert!(session.edit(wrong.clone()).is_err(), "{wrong:?}");
+    }
+    assert_eq!(view(&session).springs, [(first, stiff)]);
+    session.edit(Edit::RemoveSphere(ids[1])).unwrap();
+    assert_eq!(view(&session).springs, []);
 }
 
 #[test]

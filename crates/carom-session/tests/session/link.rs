@@ -1,7 +1,8 @@
 //! Links: what is opened from one is what the link was made of, to the bit.
 
 use carom::{
-    ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Mass, Sphere, SphereId, StateHash,
+    ColliderId, DQuat, DVec3, EmitterId, ForceId, Friction, Mass, Sphere, SphereId, Spring,
+    SpringId, StateHash,
 };
 use carom_scene::scene::{Boundary, Force, Rule, Simulation, Zones};
 use carom_scene::{BUILT_IN_FILES, Override, Scene};
@@ -151,6 +152,9 @@ fn edits() -> Vec<Edit> {
         angular_velocity: Some(DVec3::from_array(array)),
     };
     let silent = SphereChange { friction: Some(Friction::default()), ..SphereChange::default() };
+    let [one, other] = [3, u64::MAX / 2].map(SphereId::from_number);
+    let between = Spring::between(one, other, a);
+    let to_point = Spring::to_point(other, DVec3::from_array(array), e);
     vec![
         Edit::Simulation(Box::new(simulation)),
         Edit::FrameTime(b),
@@ -158,6 +162,9 @@ fn edits() -> Vec<Edit> {
         Edit::Force(ForceId::from_number(1), Force::ViscousDrag { coefficient: c }),
         Edit::AddForce(Force::Constant { force: array }),
         Edit::RemoveForce(ForceId::from_number(7)),
+        Edit::AddSpring(between.with_damping(c)),
+        Edit::Spring(SpringId::from_number(3), to_point.with_stiffness(b).with_only_pulls(true)),
+        Edit::RemoveSpring(SpringId::from_number(u64::MAX / 2)),
         Edit::ColliderRestitution(ColliderId::from_number(3), b),
         Edit::AllColliderRestitutions(f),
         Edit::ColliderFriction(ColliderId::from_number(2), friction.with_tangential_restitution(e)),
@@ -217,7 +224,13 @@ fn edited() -> Session {
         0,
         Edit::Force(ForceId::from_number(0), Force::Gravity { acceleration: [0.0, -5.0, 0.0] }),
     );
-    edit(9, Edit::RemoveSphere(SphereId::from_number(4)));
+    let ball = SphereId::from_number(4);
+    edit(0, Edit::AddSpring(Spring::between(ball, SphereId::from_number(2), 1.0)));
+    edit(2, Edit::AddSpring(Spring::to_point(ball, DVec3::Y, 0.5)));
+    let anchor = Spring::to_point(SphereId::from_number(2), DVec3::new(0.0, 3.0, 0.0), 1.0);
+    edit(1, Edit::Spring(SpringId::from_number(1), anchor.with_stiffness(9.0)));
+    edit(9, Edit::RemoveSphere(ball));
+    edit(3, Edit::RemoveSpring(SpringId::from_number(1)));
     edit(1, Edit::ColliderRestitution(ColliderId::from_number(1), 0.4));
     let (id, mut emitter) = session.world().emitters().next().map(|(id, it)| (id, *it)).unwrap();
     emitter.period = 0.05;

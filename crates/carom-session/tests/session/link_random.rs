@@ -1,6 +1,6 @@
 //! Links of random sessions: whatever is done is repeated to the bit.
 
-use carom::{ColliderId, DVec3, ForceId, Friction, Sphere, SphereId};
+use carom::{ColliderId, DVec3, ForceId, Friction, Sphere, SphereId, Spring, SpringId};
 use carom_scene::scene::{Force, Rule, Zones};
 use carom_session::{Edit, Session, SphereChange};
 use proptest::prelude::*;
@@ -41,6 +41,15 @@ fn edit() -> impl Strategy<Value = Edit> {
             .prop_map(move |(id, it)| Edit::Force(ForceId::from_number(id), force(it))),
         (0..4_u64).prop_map(|id| Edit::RemoveForce(ForceId::from_number(id))),
         (-1.0..1.0).prop_map(move |it| Edit::AddForce(force(it))),
+        (0..20_u64, 0..20_u64, -0.1..9.0).prop_map(|(one, other, it)| {
+            let [one, other] = [one, other].map(SphereId::from_number);
+            Edit::AddSpring(Spring::between(one, other, 0.1 * it).with_stiffness(it))
+        }),
+        (0..4_u64, 0..20_u64, -0.1..9.0).prop_map(|(id, sphere, it)| {
+            let spring = Spring::to_point(SphereId::from_number(sphere), DVec3::Y, 1.0);
+            Edit::Spring(SpringId::from_number(id), spring.with_stiffness(it))
+        }),
+        (0..4_u64).prop_map(|id| Edit::RemoveSpring(SpringId::from_number(id))),
         (0..20_u64, -3.0..3.0).prop_map(move |(id, it)| {
             Edit::Sphere(SphereId::from_number(id), Box::new(push(DVec3::new(it, 2.0, -it))))
         }),

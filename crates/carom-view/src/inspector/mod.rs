@@ -7,6 +7,7 @@ mod force;
 mod friction;
 mod parameters;
 pub mod simulation;
+mod spring;
 mod value;
 
 use carom_scene::Parameter;
@@ -31,6 +32,9 @@ pub fn show(
         section(ui, "Ball", true, |ui| ball::show(ui, view, commands));
         section(ui, "Simulation", true, |ui| simulation::show(ui, view, commands));
         section(ui, "Forces", true, |ui| force::show(ui, view, commands));
+        if !view.springs.is_empty() || view.picked.is_some() {
+            section(ui, "Springs", true, |ui| spring::show(ui, view, commands));
+        }
         if !view.setup.colliders.is_empty() {
             section(ui, "Surfaces", true, |ui| collider::show(ui, view, commands));
         }

@@ -67,6 +67,16 @@ pub(super) fn optional(ui: &mut Ui, field: Field, value: &mut Option<f64>) -> bo
     })
 }
 
+/// A row with a choice of yes or no; `hint` says what yes means. Returns whether it was changed.
+pub(super) fn tick(ui: &mut Ui, name: &str, hint: &str, value: &mut bool) -> bool {
+    row(ui, Field::any(name, ""), |ui| {
+        let response = ui.checkbox(value, "").on_hover_text(hint);
+        response
+            .widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, *value, name));
+        response.changed()
+    })
+}
+
 /// Most that a count can be dragged to: more sub-steps or sweeps than that are typed into scene files.
 const MOST: u32 = 1000;
 

@@ -16,5 +16,6 @@ mod plots;
 mod revisions;
 mod scenes;
 mod sides;
+mod springs;
 mod touch;
 mod transport;

@@ -1,0 +1,123 @@
+//! Springs and threads between balls, or from one to a fixed point.
+
+use carom::{DVec3, SphereId, Spring, SpringEnd, SpringId};
+use carom_session::{Command, Edit, View};
+use egui::{CollapsingHeader, Ui};
+
+use super::value::{Field, number, tick, vector};
+
+/// Springs that are listed at once.
+const LISTED: usize = 24;
+
+/// Stiffness of a new spring by the mass of its lighter ball \[N/(m kg)\]: it swings about once in a second.
+const NEW_STIFFNESS: f64 = 40.0;
+
+pub(super) fn show(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+    let is_at_picked = |spring: &Spring| spring.spheres().any(|id| view.picked == Some(id));
+    let (at_picked, others): (Vec<_>, Vec<_>) =
+        view.springs.iter().partition(|(_, spring)| is_at_picked(spring));
+    // A picked ball chooses among many.
+    let shown = if at_picked.is_empty() { &others } else { &at_picked };
+    for (id, spring) in shown.iter().take(LISTED) {
+        row(ui, *id, spring, commands);
+    }
+    let more = view.springs.len() - shown.len().min(LISTED);
+    if more > 0 {
+        ui.weak(format!("and {more} others: pick a ball for those at it"));
+    }
+    add(ui, view, commands);
+}
+
+/// A spring, to be unfolded.
+fn row(ui: &mut Ui, id: SpringId, before: &Spring, commands: &mut Vec<Command>) {
+    let mut spring = *before;
+    let header = CollapsingHeader::new(title(before)).id_salt(("spring", id));
+    header.show(ui, |ui| {
+        if let SpringEnd::Point(point) = &mut spring.to {
+            let mut place = point.to_array();
+            if vector(ui, Field::any("fixed at", "m"), &mut place) {
+                *point = DVec3::from_array(place);
+            }
+        }
+        number(ui, Field::not_negative("rest length", "m"), &mut spring.rest_length);
+        number(ui, Field::not_negative("stiffness", "N/m"), &mut spring.stiffness);
+        number(ui, Field::not_negative("damping", "kg/s"), &mut spring.damping);
+        tick(ui, "only pulls", "A thread: slack up to its rest length", &mut spring.only_pulls);
+        if spring != *before {
+            commands.push(Command::Edit(Edit::Spring(id, spring)));
+        }
+        if ui.small_button("Remove spring").clicked() {
+            commands.push(Command::Edit(Edit::RemoveSpring(id)));
+        }
+    });
+}
+
+/// What a spring joins, in words.
+fn title(spring: &Spring) -> String {
+    match spring.to {
+        SpringEnd::Sphere(other) => format!("ball {} to ball {other}", spring.sphere),
+        SpringEnd::Point(point) => {
+            let [x, y, z] = point.to_array().map(|it| (1e3 * it).round() / 1e3);
+            format!("ball {} to ({x}, {y}, {z})", spring.sphere)
+        }
+    }
+}
+
+/// Buttons for springs of the picked ball: to the one picked before, and to the place where it is.
+fn add(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+    let before = picked_before(ui, view);
+    let Some(ball) = view.picked.and_then(|id| Ball::of(view, id)) else {
+        ui.weak("Pick a ball, or two one after the other, to join them.");
+        return;
+    };
+    let mut add = |ui: &mut Ui, text: &str, spring: &dyn Fn() -> Spring| {
+        if ui.small_button(text).clicked() {
+            commands.push(Command::Edit(Edit::AddSpring(spring())));
+        }
+    };
+    if let Some(other) = before.and_then(|id| Ball::of(view, id)) {
+        let text = format!("+ spring to ball {}", other.id);
+        add(ui, &text, &|| ball.joined_to(&other, view));
+    }
+    add(ui, "+ spring to this place", &|| {
+        let spring = Spring::to_point(ball.id, ball.position, 0.0);
+        spring.with_stiffness(NEW_STIFFNESS * ball.mass)
+    });
+}
+
+/// The ball that was picked before the one that is.
+fn picked_before(ui: &Ui, view: &View) -> Option<SphereId> {
+    // In another scene the same number is another ball.
+    let id = ui.scope_id().with(("picked", &view.scene.name));
+    ui.data_mut(|data| {
+        let [last, before]: &mut [Option<SphereId>; 2] = data.get_temp_mut_or_default(id);
+        if view.picked.is_some() && view.picked != *last {
+            (*last, *before) = (view.picked, *last);
+        }
+        *before
+    })
+}
+
+/// A ball that is to be joined.
+struct Ball {
+    id: SphereId,
+    position: DVec3,
+    mass: f64,
+}
+
+impl Ball {
+    /// A ball that is in the scene.
+    fn of(view: &View, id: SphereId) -> Option<Self> {
+        let index = view.spheres.index_of(id)?;
+        let (position, mass) = (view.spheres.positions[index], view.spheres.masses[index]);
+        Some(Self { id, position, mass })
+    }
+
+    /// A spring to another ball that is at rest now.
+    fn joined_to(&self, other: &Self, view: &View) -> Spring {
+        let boundary = carom::Boundary::from(view.setup.simulation.boundary);
+        let length = boundary.nearest_image(other.position - self.position).length();
+        let stiffness = NEW_STIFFNESS * self.mass.min(other.mass);
+        Spring::between(self.id, other.id, length).with_stiffness(stiffness)
+    }
+}
