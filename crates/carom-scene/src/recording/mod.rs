@@ -16,7 +16,6 @@ mod recovery;
 mod replay;
 mod rotation;
 mod short_lines;
-mod start;
 mod table_file;
 mod vtk;
 

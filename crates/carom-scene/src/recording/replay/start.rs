@@ -2,7 +2,8 @@
 
 use carom::Boundary;
 
-use super::replay::{LineProblem, ReplayBall, ReplayFrame};
+use super::error::LineProblem;
+use super::frame::{ReplayBall, ReplayFrame};
 use crate::scene::Scene;
 
 /// Within a frame a ball comes farther than at its larger speed at both ends where it was struck twice: by
