@@ -128,8 +128,6 @@ pub extern "C" fn carom_world_remove_spring(world: CaromWorld, id: u64) -> Carom
     call(|| {
         world.with(|inner| {
             let id = SpringId::from_number(id);
-            // Looked up first: to remove what is not there would let all flights begin anew.
-            inner.world.spring(id)?;
             inner.world.remove_spring(id)?;
             Ok(())
         })

@@ -55,8 +55,8 @@ pub fn advice_for_springs([frame, stable]: [f64; 2]) -> Option<String> {
     let text = || {
         format!(
             "frames of {frame:.3e} s are too long for the springs, whose motion may grow without bound: \
-             `frame_time` has to be at most {stable:.3e} s, or the rule `exact`, which takes any"
+             `frame_time` has to be below {stable:.4e} s; the rule `exact` takes any"
         )
     };
-    (frame > stable).then(text)
+    (frame >= stable).then(text)
 }

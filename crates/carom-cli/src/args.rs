@@ -119,8 +119,8 @@ pub enum Command {
     Show(Show),
     /// Run a scene, or what a link leads to, and print what became of it.
     Run(Box<Run>),
-    /// Make the complete file of what a killed run left: an .npz file of NAME.npz.0.unfinished. Of a .csv
-    /// table, take out a last line that is cut short.
+    /// Make the complete file of what a killed run left: an .npz file of NAME.npz.0.unfinished, a film of
+    /// NAME.mp4.0.unfinished. Of a .csv table, take out a last line that is cut short.
     Recover(Recover),
     /// Print a link that opens a run of a scene in a browser; `carom run --link` runs it here.
     Link(Link),
@@ -150,6 +150,9 @@ pub enum Command {
     /// own frame time, as `carom run` does it: where a frame of the film falls between two of
     /// these, balls and surfaces are shown on the straight way from one to the other. Ctrl-C ends
     /// the film early.
+    ///
+    /// Until the film is complete, its frames are in PATH.0.unfinished, which players open, too; `carom
+    /// recover PATH` makes the film of what a killed run left there.
     #[cfg(feature = "pictures")]
     Record(Box<Record>),
     /// Play the maze game in a window, or print a random maze.
@@ -268,7 +271,7 @@ pub struct Run {
     pub json: bool,
 }
 
-/// Make the complete file of what a killed run left: a recording, .npz, a film, .mp4, or a table, .csv.
+/// What is recovered, and where it goes.
 #[derive(Debug, clap::Args)]
 pub struct Recover {
     /// The unfinished file, or the name of the file that it was to become.

@@ -37,8 +37,23 @@ fn film(unfinished: &Path, _target: &Path) -> Result<Recovered, Failure> {
     Err(Failure::Usage(text))
 }
 
-/// The unfinished file, and the one to make of it.
+/// The unfinished file, and the one to make of it, which is another one.
 fn places(args: &Recover) -> Result<(PathBuf, PathBuf), Failure> {
+    let (unfinished, target) = named(args)?;
+    let is_same = match (unfinished.canonicalize(), target.canonicalize()) {
+        (Ok(unfinished), Ok(target)) => unfinished == target,
+        _ => false,
+    };
+    if is_same {
+        let name = target.display();
+        let text = format!("{name} is the unfinished file itself; name another one by --out");
+        return Err(Failure::Usage(text));
+    }
+    Ok((unfinished, target))
+}
+
+/// The unfinished file that is named, and the one that it is to become.
+fn named(args: &Recover) -> Result<(PathBuf, PathBuf), Failure> {
     let Recover { file, out, .. } = args;
     if let Some(target) = unfinished::target_of(file) {
         return Ok((file.clone(), out.clone().unwrap_or(target)));

@@ -60,7 +60,7 @@ pub fn check(scene: &Scene) -> Result<(), Fault> {
 struct Seen {
     /// Whether spheres were stepped, which loses what holds of events.
     zone: bool,
-    /// Whether a contact lasted: its forces may be held over a frame.
+    /// Whether a contact lasted: its forces may be held for a time.
     contact: bool,
 }
 

@@ -51,8 +51,6 @@ impl Engine {
     fn remove_spring(&self, py: Python<'_>, id: &Bound<'_, PyAny>) -> PyResult<()> {
         let id = SpringId::from_number(arguments::id("spring", id)?);
         self.change(py, |inner| {
-            // Looked up first: to remove what is not there would let all flights begin anew.
-            inner.world.spring(id)?;
             inner.world.remove_spring(id)?;
             Ok(())
         })

@@ -64,11 +64,12 @@ pub(crate) fn close(source: &mut File, target: File) -> Result<Closed, CloseErro
     let mut read = 0;
     let mut time = 0.0;
     while let Some(frame) = fragments.next_frame()? {
-        read += frame.bits.len() as u64;
-        if read > MOST_BYTES {
+        // As many as a film takes: the last one may be beyond that.
+        if read >= MOST_BYTES {
             let text = "it is longer than a film can be";
             return Err(io::Error::new(io::ErrorKind::InvalidData, text).into());
         }
+        read += frame.bits.len() as u64;
         muxer.write_video(time, &frame.bits, frame.is_keyframe)?;
         time = form.time_of(fragments.frames);
     }
@@ -84,7 +85,8 @@ pub(crate) fn close(source: &mut File, target: File) -> Result<Closed, CloseErro
 /// Makes the film `target` of what a killed process left in `unfinished`, and removes that.
 ///
 /// # Errors
-/// [`RecoveryError`]; then `unfinished` and `target` are as they were before.
+/// [`RecoveryError`]; then `unfinished` and `target` are as they were before, but where the complete film is
+/// there and only `unfinished` cannot be removed.
 pub fn recover_film(unfinished: &Path, target: &Path) -> Result<Recovered, RecoveryError> {
     let path = unfinished.to_owned();
     let unreadable = |source| RecoveryError::Unreadable { path: unfinished.to_owned(), source };

@@ -58,9 +58,11 @@ pub(crate) fn check_texts(scene: &Scene) -> Result<(), Problem> {
             format!("must have at most {longest} characters")
         })?;
     }
-    let named = scene.colliders.iter().map(|collider| &collider.name).enumerate();
-    for (i, name) in named {
-        check(name.chars().nth(of_name).is_none(), &format!("colliders[{i}].name"), || {
+    let colliders = scene.colliders.iter().map(|it| &it.name).enumerate();
+    let emitters = scene.emitters.iter().map(|it| &it.name).enumerate();
+    let of = |list: &'static str| move |(i, name)| (list, i, name);
+    for (list, i, name) in colliders.map(of("colliders")).chain(emitters.map(of("emitters"))) {
+        check(name.chars().nth(of_name).is_none(), &format!("{list}[{i}].name"), || {
             format!("must have at most {of_name} characters")
         })?;
     }

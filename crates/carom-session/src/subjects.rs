@@ -42,7 +42,7 @@ impl Subjects<'_> {
             Edit::RemoveForce(id) => remove_force(*id, world, setup),
             Edit::Spring(id, spring) => Ok(world.set_spring(*id, *spring)?),
             Edit::AddSpring(spring) => Ok(world.add_spring(*spring).map(drop)?),
-            Edit::RemoveSpring(id) => remove_spring(*id, world),
+            Edit::RemoveSpring(id) => Ok(world.remove_spring(*id).map(drop)?),
             Edit::ColliderRestitution(id, restitution) => {
                 set_collider(*id, world, setup, |it| it.with_restitution(*restitution))
             }
@@ -152,12 +152,6 @@ fn remove_force(
     world.remove_force(id)?;
     Arc::make_mut(setup).forces.retain(|it| it.0 != id);
     Ok(())
-}
-
-fn remove_spring(id: SpringId, world: &mut World) -> Result<(), SessionError> {
-    // Looked up first: a world that does not know the spring would let all flights begin anew.
-    world.spring(id)?;
-    Ok(world.remove_spring(id).map(drop)?)
 }
 
 /// Changes what a collider is like, not where it is or what it is.

@@ -82,7 +82,7 @@ pub enum Error {
 fn for_springs(stable_frame: Option<f64>) -> String {
     let text = |frame| {
         format!(
-            ". Springs need frames of at most {frame:.3e} s under this rule; the rule `exact` takes any"
+            ". Springs may need frames below {frame:.4e} s under this rule; the rule `exact` takes any"
         )
     };
     stable_frame.map(text).unwrap_or_default()

@@ -162,7 +162,8 @@ impl State {
     /// The flights, if all begin anew in each frame: then a change from outside to some of them leaves
     /// the others good. Any others are dropped.
     fn renewed_flights(&mut self) -> Option<&mut Timeline> {
-        if !self.timeline.as_ref().is_some_and(Timeline::is_renewed_each_frame) {
+        let are_applied = !self.spheres.applied_forces().is_empty();
+        if !self.timeline.as_ref().is_some_and(|it| it.is_renewed_each_frame(are_applied)) {
             self.drop_flights();
         }
         self.timeline.as_mut()
@@ -186,7 +187,7 @@ impl State {
             if let Some(index) = values.iter().position(|value| !value.is_finite()) {
                 let sphere = self.spheres.ids()[index];
                 let time = self.clock.seconds();
-                let stable_frame = Some(self.longest_stable_frame()).filter(|&stable| stable < h);
+                let stable_frame = Some(self.longest_stable_frame()).filter(|&stable| stable <= h);
                 return Err(Error::NonFiniteState { sphere, quantity, time, stable_frame });
             }
         }

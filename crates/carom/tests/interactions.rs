@@ -479,3 +479,53 @@ fn springs_too_stiff_for_force_ticks_are_refused_by_their_rate() {
     assert!(refused.starts_with("step: `stiffness` must be of springs"), "{refused}");
     assert_eq!(world.time(), 0.0);
 }
+
+#[test]
+fn force_ticks_follow_the_scale_of_frames() {
+    // A double star by years, by seconds and by microseconds: the same orbit, with G = 4 pi² / scale².
+    let after = |scale: f64| {
+        let mut world = world(Exact::default());
+        world.add_force(MutualGravity::new(TAU * TAU / (scale * scale))).unwrap();
+        let speed = 0.5 * TAU / scale * 2.0_f64.sqrt();
+        for side in [1.0, -1.0] {
+            let star = Sphere::new(vec(0.5 * side, 0.0, 0.0), 1e-3);
+            world.add_sphere(star.with_velocity(vec(0.0, speed * side, 0.0))).unwrap();
+        }
+        let mut stages = 0;
+        for _ in 0..500 {
+            stages += world.step(scale / 1000.0).unwrap().work.predictions;
+        }
+        (world.spheres().positions()[0], stages)
+    };
+    let (expected, _) = after(1.0);
+    for scale in [3e7, 1e-6] {
+        let (place, predictions) = after(scale);
+        assert!(place.distance(expected) < 0.05, "{scale}: {place} instead of {expected}");
+        // 64 ticks in each of 500 frames, for each of two spheres.
+        assert!(predictions <= 2 * 65 * 500, "{scale}: {predictions}");
+    }
+}
+
+#[test]
+fn a_spring_in_a_stepped_zone_gains_no_energy() {
+    for stiffness in [1e3, 1e6] {
+        let mut world = world(Exact::default().with_max_impacts(50));
+        world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+        let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(0.0);
+        world.add_collider(floor).unwrap();
+        for i in 0..6 {
+            let place = vec(1e-3 * f64::from(i), 0.5 + f64::from(i), 0.0);
+            world.add_sphere(Sphere::new(place, 0.5).with_restitution(0.5)).unwrap();
+        }
+        let top = world.spheres().ids()[5];
+        let swings = Spring::to_point(top, vec(0.3, 5.6, 8.0), 8.0).with_stiffness(stiffness);
+        world.add_spring(swings).unwrap();
+        let before = world.total_energy();
+        let mut stepped = 0;
+        for _ in 0..120 {
+            stepped += world.step(1.0 / 60.0).unwrap().zone_account.spheres;
+            assert!(world.total_energy() < 1.05 * before, "{stiffness}: {}", world.total_energy());
+        }
+        assert!(stepped > 0, "{stiffness}");
+    }
+}

@@ -321,7 +321,8 @@ export interface Simulation {
   /** Parameters of `exact`: how impacts at one instant among spheres that touch are answered; how
    *  long a contact lasts [s]; impacts per sphere and frame at most; whether spheres in contact that
    *  take too much work are stepped ("automatic" unless given), from which work of a group in a tick
-   *  on, in contacts times iterations, and how long a tick is [s]. */
+   *  on, in contacts times iterations, and how long a tick is [s]; how long forces without a closed
+   *  form are held [s]. */
   exact: {
     impactLaw: "reflection" | "simultaneous" | "sequential";
     contactDuration: number;
@@ -329,6 +330,7 @@ export interface Simulation {
     zones?: "automatic" | "never";
     zoneBudget?: number;
     zoneTick?: number;
+    forceTick?: number;
   };
   /** Parameters of `bisect`. */
   bisect: {

@@ -54,10 +54,7 @@ pub struct Picture {
     pub replacing: Replacing,
 }
 
-/// Film a scene.
-///
-/// Until the film is complete, its frames are in PATH.0.unfinished, which players open, too; `carom recover PATH` makes the film of what
-/// a killed run left there.
+/// What is filmed, and how.
 #[derive(Debug, clap::Args)]
 pub struct Record {
     /// Name or title of a scene, or a scene file; with --play also a drawn maze, .txt.

@@ -75,9 +75,13 @@ impl SceneText {
         let (mut faults, mut taken): (Vec<Fault>, Vec<String>) = Default::default();
         let bytes: usize = self.sources.iter().map(|source| source.text.len()).sum();
         let most = (BYTES / bytes.max(1)).clamp(1, MOST);
+        // What follows from a fault that is known costs as much as another one.
+        let mut tries = 10 * most;
         while faults.len() < most
+            && tries > 0
             && let Err(problem) = read(table.clone(), self.budget)
         {
+            tries -= 1;
             let field = as_written(&problem.field, &originals);
             let problem = Problem { field, ..problem };
             let found = self.fault(&problem);

@@ -29,7 +29,8 @@ pub struct Exact {
     pub zone_tick: f64,
     /// Time between two force ticks \[s\], > 0: forces that are not linear in the velocity alone, and
     /// those between spheres, are held constant from one to the next. They are at its multiples on the
-    /// world's clock, whatever the frames; where springs need it, it is halved until they are stable.
+    /// world's clock, whatever the frames; where springs need it, it is halved until they are stable. In frames of
+    /// more than 64 of it it is doubled, in those of less than a quarter of it halved, until they are no more.
     pub force_tick: f64,
 }
 

@@ -3,13 +3,12 @@
 
 use super::attempt::Attempt;
 use crate::emitter;
-use crate::error::{Error, Subject};
+use crate::error::{Error, InvalidValue, Subject};
 use crate::forces;
 use crate::id::SphereId;
-use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Until};
+use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Unheld, Until};
 use crate::settings::Exact;
 use crate::state::State;
-use crate::system::System;
 use crate::validate;
 
 /// Takes a step from event to event. If that fails, no sphere was moved.
@@ -50,13 +49,10 @@ fn begin(attempt: &mut Attempt, parameters: Exact, end: f64) -> Result<Timeline,
     let (before, zone) = (state.timeline.take(), std::mem::take(&mut state.zone));
     let next_emission = emitter::next_due(&state.emitters);
     let (system, motion) = state.split();
-    if before.is_none() {
-        check_stiffness(&system, parameters)?;
-    }
     let mut timeline =
         before.unwrap_or_else(|| exact::start(&system, parameters, motion, zone, time));
     exact::begin(&mut timeline, &system, [time, end], next_emission)
-        .map_err(|sphere| no_longer_finite(sphere, "velocity", time))?;
+        .map_err(|unheld| refused_forces(unheld, time))?;
     Ok(timeline)
 }
 
@@ -164,18 +160,18 @@ fn check_count(state: &State) -> Result<(), Error> {
         .map_err(|invalid| invalid.about(Subject::Step))
 }
 
-/// Refuses springs on which spheres move faster than force ticks can follow.
-fn check_stiffness(system: &System, parameters: Exact) -> Result<(), Error> {
-    let rate = system.fastest_spring_rate();
-    let requirement = "of springs, with their damping and the masses of their spheres, such that motion on \
-                       them has a rate of at most 2048 divided by the `force_tick` of the rule exact, in 1/s";
-    validate::require(
-        rate <= exact::fastest_stable_rate(parameters),
-        "stiffness",
-        requirement,
-        rate,
-    )
-    .map_err(|invalid| invalid.about(Subject::Step))
+/// Why forces cannot be held in a step that starts at `time` \[s\].
+fn refused_forces(unheld: Unheld, time: f64) -> Error {
+    match unheld {
+        Unheld::NotFinite(sphere) => no_longer_finite(sphere, "velocity", time),
+        Unheld::TooStiff(rate) => InvalidValue {
+            field: "stiffness",
+            requirement: "of springs, with their damping and the masses of their spheres, such that motion on \
+                          them has a rate of at most 2048 divided by the `force_tick` of the rule exact, in 1/s",
+            value: rate.to_string(),
+        }
+        .about(Subject::Step),
+    }
 }
 
 /// Refuses a periodic box in which a sphere could touch two images of another one.

@@ -99,8 +99,9 @@ impl World {
     /// # Errors
     /// [`Error::Unknown`] if there is no such spring.
     pub fn remove_spring(&mut self, id: SpringId) -> Result<Spring, Error> {
-        let removed = self.state.changed().springs.remove(id.0);
-        removed.ok_or(Error::Unknown(Subject::Spring(id)))
+        let spring = self.spring(id)?;
+        self.state.changed().springs.remove(id.0);
+        Ok(spring)
     }
 
     /// Refuses a spring with numbers that make no sense, or at spheres that are not in the world.

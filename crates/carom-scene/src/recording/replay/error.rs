@@ -109,7 +109,8 @@ pub enum LineProblem {
         /// Time of the line \[s\].
         time: f64,
     },
-    /// In the first frame, a ball is where it cannot have come from its start in the scene.
+    /// In the first frame, most balls are where they cannot have come from their start in the scene; this is the
+    /// first one.
     #[error(
         "ball {ball} is {distance:.3} m from its start after {time} s, at the speed of {speed:.3} m/s; is it \
          another scene, or changed?"

@@ -127,8 +127,8 @@ impl Replay {
     /// The next frame; `None` after the last one.
     ///
     /// # Errors
-    /// [`ReplayError::Line`] for a line that makes no sense, a ball that is not in the scene, or one that cannot
-    /// have come from where it starts there to its first line;
+    /// [`ReplayError::Line`] for a line that makes no sense, a ball that is not in the scene, or where
+    /// most cannot have come from where they start there to the first frame;
     /// [`ReplayError::Empty`] where there is none at all;
     /// [`ReplayError::Unreadable`] if the disk is gone.
     pub fn next_frame(&mut self) -> Result<Option<ReplayFrame>, ReplayError> {

@@ -6,9 +6,11 @@ use super::error::LineProblem;
 use super::frame::{ReplayBall, ReplayFrame};
 use crate::scene::Scene;
 
-/// Within a frame a ball comes farther than at its larger speed at both ends where it was struck twice: by
-/// this factor at most, and by so many radii. Of another scene a ball is hardly ever so near.
+/// Within a frame hardly any ball comes farther than at its larger speed at both ends by this factor, and by so
+/// many radii: one that was struck twice, or came to rest. Of another scene hardly any is so near.
 const WAY: [f64; 2] = [10.0, 2.0];
+/// In longer frames anything may happen \[s\].
+const LONGEST_FRAME: f64 = 0.05;
 
 /// The scene of a recording at its start.
 #[derive(Debug)]
@@ -23,11 +25,15 @@ impl Start {
     pub fn new(scene: &Scene, frame: ReplayFrame, boundary: Boundary) -> Self {
         // A stiff spring may turn a ball round within a frame, and rounding counts for little.
         let frames = if scene.springs.is_empty() { 1.5 } else { 0.0 };
-        Self { frame, boundary, until: frames * scene.simulation.frame_time }
+        let until = (frames * scene.simulation.frame_time).min(LONGEST_FRAME);
+        Self { frame, boundary, until }
     }
 
-    /// The first ball, by its place in the first recorded frame, that cannot have come there.
+    /// If most balls of the first recorded frame cannot have come there: the first one, by its place.
     pub fn first_stray(&self, first: &ReplayFrame) -> Option<(u64, LineProblem)> {
+        if first.time > self.until {
+            return None;
+        }
         let (time, [factor, radii]) = (first.time, WAY);
         let stray = |(row, ball): (u64, &ReplayBall)| {
             let start = self.frame.balls.get(usize::try_from(ball.number).ok()?)?;
@@ -37,6 +43,9 @@ impl Start {
             let problem = LineProblem::Elsewhere { ball: ball.number, distance, time, speed };
             is_stray.then_some((row, problem))
         };
-        if time > self.until { None } else { (0..).zip(&first.balls).find_map(stray) }
+        let strays: Vec<_> = (0..).zip(&first.balls).filter_map(stray).collect();
+        let known = first.balls.len().min(self.frame.balls.len());
+        let are_most = 2 * strays.len() > known;
+        strays.into_iter().next().filter(|_| are_most)
     }
 }

@@ -12,6 +12,7 @@ use super::persistent::{self, held_forces, piece_end};
 use super::predict;
 use super::span::Span;
 use super::stepped;
+use super::ticks;
 use super::timeline::Timeline;
 use super::zone::Zone;
 use crate::bodies::Motion;
@@ -63,7 +64,7 @@ pub(crate) fn start(
     zone.restart(system, time, parameters.zone_tick, &motion.velocity);
     let frame = [time; 2];
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
-    (timeline.force_tick, timeline.held_until) = (held_forces::tick(system, parameters), time);
+    (timeline.spring_rate, timeline.held_until) = (system.fastest_spring_rate(), time);
     arrange(&mut timeline, system, time);
     predict_all(&mut timeline, system, time);
     timeline
@@ -100,7 +101,8 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     flights.set_stepped(&zone.indices(&system.spheres.id));
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     arrange(&mut timeline, system, time);
-    (timeline.force_tick, timeline.next_emission) = (before.force_tick, arrivals.next);
+    (timeline.force_tick, timeline.spring_rate) = (before.force_tick, before.spring_rate);
+    timeline.next_emission = arrivals.next;
     if timeline.flights.hold_forces {
         held_forces::renew(&mut timeline, system, time);
     }
@@ -116,18 +118,19 @@ fn friction_acts(system: &System) -> bool {
 /// Prepares for a frame from and to these times \[s\]. The next spheres are emitted at `next` \[s\].
 ///
 /// # Errors
-/// A sphere on which a force is not finite.
+/// Springs that are too stiff, or a sphere on which a force is not finite.
 pub(crate) fn begin(
     timeline: &mut Timeline,
     system: &System,
     frame: [f64; 2],
     next: f64,
-) -> Result<(), SphereId> {
+) -> Result<(), Unheld> {
     (timeline.frame, timeline.next_emission) = (frame, next);
-    let is_renewed = is_renewal_due(timeline, system, frame[0]);
+    let is_other_tick = set_force_tick(timeline, frame[1] - frame[0])?;
+    let is_renewed = is_other_tick || is_renewal_due(timeline, system, frame[0]);
     if is_renewed {
         held_forces::renew(timeline, system, frame[0]);
-        check_accelerations(timeline, system)?;
+        check_accelerations(timeline, system).map_err(Unheld::NotFinite)?;
     }
     let is_due = is_arrangement_due(timeline, system);
     if is_due {
@@ -140,6 +143,29 @@ pub(crate) fn begin(
     }
     timeline.work.begin(&timeline.flights.bodies);
     Ok(())
+}
+
+/// Why forces cannot be held.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Unheld {
+    /// Motion on springs has this rate \[1/s\], and no force tick follows it.
+    TooStiff(f64),
+    /// The force on this sphere is not finite.
+    NotFinite(SphereId),
+}
+
+/// Has force ticks fit frames of this length \[s\], and springs. Tells whether they are others now.
+fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, Unheld> {
+    if !timeline.flights.forces_vary {
+        return Ok(false);
+    }
+    let (before, rate) = (timeline.force_tick, timeline.spring_rate);
+    let tick = ticks::tick_for_frames(timeline.parameters.force_tick, frame);
+    if !ticks::can_follow_springs(rate, tick) {
+        return Err(Unheld::TooStiff(rate));
+    }
+    timeline.force_tick = ticks::part(tick, ticks::halvings_for_springs(rate, tick));
+    Ok(timeline.force_tick != before)
 }
 
 /// Whether forces are to be found anew at the start of a frame \[s\]: those that are held over it, and others
@@ -159,8 +185,10 @@ pub(super) fn force_tick(
     system: &System,
     now: f64,
 ) -> Result<(), SphereId> {
+    let before: Vec<u32> = timeline.flights.bodies.iter().map(|body| body.generation).collect();
     held_forces::renew(timeline, system, now);
     check_accelerations(timeline, system)?;
+    timeline.work.pass_over(&before, &timeline.flights.bodies);
     predict_all(timeline, system, now);
     Ok(())
 }

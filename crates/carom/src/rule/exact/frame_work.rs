@@ -28,6 +28,15 @@ impl FrameWork {
         self.generations_before.extend(bodies.iter().map(|body| body.generation));
     }
 
+    /// Does not count flights that all began anew at once, and were of these generations before.
+    pub fn pass_over(&mut self, before: &[u32], bodies: &[Body]) {
+        let generations = before.iter().zip(bodies).map(|(before, body)| (before, body.generation));
+        for (counted, (before, now)) in self.generations_before.iter_mut().zip(generations) {
+            // Of a flight that an impact began it adds but one, which counts with that.
+            *counted = counted.wrapping_add(now.wrapping_sub(*before) & !1);
+        }
+    }
+
     /// How many flights of a sphere began, whose flight is of this generation now, and what its groups
     /// took besides.
     #[inline]

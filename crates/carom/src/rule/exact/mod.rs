@@ -32,12 +32,12 @@ mod predict;
 mod prefetch;
 mod span;
 mod stepped;
+mod ticks;
 mod timeline;
 mod zone;
 
-pub(crate) use frame::{Arrivals, adopt, begin, end, persistent_contacts, start};
+pub(crate) use frame::{Arrivals, Unheld, adopt, begin, end, persistent_contacts, start};
 pub(crate) use neighbours::MAX_SPHERES;
-pub(crate) use persistent::held_forces::fastest_stable_rate;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
 pub(crate) use zone::Zone;
@@ -112,9 +112,11 @@ pub(crate) fn advance(
         let (tick, force_tick) = (timeline.zone.next_tick(), timeline.next_force_tick());
         let now = match timeline.next(end.min(tick).min(force_tick)) {
             Some((slot, next)) => happen(timeline, &mut context, slot, next)?,
-            None if tick <= end.min(force_tick) => stepped::tick(timeline, &mut context),
-            // One at the end belongs to the next span.
-            None if force_tick < end => renew_forces(timeline, &mut context, force_tick)?,
+            // Zones are stepped under the forces of the time to come.
+            None if force_tick <= end.min(tick) => {
+                renew_forces(timeline, &mut context, force_tick)?
+            }
+            None if tick <= end => stepped::tick(timeline, &mut context),
             None => break,
         };
         if work.is_stopped() {

@@ -41,6 +41,8 @@ pub(crate) struct Timeline {
     pub(super) frame: [f64; 2],
     /// Time between two force ticks \[s\].
     pub(super) force_tick: f64,
+    /// A bound for the rate of motion on springs \[1/s\].
+    pub(super) spring_rate: f64,
     /// Until when forces are held as they are, on the world's clock \[s\].
     pub(super) held_until: f64,
     /// When the next spheres are emitted, on the world's clock \[s\].
@@ -51,10 +53,10 @@ pub(crate) struct Timeline {
 }
 
 impl Timeline {
-    /// Whether all flights begin anew at the start of each frame, for applied forces that are held over it,
-    /// and none of them is in a zone.
-    pub fn is_renewed_each_frame(&self) -> bool {
-        self.flights.hold_forces && !self.flights.forces_vary && self.zone.is_empty()
+    /// Whether all flights begin anew at the start of each frame, where forces are applied that are held over
+    /// it, and none of them is in a zone.
+    pub fn is_renewed_each_frame(&self, are_applied: bool) -> bool {
+        self.flights.hold_forces && are_applied && self.zone.is_empty()
     }
 
     /// The next force tick, on the world's clock \[s\]; infinite if no force changes with where spheres are.

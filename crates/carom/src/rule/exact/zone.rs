@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use super::flights::{Flights, Rotation};
+use super::ticks::{first_tick_after, halvings_for_springs};
 use crate::bodies::{Motion, Properties, Spin};
 use crate::forces;
 use crate::id::SphereId;
@@ -363,20 +364,14 @@ fn rotation_between(
 }
 
 /// How often a tick \[s\] is to be halved for a sphere: until it is short in relation to the time in which
-/// the sphere falls through its own size.
+/// the sphere falls through its own size, and so short that motion on springs is stable.
 fn halvings_for(system: &System, index: usize, tick: f64) -> u32 {
     let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
     let (linear, _) = forces::total_linear(system.forces, radius, mass);
     let own = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
     let wanted = SHORT * (radius / (linear.acceleration + own).norm()).sqrt();
-    (0..MOST_TICK_HALVINGS)
+    let for_size = (0..MOST_TICK_HALVINGS)
         .find(|&times| tick <= wanted * f64::from(1u32 << times))
-        .unwrap_or(MOST_TICK_HALVINGS)
-}
-
-/// The first tick after a time, both on the world's clock \[s\].
-pub(super) fn first_tick_after(time: f64, tick: f64) -> f64 {
-    let number = (time / tick).floor() + 1.0;
-    let first = number * tick;
-    if first > time { first } else { ((number + 1.0) * tick).max(time.next_up()) }
+        .unwrap_or(MOST_TICK_HALVINGS);
+    for_size.max(halvings_for_springs(system.fastest_spring_rate(), tick))
 }

@@ -8,46 +8,22 @@ use crate::detect::contact::Bodies;
 use crate::forces::{self, SphereState};
 use crate::integrate;
 use crate::rule::exact::contacts::{Corner, Member, Plane};
+use crate::rule::exact::ticks::first_tick_after;
 use crate::rule::exact::timeline::Timeline;
-use crate::rule::exact::zone::first_tick_after;
-use crate::settings::Exact;
 use crate::system::System;
-
-/// The fastest motion on springs turns by at most this angle from one force tick to the next \[rad\]: the
-/// leapfrog scheme is stable up to 2, and the phase of that motion is off by a hundredth of it.
-const MOST_TURN: f64 = 0.5;
-/// Force ticks are halved so often at most.
-const MOST_HALVINGS: u32 = 12;
-
-/// The time between two force ticks \[s\].
-pub(crate) fn tick(system: &System, parameters: Exact) -> f64 {
-    let rate = system.fastest_spring_rate();
-    let halvings = (0..MOST_HALVINGS).find(|&n| rate * part(parameters.force_tick, n) <= MOST_TURN);
-    part(parameters.force_tick, halvings.unwrap_or(MOST_HALVINGS))
-}
-
-/// The fastest rate of motion on springs for which force ticks are short enough \[1/s\].
-pub(crate) fn fastest_stable_rate(parameters: Exact) -> f64 {
-    MOST_TURN / part(parameters.force_tick, MOST_HALVINGS)
-}
-
-/// A time, halved so often.
-fn part(time: f64, halvings: u32) -> f64 {
-    time / f64::from(1u32 << halvings)
-}
 
 /// Until when forces that are found anew `now` \[s\] are held: until the next force tick, or for applied
 /// forces the end of the frame, and no longer than until the next spheres come.
 fn held_until(timeline: &Timeline, system: &System, now: f64) -> f64 {
-    let next_tick = first_tick_after(now, timeline.force_tick);
-    let next_frame = timeline.frame[1].max(now);
-    let until = match (timeline.flights.forces_vary, system.spheres.applied_force.is_empty()) {
-        (true, true) => next_tick,
-        (true, false) => next_tick.min(next_frame),
-        (false, _) => next_frame,
+    let next_tick = match timeline.flights.forces_vary {
+        true => first_tick_after(now, timeline.force_tick),
+        false => timeline.frame[1],
     };
+    let are_applied = !system.spheres.applied_force.is_empty();
+    let others =
+        [timeline.next_emission, if are_applied { timeline.frame[1] } else { f64::INFINITY }];
     // What is due already comes at once, when this is done again.
-    until.min(timeline.next_emission.max(now))
+    others.into_iter().filter(|&other| other > now).fold(next_tick, f64::min)
 }
 
 /// Begins a new flight of every sphere `now` \[s\] under the forces that act on it in the middle of the time

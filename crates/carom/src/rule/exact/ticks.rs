@@ -1,0 +1,45 @@
+//! Ticks: the multiples of a time on the world's clock, whatever the frames.
+
+/// The fastest motion on springs turns by at most this angle from one tick to the next \[rad\]: the leapfrog
+/// scheme is stable up to 2, and the phase of that motion is off by a hundredth of it.
+const MOST_TURN: f64 = 0.5;
+/// For springs a tick is halved so often at most.
+const MOST_HALVINGS: u32 = 12;
+/// Most ticks in a frame, but for springs: of days, say, in the motion of planets.
+const MOST_IN_A_FRAME: f64 = 64.0;
+/// Most frames in a tick.
+const MOST_FRAMES: f64 = 4.0;
+
+/// The first tick after a time, both on the world's clock \[s\].
+pub(super) fn first_tick_after(time: f64, tick: f64) -> f64 {
+    let number = (time / tick).floor() + 1.0;
+    let first = number * tick;
+    if first > time { first } else { ((number + 1.0) * tick).max(time.next_up()) }
+}
+
+/// A tick \[s\] in the order of magnitude of frames of this length \[s\]: doubled while there are too many of
+/// them in a frame, halved while there are too many frames in it.
+pub(super) fn tick_for_frames(mut tick: f64, frame: f64) -> f64 {
+    while frame > MOST_IN_A_FRAME * tick {
+        tick *= 2.0;
+    }
+    while tick > MOST_FRAMES * frame {
+        tick *= 0.5;
+    }
+    tick
+}
+
+/// How often a tick \[s\] is to be halved for motion on springs that has this rate \[1/s\].
+pub(super) fn halvings_for_springs(rate: f64, tick: f64) -> u32 {
+    (0..MOST_HALVINGS).find(|&times| rate * part(tick, times) <= MOST_TURN).unwrap_or(MOST_HALVINGS)
+}
+
+/// Whether a tick \[s\] can be halved as often as springs need it whose motion has this rate \[1/s\].
+pub(super) fn can_follow_springs(rate: f64, tick: f64) -> bool {
+    rate * part(tick, MOST_HALVINGS) <= MOST_TURN
+}
+
+/// A tick \[s\], halved so often.
+pub(super) fn part(tick: f64, halvings: u32) -> f64 {
+    tick / f64::from(1u32 << halvings)
+}
