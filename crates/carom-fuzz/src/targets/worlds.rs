@@ -92,8 +92,9 @@ fn drawn() -> impl Strategy<Value = Drawn> {
         (vec(obstacle(), 0..3), vec(ball(), 1..12), proptest::option::weighted(0.2, springs()));
     (settings, bodies).prop_map(|(settings, (obstacles, balls, springs))| {
         let (rule, boundary, restitution, friction, gravity, turn) = settings;
-        // Under other rules stiff ones are not stable.
-        let springs = springs.filter(|_| rule == "exact");
+        // Under other rules stiff ones are not stable; and many impacts within a force tick heat light balls.
+        let is_slow = balls.iter().all(|ball| ball.velocity.iter().all(|it| it.abs() < 10.0));
+        let springs = springs.filter(|_| rule == "exact" && is_slow);
         // There `exact` refuses what has no closed form, for it steps nothing.
         let friction = friction.filter(|_| boundary != "periodic");
         Drawn { rule, boundary, restitution, friction, gravity, turn, obstacles, balls, springs }
