@@ -112,11 +112,11 @@ pub(crate) fn advance(
         let (tick, force_tick) = (timeline.zone.next_tick(), timeline.next_force_tick());
         let now = match timeline.next(end.min(tick).min(force_tick)) {
             Some((slot, next)) => happen(timeline, &mut context, slot, next)?,
-            // Zones are stepped under the forces of the time to come.
-            None if force_tick <= end.min(tick) => {
+            // Zones are stepped under the forces of the time to come: at the end both wait for those.
+            None if force_tick < end && force_tick <= tick => {
                 renew_forces(timeline, &mut context, force_tick)?
             }
-            None if tick <= end => stepped::tick(timeline, &mut context),
+            None if tick <= end && tick < force_tick => stepped::tick(timeline, &mut context),
             None => break,
         };
         if work.is_stopped() {
