@@ -132,6 +132,20 @@ fn the_film_of_a_recorded_run_is_the_film_of_the_run() {
 }
 
 #[test]
+fn threads_are_seen_in_pictures_and_in_films_of_recordings() {
+    let folder = tempfile::tempdir().unwrap();
+    let hung = picture(&folder, &["cradle-on-threads", "--no-stamp"]);
+    let loose = picture(&folder, &["cradle-on-threads", "--no-stamp", "--set", "springs=none"]);
+    assert!(hung.pixels != loose.pixels);
+    let [table, live, replayed] =
+        ["run.csv", "live.mp4", "replayed.mp4"].map(|name| path(&folder, name));
+    good(&["run", "cradle-on-threads", "--seconds", "0.5", "--out", &table]);
+    film(&live, &["cradle-on-threads", "--seconds", "0.5", "--fps", "30"]);
+    film(&replayed, &["cradle-on-threads", "--from", &table, "--fps", "30"]);
+    assert!(frames(&live) == frames(&replayed));
+}
+
+#[test]
 fn balls_of_a_recorded_run_turn_as_they_did() {
     let folder = tempfile::tempdir().unwrap();
     let [table, plain, live, replayed, unturned] =

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom::{Collider, ColliderId, Emitter, EmitterId, Error, ForceId, SpringId, Subject, World};
+use carom::{Collider, ColliderId, Emitter, EmitterId, Error, ForceId, Subject, World};
 use carom_scene::scene::{self, Force, Scene, Simulation};
 use carom_scene::{Paint, SceneError};
 

@@ -1,16 +1,18 @@
-//! Draws a running world, its spheres from there or from elsewhere.
+//! Draws a running world, its spheres and springs from there or from elsewhere.
 
-use carom_render::{Ball, Drawing, Light};
+use carom::{SphereId, Spring};
+use carom_render::{Ball, Drawing, Light, spring_line};
 use carom_scene::{Palette, Scene};
 
 use super::running::{Running, Seen};
 
-/// Draws these spheres and the surfaces of a world at a time \[s\] up to which it has gone.
+/// Draws these spheres, in the order of their numbers, with these springs, and the surfaces of a world at a time
+/// \[s\] up to which it has gone.
 pub fn draw(
     scene: &Scene,
     running: &Running,
     time: f64,
-    spheres: &[Seen],
+    (spheres, springs): (&[Seen], &[Spring]),
     palette: &Palette,
     drawing: &mut Drawing,
 ) {
@@ -24,6 +26,12 @@ pub fn draw(
             drawing.add_collider(now.shape, pose, palette.collider(i), now.trigger);
         }
     }
+    let place = |id: SphereId| {
+        let found = spheres.binary_search_by_key(&id.number(), |seen| seen.number);
+        Some(spheres[found.ok()?].position)
+    };
+    let boundary = running.world().settings().boundary;
+    drawing.arrows.extend(springs.iter().filter_map(|it| spring_line(it, boundary, place)));
     drawing.balls.extend(spheres.iter().map(|seen| {
         let coat = palette.sphere(seen.number, seen.radius, seen.mass);
         Ball::of_sphere(seen.position, seen.radius, coat, seen.orientation)

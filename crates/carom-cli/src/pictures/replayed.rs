@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use carom::Spring;
 use carom_render::Drawing;
 use carom_scene::recording::{Playback, Replay, ReplayBall};
 use carom_scene::{Palette, Scene};
@@ -21,6 +22,8 @@ pub struct Replayed {
     duration: f64,
     /// Kept where the recording ends.
     spheres: Vec<Seen>,
+    /// Those of the scene at its start; one goes with its spheres.
+    springs: Vec<Spring>,
 }
 
 impl Replayed {
@@ -35,6 +38,9 @@ impl Replayed {
         empty.spheres.clear();
         empty.generators.retain(|generator| generator.collider().is_some());
         empty.emitters.clear();
+        empty.springs.clear();
+        let world = scene.world()?;
+        let springs = world.springs().map(|(_, spring)| *spring).collect();
         Ok(Self {
             surfaces: Running::new(&empty)?,
             playback: Playback::new(Replay::open(path, &scene)?)?,
@@ -42,6 +48,7 @@ impl Replayed {
             scene,
             duration,
             spheres: Vec::new(),
+            springs,
         })
     }
 
@@ -61,14 +68,14 @@ impl Footage for Replayed {
     }
 
     fn draw(&mut self, time: f64, drawing: &mut Drawing) -> Result<Words, ShootError> {
-        let Self { scene, surfaces, playback, palette, spheres, .. } = self;
+        let Self { scene, surfaces, playback, palette, spheres, springs, .. } = self;
         surfaces.go_to(time)?;
         if let Some(frame) = playback.at(time)? {
             palette.follow(frame.time);
             spheres.clear();
             spheres.extend(frame.balls.iter().map(seen));
         }
-        drawn::draw(scene, surfaces, time, spheres, palette, drawing);
+        drawn::draw(scene, surfaces, time, (spheres, springs), palette, drawing);
         Ok(Words::at(time))
     }
 }

@@ -1,6 +1,6 @@
 //! A scene being stepped, as footage.
 
-use carom::StopRequest;
+use carom::{Spring, StopRequest};
 use carom_render::Drawing;
 use carom_scene::{Palette, Scene, SceneError};
 
@@ -55,7 +55,9 @@ impl Footage for Stepped {
         running.go_to(time)?;
         // Not the film's time, which may be a rounding before the frame of an emission.
         palette.follow(running.world().time());
-        drawn::draw(scene, running, time, &running.spheres(time), palette, drawing);
+        let springs: Vec<Spring> = running.world().springs().map(|(_, spring)| *spring).collect();
+        let seen = (&running.spheres(time)[..], &springs[..]);
+        drawn::draw(scene, running, time, seen, palette, drawing);
         Ok(Words::at(time))
     }
 }
