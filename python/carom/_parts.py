@@ -713,9 +713,9 @@ class Exact(Part):
         zone_budget: Work of a group of spheres in a tick, in contacts times iterations, >= 1; more
             makes a stepped zone.
         zone_tick: Time between two ticks, at which zones are stepped [s], > 0.
-        force_tick: Time between two force ticks [s], > 0: springs, forces between spheres and others
-            that are not linear are held constant from one to the next. It is halved where springs
-            need it.
+        force_tick: Time between two force ticks [s], > 0: springs, forces between spheres and
+            others that are not linear are held constant from one to the next. It is halved where
+            springs need it.
     """
 
     impact_law: ImpactLaw = "reflection"
