@@ -61,10 +61,11 @@ pub(crate) fn start(
         flights.rotations = all.map(|index| Rotation::of(motion, index, time)).collect();
     }
     flights.set_stepped(&zone.indices(&system.spheres.id));
-    zone.restart(system, time, parameters.zone_tick, &motion.velocity);
+    let spring_rate = system.fastest_spring_rate();
+    zone.restart(system, time, [parameters.zone_tick, spring_rate], &motion.velocity);
     let frame = [time; 2];
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
-    (timeline.spring_rate, timeline.held_until) = (system.fastest_spring_rate(), time);
+    (timeline.spring_rate, timeline.held_until) = (spring_rate, time);
     arrange(&mut timeline, system, time);
     predict_all(&mut timeline, system, time);
     timeline

@@ -31,7 +31,12 @@ pub(super) fn tick_for_frames(mut tick: f64, frame: f64) -> f64 {
 
 /// How often a tick \[s\] is to be halved for motion on springs that has this rate \[1/s\].
 pub(super) fn halvings_for_springs(rate: f64, tick: f64) -> u32 {
-    (0..MOST_HALVINGS).find(|&times| rate * part(tick, times) <= MOST_TURN).unwrap_or(MOST_HALVINGS)
+    halvings(tick, MOST_HALVINGS, |part| rate * part <= MOST_TURN)
+}
+
+/// How often a tick \[s\] is to be halved until a part of it is short, and so often at most.
+pub(super) fn halvings(tick: f64, most: u32, is_short: impl Fn(f64) -> bool) -> u32 {
+    (0..most).find(|&times| is_short(part(tick, times))).unwrap_or(most)
 }
 
 /// Whether a tick \[s\] can be halved as often as springs need it whose motion has this rate \[1/s\].

@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::flights::{Flights, Rotation};
-use super::ticks::{first_tick_after, halvings_for_springs};
+use super::ticks::{first_tick_after, halvings, halvings_for_springs, part};
 use crate::bodies::{Motion, Properties, Spin};
 use crate::forces;
 use crate::id::SphereId;
@@ -93,11 +93,19 @@ impl Zone {
     }
 
     /// Takes in the sphere at an index of the world's arrays, which joins at a time \[s\] with a velocity
-    /// \[m/s\]. Ticks are `tick` \[s\] apart, or parts of that where spheres are small.
-    pub fn join(&mut self, system: &System, index: u32, velocity: DVec3, time: f64, tick: f64) {
+    /// \[m/s\]. Ticks are `tick` \[s\] apart, or parts of that where spheres are small or springs, on which motion
+    /// has a rate \[1/s\], stiff.
+    pub fn join(
+        &mut self,
+        system: &System,
+        index: u32,
+        velocity: DVec3,
+        time: f64,
+        [tick, spring_rate]: [f64; 2],
+    ) {
         let index = index as usize;
         if self.is_empty() {
-            self.halvings = 0;
+            self.halvings = halvings_for_springs(spring_rate, tick);
         }
         self.halvings = self.halvings.max(halvings_for(system, index, tick));
         if self.is_empty() || self.ticks[1] == f64::INFINITY {
@@ -108,12 +116,12 @@ impl Zone {
 
     /// The time between its ticks \[s\].
     fn part_of(&self, tick: f64) -> f64 {
-        tick / f64::from(1u32 << self.halvings)
+        part(tick, self.halvings)
     }
 
     /// Has all spheres that are still there wait for the first tick after a time \[s\], with these
-    /// velocities, by index \[m/s\].
-    pub fn restart(&mut self, system: &System, time: f64, tick: f64, velocities: &[DVec3]) {
+    /// velocities, by index \[m/s\]; ticks are as in [`Self::join`].
+    pub fn restart(&mut self, system: &System, time: f64, tick: [f64; 2], velocities: &[DVec3]) {
         let all = self.indices(&system.spheres.id);
         self.waiting.clear();
         self.index.clear();
@@ -364,14 +372,11 @@ fn rotation_between(
 }
 
 /// How often a tick \[s\] is to be halved for a sphere: until it is short in relation to the time in which
-/// the sphere falls through its own size, and so short that motion on springs is stable.
+/// the sphere falls through its own size.
 fn halvings_for(system: &System, index: usize, tick: f64) -> u32 {
     let (radius, mass) = (system.spheres.radius[index], system.spheres.mass[index]);
     let (linear, _) = forces::total_linear(system.forces, radius, mass);
     let own = system.spheres.applied_acceleration(index).unwrap_or(DVec3::ZERO);
     let wanted = SHORT * (radius / (linear.acceleration + own).norm()).sqrt();
-    let for_size = (0..MOST_TICK_HALVINGS)
-        .find(|&times| tick <= wanted * f64::from(1u32 << times))
-        .unwrap_or(MOST_TICK_HALVINGS);
-    for_size.max(halvings_for_springs(system.fastest_spring_rate(), tick))
+    halvings(tick, MOST_TICK_HALVINGS, |it| it <= wanted)
 }

@@ -93,7 +93,8 @@ fn join(
     timeline.set_free(slot, time);
     timeline.flights.enter_zone(slot, [position, common], time);
     let index = timeline.flights.index_of[slot as usize];
-    timeline.zone.join(context.system, index, velocity, time, context.parameters.zone_tick);
+    let tick = [context.parameters.zone_tick, timeline.spring_rate];
+    timeline.zone.join(context.system, index, velocity, time, tick);
     context.report.zone_account.joined += 1;
 }
 
