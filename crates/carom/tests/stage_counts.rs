@@ -2,8 +2,8 @@
 //! the simplest worlds cost; nothing about time.
 
 use carom::{
-    Bisect, Collider, DVec3, Discrete, Gravity, Pose, Rule, Settings, Shape, Sphere, StageCounts,
-    World,
+    Bisect, Collider, DQuat, DVec3, Discrete, Gravity, Pose, Rule, Settings, Shape, Sides, Sphere,
+    StageCounts, World,
 };
 
 fn row_of_spheres(rule: Rule, count: u32) -> World {
@@ -58,6 +58,26 @@ fn a_pyramid_that_comes_to_rest_needs_groups_and_iterations_of_their_solver() {
     let counts = world.step(0.5).unwrap().work;
     assert!(counts.groups > 0 && counts.solver_iterations > 0, "{counts:?}");
     assert!(counts.events >= counts.groups + counts.cell_crossings, "{counts:?}");
+}
+
+#[test]
+fn a_ball_without_restitution_comes_to_rest_in_a_corner_of_a_turned_box_by_few_events() {
+    let size = DVec3::splat(4.0);
+    for case in 0..300 {
+        let mut world = World::new(Settings::default()).unwrap();
+        // Directions and turns of all kinds: multiples of irrational parts of a circle.
+        let angle = |part: f64| f64::from(case) * part;
+        let rotation = DQuat::from_scaled_axis(DVec3::new(angle(0.7), angle(1.3), angle(2.9)));
+        let walls = Shape::Container { size, open: Sides::default() };
+        let walls = Collider::new(walls, Pose { position: DVec3::ZERO, rotation });
+        world.add_collider(walls.with_restitution(0.0)).unwrap();
+        let velocity = 5.0 * DVec3::new(angle(1.1).sin(), angle(2.3).sin(), angle(3.7).sin());
+        let sphere = Sphere::new(DVec3::ZERO, 0.5).with_velocity(velocity);
+        world.add_sphere(sphere.with_restitution(0.0)).unwrap();
+        let events: u64 = (0..200).map(|_| world.step(1.0 / 64.0).unwrap().work.events).sum();
+        // Three walls, each met once, and again by what rounding leaves of the speed.
+        assert!(events <= 6, "{case}: {events} events");
+    }
 }
 
 #[test]

@@ -10,9 +10,10 @@ use crate::norm::Norm;
 /// more; 16 covers them, and a bit to spare.
 pub(super) const DISTANCE_ROUNDOFF: f64 = 16.0 * f64::EPSILON;
 
-/// Rounding of a computed closing speed, relative to the speeds it is made of. After an impact
-/// without restitution it is zero only up to this.
-pub(super) const SPEED_ROUNDOFF: f64 = 16.0 * f64::EPSILON;
+/// Rounding of a computed closing speed, relative to the speeds it is made of: as much as the impact
+/// laws leave of one that they have answered ([`crate::respond`]). What is met by less would have no
+/// answer, and be met again without end.
+pub(super) const SPEED_ROUNDOFF: f64 = 64.0 * f64::EPSILON;
 
 /// Rounding of a computed normal acceleration, relative to the accelerations it is made of.
 pub(super) const ACCELERATION_ROUNDOFF: f64 = 16.0 * f64::EPSILON;
