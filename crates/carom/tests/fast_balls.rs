@@ -3,7 +3,7 @@
 
 mod common;
 
-use carom::{Collider, Contact, DVec3, Pose, Rule, Settings, Shape, Sides, Sphere, World};
+use carom::{Collider, Contact, DQuat, DVec3, Pose, Rule, Settings, Shape, Sides, Sphere, World};
 use common::Numbers;
 
 /// Twenty elastic balls in a closed box of 1 m, each in a direction of its own with this speed \[m/s\].
@@ -36,6 +36,33 @@ fn balls_in_a_closed_box_stay_in_it_at_any_speed() {
                 // Impulses add no energy but by rounding, in each of a thousand sub-steps.
                 assert!(world.kinetic_energy() <= start * (1.0 + 1e-12), "{case}");
             }
+        }
+    }
+}
+
+#[test]
+fn a_fast_ball_stays_in_a_box_whatever_it_passes_there() {
+    let mut numbers = Numbers(5);
+    for case in 0..400 {
+        let settings = Settings::default().with_rule(Rule::Contact(Contact::default()));
+        let mut world = World::new(settings).unwrap();
+        let e = f64::from(case % 2);
+        let walls = Shape::Container { size: DVec3::splat(4.0), open: Sides::default() };
+        let walls = Collider::new(walls, Pose::at(DVec3::ZERO));
+        world.add_collider(walls.with_restitution(e)).unwrap();
+        let position = numbers.vector();
+        let rotation = DQuat::from_rotation_arc(DVec3::Y, numbers.unit_vector());
+        let obstacle = Shape::Box { size: DVec3::new(0.8, 0.5, 0.3) };
+        let obstacle = Collider::new(obstacle, Pose { position, rotation });
+        world.add_collider(obstacle.with_restitution(e)).unwrap();
+        // Outside of the obstacle, whatever its turn.
+        let at = position + 0.6 * numbers.unit_vector();
+        let velocity = 700.0 * numbers.unit_vector();
+        world.add_sphere(Sphere::new(at, 0.0164).with_velocity(velocity)).unwrap();
+        for _ in 0..4 {
+            world.step(1.0 / 64.0).unwrap();
+            let center = world.spheres().positions()[0];
+            assert!(center.abs().max_element() < 2.0, "{case}: {center} at {} s", world.time());
         }
     }
 }

@@ -27,6 +27,23 @@ pub(super) fn places_after(surfaces: &[Surface], h: f64, places: &mut Vec<Place>
     places.extend(surfaces.iter().map(|surface| surface.after(h)));
 }
 
+/// The foot of a sphere on the plane that it is in front of as a sub-step begins.
+#[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Foot {
+    /// Where that is at the end of the sub-step \[m\].
+    point: DVec3,
+    /// Unit normal of the plane; a contact may wait for an impact elsewhere, with another one.
+    normal: DVec3,
+}
+
+impl Foot {
+    /// How far a point is in front of the plane \[m\].
+    fn height_of(&self, point: DVec3) -> f64 {
+        (point - self.point).dot(self.normal)
+    }
+}
+
 /// A contact of a surface, which is body 1, and a sphere, which is body 2.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -36,8 +53,8 @@ pub(super) struct SurfaceContact {
     pub surface: u32,
     /// Unit normal out of the surface.
     pub normal: DVec3,
-    /// Where on the surface, at the end of the sub-step \[m\], if the sphere is in front of a plane.
-    point: Option<DVec3>,
+    /// If the sphere is in front of a plane.
+    foot: Option<Foot>,
     /// Whether the sphere flies too little in the sub-step to come past an edge of it.
     is_slow: bool,
     /// Velocity of the surface where they touch \[m/s\].
@@ -65,7 +82,7 @@ impl SurfaceContact {
             slot,
             surface,
             normal: DVec3::Y,
-            point: None,
+            foot: None,
             is_slow: false,
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
@@ -156,12 +173,12 @@ impl SurfaceContact {
         self.angular_velocity = motion.angular_velocity;
         (self.approach, self.bias) = (0.0, FREE);
         let separation = sphere_surface(form, center, radius);
-        self.point = None;
+        self.foot = None;
         if let Some(Separation { distance, normal, point }) = separation {
             self.normal = normal;
             self.velocity = motion.velocity_at(point);
-            let is_flat = is_flat(form, normal);
-            self.point = is_flat.then(|| point + sub_step.h * self.velocity);
+            let foot = Foot { point: point + sub_step.h * self.velocity, normal };
+            self.foot = is_flat(form, normal).then_some(foot);
             self.bias = distance.max(0.0) / sub_step.h;
             self.watch_for_impact(run, distance, sub_step);
         }
@@ -360,7 +377,9 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Plac
         let slot = contact.slot as usize;
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
         let (form, _) = &places[contact.surface as usize];
-        let is_held = contact.is_slow || run.bears[slot] || contact.is_pushed_through(center, form);
+        let is_held = contact.is_slow
+            || run.bears[slot] && contact.is_in_front(center)
+            || contact.is_pushed_through(center, form);
         let start = if is_held { contact.kept_in_front(center, radius) } else { center };
         let separation = sphere_surface(form, start, radius);
         let overlap = separation.map_or(0.0, |it| -it.distance - SLOP * radius).max(0.0);
@@ -376,20 +395,23 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Plac
 }
 
 impl SurfaceContact {
+    /// Whether a sphere about `center` \[m\] is in front of the plane still, or was never.
+    fn is_in_front(&self, center: DVec3) -> bool {
+        self.foot.is_none_or(|foot| foot.height_of(center) >= 0.0)
+    }
+
     /// Whether a sphere about `center` \[m\] that was in front of a face is right behind it: others have pushed it
     /// through.
     fn is_pushed_through(&self, center: DVec3, form: &Form) -> bool {
-        let is_behind = self.point.is_some_and(|point| (center - point).dot(self.normal) < 0.0);
-        is_behind && is_over(form, center)
+        !self.is_in_front(center) && is_over(form, center)
     }
 
     /// Where a sphere about `center` \[m\] is at least that much in front of the surface as what presses on
     /// it may leave: [`LEAST_IN_FRONT`] of its radius.
     fn kept_in_front(&self, center: DVec3, radius: f64) -> DVec3 {
-        // On a plane it has one normal, whenever they touch.
-        let in_front = self.point.map_or(f64::INFINITY, |point| (center - point).dot(self.normal));
-        let missing = LEAST_IN_FRONT * radius - in_front;
-        if missing > 0.0 { center + missing * self.normal } else { center }
+        let Some(foot) = self.foot else { return center };
+        let missing = LEAST_IN_FRONT * radius - foot.height_of(center);
+        if missing > 0.0 { center + missing * foot.normal } else { center }
     }
 }
 
