@@ -12,6 +12,7 @@ mod documents;
 mod imports;
 mod js_package;
 mod markdown;
+mod miri;
 mod native_hashes;
 mod python;
 mod schema;
@@ -51,9 +52,11 @@ Usage: cargo xtask COMMAND
   documents run the commands that README.md and docs/ show, except those that draw
   schema    write scenes/scene.schema.json anew from the scene types
   soak      a day of simulated time of several scenes: pinned states, hour by hour, and flat memory
-            (an hour; `soak --hours H` for another time)
+            (an hour; `soak --hours H` for another time, then `soak --again`: every hour of a day once more,
+            side by side)
   fuzz      hostile input for every reader, and worlds that are hard to step: the campaign of
             docs/reliability.md; `fuzz --help` says how to choose
+  miri      has Miri interpret tests of the code with unsafe (installs nightly Rust; minutes)
   kills     kills a hundred runs in each format of recordings, and films: what is lost (some minutes)
   bench     the benchmarks whose figures stand in docs/benchmarks.md; `bench pictures` those of
             pictures and of the interface, `bench web` the JavaScript package against the native
@@ -87,7 +90,9 @@ fn main() -> ExitCode {
         ["schema"] => schema::write(),
         ["soak"] => test::soak("24"),
         ["soak", "--hours", hours] => test::soak(hours),
+        ["soak", "--again"] => test::soak_again(),
         ["fuzz", ref options @ ..] => test::fuzz(options),
+        ["miri"] => miri::test(),
         ["kills"] => test::kills(),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "web"] => js_package::bench(),

@@ -1,5 +1,6 @@
 //! Every check, in the order in which they fail fastest.
 
+use std::fs;
 use std::time::{Duration, Instant};
 
 use crate::commands::{self, Programs};
@@ -64,13 +65,26 @@ pub fn long_tests() -> Outcome {
     cargo(&[&["run", "--release"], &PLAIN[..], &["--", "verify", "--full"]].concat())
 }
 
-/// Runs scenes for so many hours of simulated time, optimised.
+/// Runs scenes for so many hours of simulated time, optimised, and keeps the states after each hour.
 pub fn soak(hours: &str) -> Outcome {
     if !hours.parse::<u32>().is_ok_and(|hours| hours > 0) {
         return Err(format!("--hours takes a whole number of hours, not {hours:?}"));
     }
-    let soak = ["carom-scene", "--test", "soak", "--", "--ignored", "--nocapture"];
-    cargo_with(&[&OPTIMISED[..], &soak].concat(), &[("SOAK_HOURS", hours)])
+    soak_test("a_day_is_what_it_is_everywhere_and_takes_no_more_memory_than_an_hour", hours)
+}
+
+/// Runs each hour of a day once more, from the states that [`soak`] kept, optimised.
+pub fn soak_again() -> Outcome {
+    soak_test("every_hour_of_a_day_is_the_same_again_from_the_state_before_it", "24")
+}
+
+fn soak_test(name: &str, hours: &str) -> Outcome {
+    let states = target_folder().join("soak");
+    fs::create_dir_all(&states).map_err(|error| format!("{}: {error}", states.display()))?;
+    let soak = ["carom-scene", "--test", "soak", "--", name, "--exact", "--ignored", "--nocapture"];
+    let states = states.to_string_lossy();
+    let set = [("SOAK_HOURS", hours), ("SOAK_STATES", &*states)];
+    cargo_with(&[&OPTIMISED[..], &soak].concat(), &set)
 }
 
 /// Tries hostile input; `options` are those of `carom-fuzz`.

@@ -2,8 +2,13 @@
 #![allow(missing_docs)]
 
 use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use carom_scene::{BUILT_IN_FILES, Scene};
+use carom::World;
+use carom_scene::{BUILT_IN_FILES, Checkpoint, Palette, Scene};
 
 /// What runs for a day: its name, and what is changed of the built-in scene of that name, or added to it.
 const RUNS: [(&str, &str); 4] = [
@@ -44,28 +49,42 @@ fn resident_bytes() -> Option<f64> {
     Some(pages * 4096.0)
 }
 
-/// Runs a scene for so many parts of `seconds` each, and returns the state hash after each.
-fn run(name: &str, more: &str, parts: usize, seconds: f64) -> Vec<String> {
-    let scene = scene(name, more);
+/// Runs a world of a scene so many seconds further, and returns its state hash.
+fn advance(world: &mut World, scene: &Scene, seconds: f64) -> String {
     let frame_time = scene.simulation.frame_time;
+    for _ in 0..(seconds / frame_time).round() as u64 {
+        world.step(frame_time).unwrap();
+    }
+    world.state_hash().to_string()
+}
+
+/// Where the state after so many hours is kept.
+fn state_file(folder: &Path, name: &str, hours: usize) -> PathBuf {
+    folder.join(format!("{}-{hours}", name.replace(' ', "-")))
+}
+
+/// Runs a scene for so many parts of `seconds` each, and returns the state hash after each. The states stay in a folder,
+/// where one is given.
+fn run(name: &str, more: &str, parts: usize, seconds: f64, folder: Option<&Path>) -> Vec<String> {
+    let scene = scene(name, more);
+    let palette = Palette::new(&scene).unwrap();
     let mut world = scene.world().unwrap();
     let mut memory = Vec::new();
     let part = |number| {
-        for _ in 0..(seconds / frame_time).round() as u64 {
-            world.step(frame_time).unwrap();
+        let hash = advance(&mut world, &scene, seconds);
+        let now = resident_bytes();
+        let megabytes = now.map_or(String::new(), |bytes| format!(" {:.1} MB", bytes / 1e6));
+        println!("{name} {number} {hash}{megabytes}");
+        memory.extend(now);
+        if let Some(folder) = folder {
+            let bytes = Checkpoint::bytes_of(&world.snapshot(), &scene, &palette).unwrap();
+            fs::write(state_file(folder, name, number), bytes).unwrap();
         }
-        memory.extend(resident_bytes());
-        println!("{name} {number} {}", world.state_hash());
-        world.state_hash().to_string()
+        hash
     };
     let hashes = (1..=parts).map(part).collect();
     if let [first, .., last] = memory[..] {
         assert!(last <= first * (1.0 + GROWTH) + SLACK_BYTES, "{name}: {first} to {last} bytes");
-        println!(
-            "{name}: {:.1} MB after the first part, {:.1} MB at the end",
-            first / 1e6,
-            last / 1e6
-        );
     }
     hashes
 }
@@ -81,21 +100,76 @@ fn pinned() -> BTreeMap<&'static str, Vec<&'static str>> {
 
 #[test]
 fn an_hour_of_an_emitter_is_what_it_is_everywhere_and_takes_no_more_memory_than_minutes() {
-    let hashes = run("simtest3", "", 6, 600.0);
+    let hashes = run("simtest3", "", 6, 600.0, None);
     assert_eq!(hashes[5], pinned()["simtest3"][0]);
 }
 
-/// A day of each, or as many hours as `SOAK_HOURS` says.
+/// The hours that `SOAK_HOURS` says, or a day.
+fn hours() -> usize {
+    std::env::var("SOAK_HOURS").map_or(24, |hours| hours.parse().unwrap())
+}
+
+/// The folder of states that `SOAK_STATES` says.
+fn folder() -> Option<PathBuf> {
+    std::env::var_os("SOAK_STATES").map(PathBuf::from)
+}
+
+/// A day of each, or as many hours as `SOAK_HOURS` says. `SOAK_STATES` is a folder for the states after each.
 #[test]
 #[ignore = "takes an hour: `cargo xtask soak`"]
 fn a_day_is_what_it_is_everywhere_and_takes_no_more_memory_than_an_hour() {
-    let hours = std::env::var("SOAK_HOURS").map_or(24, |hours| hours.parse().unwrap());
+    let folder = folder();
     let mut wrong = Vec::new();
     for (name, more) in RUNS {
-        let hashes = run(name, more, hours, 3600.0);
+        let hashes = run(name, more, hours(), 3600.0, folder.as_deref());
         let pinned = pinned().remove(name).unwrap();
         let other = hashes.iter().zip(pinned).position(|(one, other)| one != other);
         wrong.extend(other.map(|hour| format!("{name}: another state after hour {}", hour + 1)));
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Runs one hour from the state that was kept before it, and says what is not as pinned.
+fn repeat(folder: &Path, name: &str, more: &str, hour: usize, pinned: &str) -> Option<String> {
+    let scene = scene(name, more);
+    let mut world = scene.world().unwrap();
+    if hour > 1 {
+        let bytes = fs::read(state_file(folder, name, hour - 1)).unwrap();
+        world.restore(&Checkpoint::from_bytes(&bytes).unwrap().snapshot);
+    }
+    let hash = advance(&mut world, &scene, 3600.0);
+    (hash != pinned).then(|| format!("{name}: {hash} after hour {hour}, not {pinned}"))
+}
+
+/// Every hour once more, from the state that an earlier run kept before it: all hours side by side, on as many threads as
+/// there are processors.
+#[test]
+#[ignore = "needs the states of a day: `cargo xtask soak --again`"]
+fn every_hour_of_a_day_is_the_same_again_from_the_state_before_it() {
+    let folder = folder().unwrap();
+    let pinned = pinned();
+    let hours: Vec<_> = RUNS
+        .iter()
+        .flat_map(|&(name, more)| {
+            let hours = pinned[name].iter().take(hours()).enumerate();
+            hours.map(move |(hour, pinned)| (name, more, hour + 1, pinned))
+        })
+        .collect();
+    let (next, wrong) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let work = || {
+        while let Some(&(name, more, hour, pinned)) =
+            hours.get(next.fetch_add(1, Ordering::Relaxed))
+        {
+            let fault = repeat(&folder, name, more, hour, pinned);
+            wrong.lock().unwrap().extend(fault);
+        }
+    };
+    std::thread::scope(|threads| {
+        for _ in 0..std::thread::available_parallelism().unwrap().get() {
+            threads.spawn(work);
+        }
+    });
+    let wrong = wrong.into_inner().unwrap();
+    println!("{} hours repeated", hours.len());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
