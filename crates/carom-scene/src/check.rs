@@ -43,30 +43,27 @@ const LONGEST: [usize; 3] = [255, 500, 20_000];
 /// Refuses texts for people that are too long, and characters in them that would steer what shows them.
 pub(crate) fn check_texts(scene: &Scene) -> Result<(), Problem> {
     let [of_name, of_title, of_description] = LONGEST;
-    let texts = [
-        ("name", &scene.name, of_name),
-        ("title", &scene.title, of_title),
-        ("description", &scene.description, of_description),
-        ("origin", &scene.origin, of_description),
-    ];
-    for (field, text, longest) in texts {
-        // Lines end with either of them, as the file's do.
-        let is_space = |it: char| field == "description" && matches!(it, '\n' | '\r' | '\t');
-        let is_shown = |it: char| !it.is_control() || is_space(it);
-        check(text.chars().all(is_shown), field, || "must have no control characters".into())?;
-        check(text.chars().nth(longest).is_none(), field, || {
-            format!("must have at most {longest} characters")
-        })?;
+    check_text("name", &scene.name, of_name)?;
+    check_text("title", &scene.title, of_title)?;
+    check_text("description", &scene.description, of_description)?;
+    check_text("origin", &scene.origin, of_description)?;
+    for (i, collider) in scene.colliders.iter().enumerate() {
+        check_text(&format!("colliders[{i}].name"), &collider.name, of_name)?;
     }
-    let colliders = scene.colliders.iter().map(|it| &it.name).enumerate();
-    let emitters = scene.emitters.iter().map(|it| &it.name).enumerate();
-    let of = |list: &'static str| move |(i, name)| (list, i, name);
-    for (list, i, name) in colliders.map(of("colliders")).chain(emitters.map(of("emitters"))) {
-        check(name.chars().nth(of_name).is_none(), &format!("{list}[{i}].name"), || {
-            format!("must have at most {of_name} characters")
-        })?;
+    for (i, emitter) in scene.emitters.iter().enumerate() {
+        check_text(&format!("emitters[{i}].name"), &emitter.name, of_name)?;
     }
     Ok(())
+}
+
+fn check_text(field: &str, text: &str, longest: usize) -> Result<(), Problem> {
+    // Lines end with either of them, as the file's do.
+    let is_space = |it: char| field == "description" && matches!(it, '\n' | '\r' | '\t');
+    let is_shown = |it: char| !it.is_control() || is_space(it);
+    check(text.chars().all(is_shown), field, || "must have no control characters".into())?;
+    check(text.chars().nth(longest).is_none(), field, || {
+        format!("must have at most {longest} characters")
+    })
 }
 
 /// Every colour in a scene, with its path.

@@ -284,6 +284,13 @@ fn texts_for_people_do_not_steer_a_terminal() {
         let text = refusal(&text);
         assert!(text.contains(&format!("{field}: must have no control characters")), "{text}");
     }
+    let emitter = "[[emitters]]\nname = \"a\\u009b2J\"\nperiod = 1\nsphere = { radius = 1 }\n";
+    let collider = "[[colliders]]\nname = \"a\\u001b[2J\"\nshape = { sphere = { radius = 1 } }\n";
+    for (bad, field) in [(emitter, "emitters[0].name"), (collider, "colliders[0].name")] {
+        let text = refusal(bad);
+        assert!(text.starts_with("test.toml:2: "), "{text}");
+        assert!(text.contains(&format!("{field}: must have no control characters")), "{text}");
+    }
     read("name = \"a\"\r\ndescription = \"\"\"one\r\n\ttwo\"\"\"\r\n[[spheres]]\r\nradius = 1\r\n")
         .unwrap();
 }
