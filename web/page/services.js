@@ -12,6 +12,7 @@ import { takeTrouble } from "./trouble.js";
  * @type {Omit<import("carom-web").Services, "showFragment" | "isEmbedded">}
  */
 export const services = {
+  maxSpheres,
   save,
   openFile,
   beginFilm,
@@ -20,3 +21,15 @@ export const services = {
   useTilt,
   trouble: takeTrouble,
 };
+
+/**
+ * How many spheres the run of a link may have, as the document says, if it does: `<meta
+ * name="carom-max-spheres" content="500000">`.
+ *
+ * @returns {number | null}
+ */
+function maxSpheres() {
+  const meta = document.querySelector("meta[name='carom-max-spheres']");
+  const most = Number(meta?.getAttribute("content") ?? NaN);
+  return Number.isInteger(most) && most > 0 ? most : null;
+}

@@ -2,9 +2,10 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
+import { deflateSync } from "node:zlib";
 
 import { carom, stateHash } from "./native.js";
-import { Desk, PATIENCE } from "./viewer.js";
+import { Desk, PATIENCE, Viewer } from "./viewer.js";
 
 /** @type {Desk} */
 let desk;
@@ -158,5 +159,67 @@ test("a link that makes no sense is said to, and the chooser opens", async () =>
   const viewer = await desk.open("#scene=nowhere");
   await assertChoosing(viewer, /nowhere/);
   await viewer.keepPicture("link-broken");
+  await viewer.close();
+});
+
+/**
+ * The part of an address with a scene file in it.
+ *
+ * @param {string} text
+ */
+function fileLink(text) {
+  return `#file=${deflateSync(text).toString("base64url")}`;
+}
+
+/** @param {number} count of spheres in a row */
+function row(count) {
+  const row = `count = ${count}, start = [0, 0, 0], step = [3, 0, 0], sphere = { radius = 1 }`;
+  return `[[generators]]\nrow = { ${row} }\n`;
+}
+
+const lattice =
+  "[[generators]]\nlattice = { counts = [100, 100, 100], spacing = 3, sphere = { radius = 1 } }\n";
+
+/** @type {[string, string, RegExp][]} */
+const HOSTILE = [
+  ["a thousand lattices of a million spheres", fileLink(lattice.repeat(1000)), /generators\[0\]/],
+  ["more spheres than a link may have", fileLink(row(200_001)), /200001.*200000/],
+  ["a file that unpacks to a hundred megabytes", fileLink("\n".repeat(1e8)), /8 MiB/],
+  ["millions of lines that are no scene", fileLink("a\n".repeat(4e6)), /line|:1/],
+  ["marks that would steer a terminal", "#scene=%1B%5B2Jnowhere", /nowhere/],
+];
+
+for (const [what, link, trouble] of HOSTILE) {
+  test(`a link to ${what} is refused, and the page goes on`, async () => {
+    const viewer = await desk.open(link);
+    await assertChoosing(viewer, trouble);
+    await viewer.page.evaluate(() => (location.hash = "#scene=tutorial3"));
+    await viewer.until(({ watching }) => watching?.scene === "tutorial3");
+    await viewer.close();
+  });
+}
+
+test("a run of a link that takes for ever can be left for another", async () => {
+  const viewer = await desk.open("#scene=gas&t=1000000");
+  await viewer.until(({ watching }) => Boolean(watching?.seeking));
+  await viewer.page.evaluate(() => (location.hash = "#scene=tutorial3"));
+  await viewer.until(({ watching }) => watching?.scene === "tutorial3" && !watching.seeking);
+  await viewer.close();
+});
+
+test("the page that serves Carom says how many spheres a link may have", async () => {
+  const context = await desk.browser.newContext();
+  const page = await context.newPage();
+  const meta = '<meta name="carom-max-spheres" content="100" />';
+  await page.route(desk.server.url, async (route) => {
+    const response = await route.fetch();
+    const body = (await response.text()).replace("<head>", `<head>${meta}`);
+    await route.fulfill({ response, body });
+  });
+  await page.goto(`${desk.server.url}${fileLink(row(200))}`);
+  await page.waitForSelector("#loading.done", { state: "attached" });
+  const viewer = new Viewer(page);
+  await viewer.until((status) => status.choosing);
+  await assertChoosing(viewer, /200.*100/);
   await viewer.close();
 });

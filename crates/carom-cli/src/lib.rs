@@ -102,6 +102,8 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
         #[cfg(feature = "pictures")]
         Command::Maze(maze) => pictures::maze(library()?, maze, &config),
         #[cfg(feature = "view")]
-        Command::View(view) => window::view(library()?, view, &config),
+        Command::View(view) => {
+            window::view(library()?, view, &config, sources.budget(Budget::LINK, &config)?)
+        }
     }
 }

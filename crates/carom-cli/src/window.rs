@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use carom_maze::Maze;
 use carom_render::Quality;
-use carom_scene::{Library, Scene, Source};
+use carom_scene::{Budget, Library, Scene, Source};
 use carom_view::{Desktop, Setup, Start, default_folder, window};
 
 use crate::choice::{Changes, RULES};
@@ -44,7 +44,12 @@ pub struct View {
 }
 
 /// Opens the window with a scene, or to choose one.
-pub fn view(library: Library, args: &View, config: &Config) -> Result<(), Failure> {
+pub fn view(
+    library: Library,
+    args: &View,
+    config: &Config,
+    link_budget: Budget,
+) -> Result<(), Failure> {
     let rule = args.rule.iter().map(|rule| format!("simulation.rule={rule}"));
     let found = args.scene.as_deref().map(|scene| args.changes.find(&library, scene, rule));
     let start = match &args.link {
@@ -53,13 +58,13 @@ pub fn view(library: Library, args: &View, config: &Config) -> Result<(), Failur
     };
     let folder = args.out.clone().or_else(|| config.pictures.clone());
     let page = link::page(args.page.as_deref(), config)?;
-    open(library, start, desktop(folder, page), args.quality)
+    open(Setup { link_budget, ..setup(library, start, desktop(folder, page), args.quality) })
 }
 
 /// Opens the window with the maze game.
 pub fn play(library: Library, maze: Maze, config: &Config) -> Result<(), Failure> {
     let desktop = desktop(config.pictures.clone(), link::page(None, config)?);
-    open(library, Some(Start::Maze(Box::new(maze))), desktop, Quality::default())
+    open(setup(library, Some(Start::Maze(Box::new(maze))), desktop, Quality::default()))
 }
 
 /// A scene with a maze in it is played, unless it is to be watched.
@@ -76,13 +81,11 @@ fn desktop(folder: Option<PathBuf>, page: String) -> Desktop {
     Desktop::new(folder.unwrap_or_else(default_folder)).with_page(page)
 }
 
-fn open(
-    library: Library,
-    start: Option<Start>,
-    desktop: Desktop,
-    quality: Quality,
-) -> Result<(), Failure> {
+fn setup(library: Library, start: Option<Start>, desktop: Desktop, quality: Quality) -> Setup {
     let host = Box::new(desktop);
-    let setup = Setup { library, start, host, quality, threaded: true };
+    Setup { library, start, host, quality, threaded: true, link_budget: Budget::LINK }
+}
+
+fn open(setup: Setup) -> Result<(), Failure> {
     window::open(setup).map_err(|error| Failure::Fault(error.to_string()))
 }

@@ -5,7 +5,7 @@
 
 use carom_render::Quality;
 use carom_scene::scene::{Generator, Lattice, Scene, Sphere};
-use carom_scene::{Library, Source};
+use carom_scene::{Budget, Library, Source};
 use carom_session::Command;
 use carom_view::{Action, App, Desktop, Setup, Start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
@@ -39,6 +39,7 @@ fn frame(criterion: &mut Criterion) {
                 host: Box::new(Desktop::default()),
                 quality: Quality::DRAFT,
                 threaded: true,
+                link_budget: Budget::LINK,
             };
             let builder = Harness::builder().with_size([1360.0, 800.0]).wgpu();
             let mut window =

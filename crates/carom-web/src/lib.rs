@@ -19,7 +19,7 @@ use std::rc::Rc;
 
 use carom_render::Quality;
 use carom_render::wgpu::Backend;
-use carom_scene::Library;
+use carom_scene::{Budget, Library};
 use carom_session::Link;
 use carom_view::{App, Setup};
 use eframe::{CreationContext, WebOptions, WebRunner};
@@ -143,12 +143,15 @@ fn started_on(
     let context = host.egui_ctx.clone();
     let backend = host.wgpu_render_state.as_ref().map(|state| state.adapter.get_info().backend);
     let graphics = if backend == Some(Backend::BrowserWebGpu) { "WebGPU" } else { "WebGL2" };
+    let spheres = services.max_spheres().map_or(Budget::LINK.spheres, |most| most as u64);
+    let spheres = spheres.clamp(1, Budget::MOST.spheres);
     let setup = Setup {
         library: Library::new(),
         start: None,
         host: Box::new(PageHost::new(services, context.clone())),
         quality: Quality::default(),
         threaded: false,
+        link_budget: Budget { spheres, ..Budget::LINK },
     };
     let mut app = App::new(host, setup)?;
     if !fragment.is_empty() {

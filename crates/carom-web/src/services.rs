@@ -24,6 +24,8 @@ export interface Services {
     trouble(): string | null;
     /** Whether the canvas is a part of some other document, and no link leads there. */
     isEmbedded(): boolean;
+    /** How many spheres the run of a link may have; `null` for as many as usual. */
+    maxSpheres(): number | null;
 }
 
 /** A film in the making. */
@@ -72,6 +74,9 @@ extern "C" {
 
     #[wasm_bindgen(method, js_name = isEmbedded)]
     pub fn is_embedded(this: &Services) -> bool;
+
+    #[wasm_bindgen(method, js_name = maxSpheres)]
+    pub fn max_spheres(this: &Services) -> Option<f64>;
 
     /// A film in the making.
     #[wasm_bindgen(typescript_type = "FilmService")]

@@ -10,7 +10,7 @@ impl App {
     /// Shows the run of a link: a maze without a past is played, anything else watched. Where it
     /// cannot be, says so; the chooser opens if there is nothing else.
     pub fn follow(&mut self, link: &Link) {
-        let scene = match link.open() {
+        let scene = match link.open_within(self.link_budget) {
             Ok(scene) => scene,
             Err(error) => return self.refuse_link(&error.to_string()),
         };

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use carom_maze::Maze;
 use carom_render::Quality;
 use carom_scene::scene::Scene;
-use carom_scene::{Library, Source};
+use carom_scene::{Budget, Library, Source};
 use carom_session::{Command, Link, SessionError};
 use eframe::CreationContext;
 use egui::{Context, Pos2, Rect, Theme, Ui};
@@ -44,6 +44,8 @@ pub struct Setup {
     pub quality: Quality,
     /// Whether the physics has a thread of its own.
     pub threaded: bool,
+    /// How much a link may ask for.
+    pub link_budget: Budget,
 }
 
 /// What is open at the start.
@@ -64,6 +66,7 @@ pub struct App {
     host: Box<dyn Host>,
     inbox: Inbox,
     threaded: bool,
+    link_budget: Budget,
     studio: Studio,
     screen: Screen,
     chooser: Chooser,
@@ -108,6 +111,7 @@ impl App {
             host: setup.host,
             inbox: Inbox::new(host.egui_ctx.clone()),
             threaded: setup.threaded,
+            link_budget: setup.link_budget,
             studio: Studio::new(state, setup.quality),
             screen: Screen::Empty,
             chooser: Chooser::default(),

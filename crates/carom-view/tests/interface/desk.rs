@@ -1,7 +1,7 @@
 //! A window without a screen, and what is done with it.
 
 use carom_render::Quality;
-use carom_scene::{Library, Source};
+use carom_scene::{Budget, Library, Source};
 use carom_session::Command;
 use carom_view::{App, Desktop, Setup, Start, Watching};
 use egui_kittest::Harness;
@@ -18,6 +18,7 @@ pub fn setup() -> Setup {
         host: Box::new(Desktop::default()),
         quality: Quality::GOOD,
         threaded: false,
+        link_budget: Budget::LINK,
     }
 }
 
