@@ -71,7 +71,7 @@ fn a_ball_without_restitution_comes_to_rest_in_a_corner_of_a_turned_box_by_few_e
         let walls = Shape::Container { size, open: Sides::default() };
         let walls = Collider::new(walls, Pose { position: DVec3::ZERO, rotation });
         world.add_collider(walls.with_restitution(0.0)).unwrap();
-        let velocity = 5.0 * DVec3::new(angle(1.1).sin(), angle(2.3).sin(), angle(3.7).sin());
+        let velocity = 5.0 * DVec3::from_array([1.1, 2.3, 3.7].map(|it| libm::sin(angle(it))));
         let sphere = Sphere::new(DVec3::ZERO, 0.5).with_velocity(velocity);
         world.add_sphere(sphere.with_restitution(0.0)).unwrap();
         let events: u64 = (0..200).map(|_| world.step(1.0 / 64.0).unwrap().work.events).sum();
