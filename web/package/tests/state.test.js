@@ -159,10 +159,12 @@ test("numbers reach the engine to the bit", () => {
   }
 });
 
-test("names and words may hold what they like", () => {
+test("names hold what they like, but for control characters", () => {
   const world = new World();
-  const name = 'a "floor"\n\\ ü 🎱 = 1';
+  const name = 'a "floor" \\ ü 🎱 = 1';
   world.addCollider({ name, shape: "half-space" });
   assert.equal(world.colliders[0].name, name);
   assert.equal(World.fromScene(world.toToml()).colliders[0].name, name);
+  const steering = () => world.addCollider({ name: "a\u001b[2J", shape: "half-space" });
+  assert.throws(steering, /colliders\[0\]\.name: must have no control characters/);
 });
