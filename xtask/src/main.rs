@@ -52,8 +52,8 @@ Usage: cargo xtask COMMAND
   documents run the commands that README.md and docs/ show, except those that draw
   schema    write scenes/scene.schema.json anew from the scene types
   soak      a day of simulated time of several scenes: pinned states, hour by hour, and flat memory
-            (an hour; `soak --hours H` for another time, then `soak --again`: every hour of a day once more,
-            side by side)
+            (a quarter of an hour; `soak --hours H` for another time; after a whole day `soak --again`: every
+            hour of it once more, side by side)
   fuzz      hostile input for every reader, and worlds that are hard to step: the campaign of
             docs/reliability.md; `fuzz --help` says how to choose
   miri      has Miri interpret tests of the code with unsafe (installs nightly Rust; minutes)
