@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+import re
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -78,7 +79,7 @@ def test_every_kind_of_part_survives_text() -> None:
             carom.Collider(carom.Container((1, 1, 1), ["back"]), (50, 0, 0)),
             carom.Collider(carom.Container((1, 1, 1), ["top", "front"]), (60, 0, 0)),
         ],
-        emitters=[carom.Emitter(ball, 1.0, (-20, 0, 0), max_spheres=5, name="tap \x7f")],
+        emitters=[carom.Emitter(ball, 1.0, (-20, 0, 0), max_spheres=5, name="tap \u2192")],
         camera=carom.Camera((0, 0, 9)),
         sun=carom.Sun((0, 0, 0, 1), (1, 1, 1), 0.5),
         colors=carom.Colors((0, 0, 0), densities=[carom.DensityColor(3.0, (1, 1, 0))]),
@@ -87,6 +88,22 @@ def test_every_kind_of_part_survives_text() -> None:
     world = scene.world()
     assert len(world) == 1 + 2 + 2 + 4 + 2 + 3 + 4
     assert [each.name for each in world.colliders.values()][-2:] == ["peg 2-2", "peg 2-3"]
+
+
+@pytest.mark.parametrize("mark", ["\x1b", "\x7f", "\n", "\u0085"])
+@pytest.mark.parametrize("field", ["name", "title", "origin", "colliders[0].name", "emitters[0].name"])
+def test_names_have_no_control_characters(field: str, mark: str) -> None:
+    owner, _, attribute = field.rpartition(".")
+    text = {attribute: f"tap{mark}"}
+    if not owner:
+        scene = carom.Scene(**{"name": "taps", **text})
+    elif owner.startswith("colliders"):
+        scene = carom.Scene(name="taps", colliders=[carom.Collider(carom.Ball(1), **text)])
+    else:
+        ball = carom.Sphere(radius=0.5)
+        scene = carom.Scene(name="taps", emitters=[carom.Emitter(ball, 1.0, max_spheres=5, **text)])
+    with pytest.raises(carom.SceneError, match=re.escape(f"{field}: must have no control")):
+        scene.to_toml()
 
 
 def test_a_scene_of_python_is_found_by_name_in_any_case() -> None:
