@@ -134,7 +134,11 @@ fn repeat(folder: &Path, name: &str, more: &str, hour: usize, pinned: &str) -> O
     let scene = scene(name, more);
     let mut world = scene.world().unwrap();
     if hour > 1 {
-        let bytes = fs::read(state_file(folder, name, hour - 1)).unwrap();
+        let file = state_file(folder, name, hour - 1);
+        let Ok(bytes) = fs::read(&file) else {
+            let (file, before) = (file.display(), hour - 1);
+            return Some(format!("{file} is not there: run a soak of {before} hours before"));
+        };
         world.restore(&Checkpoint::from_bytes(&bytes).unwrap().snapshot);
     }
     let hash = advance(&mut world, &scene, 3600.0);
