@@ -1,8 +1,8 @@
 //! What a picture of a scene has to show: where its balls are and go in its first seconds.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use carom::{Collider, DVec3, Shape, World};
+use carom::{Collider, DVec3, Shape, SpringEnd, World};
 use carom_scene::Scene;
 use carom_scene::scene::Simulation;
 
@@ -42,15 +42,15 @@ impl Framing {
     pub const UNIT: Self = Self { whole: Bounds::UNIT, balls: Bounds::UNIT };
 
     /// What the first seconds of a scene sweep, or all of a shorter one; `None` for a scene without balls
-    /// and surfaces that end. Balls that fly away from others are left out once they have left, and scenes
-    /// of very many balls are taken as they stand at the start.
+    /// and surfaces that end. Balls that fly away from others are left out once they have left, but for those that
+    /// springs and threads hold at a fixed point; scenes of very many balls are taken as they stand at the start.
     pub fn of_scene(scene: &Scene) -> Option<Self> {
         let mut world = scene.world().ok()?;
         let visible: Vec<_> = scene.all_colliders().iter().map(|it| it.visible).collect();
         let colliders =
             || world.colliders().zip(&visible).filter(|it| *it.1).map(|((_, it), _)| it);
-        let surfaces =
-            Bounds::around(colliders().filter_map(|it| Bounds::of_shape(it.shape, it.pose)));
+        let surfaces = colliders().filter_map(|it| Bounds::of_shape(it.shape, it.pose));
+        let surfaces = Bounds::around(surfaces.chain(fixed_ends(&world)));
         let balls = Bounds::around(spheres(&world).map(|it| it.1).chain(emitters(scene)));
         let balls = balls.or(surfaces)?;
         let radius = mean_radius(&world).unwrap_or(0.1 * balls.radius());
@@ -86,6 +86,37 @@ fn emitters(scene: &Scene) -> impl Iterator<Item = Bounds> {
     })
 }
 
+/// The points at which springs and threads are fixed.
+fn fixed_ends(world: &World) -> impl Iterator<Item = Bounds> {
+    world.springs().filter_map(|(_, spring)| match spring.to {
+        SpringEnd::Point(point) => Some(Bounds::at(point)),
+        SpringEnd::Sphere(_) => None,
+    })
+}
+
+/// The numbers of the spheres that springs and threads hold at a fixed point, also by way of other spheres.
+fn tethered(world: &World) -> BTreeSet<u64> {
+    let mut joined = BTreeMap::<u64, Vec<u64>>::new();
+    let mut found = Vec::new();
+    for (_, spring) in world.springs() {
+        let first = spring.sphere.number();
+        match spring.to {
+            SpringEnd::Point(_) => found.push(first),
+            SpringEnd::Sphere(second) => {
+                joined.entry(first).or_default().push(second.number());
+                joined.entry(second.number()).or_default().push(first);
+            }
+        }
+    }
+    let mut tethered = BTreeSet::new();
+    while let Some(number) = found.pop() {
+        if tethered.insert(number) {
+            found.extend(joined.get(&number).into_iter().flatten());
+        }
+    }
+    tethered
+}
+
 fn mean_radius(world: &World) -> Option<f64> {
     let radii = world.spheres().radii();
     (!radii.is_empty()).then(|| radii.iter().sum::<f64>() / radii.len() as f64)
@@ -111,7 +142,7 @@ fn feet<'a>(
     Bounds::around(feet.map(Bounds::at))
 }
 
-/// The boxes around what balls sweep in the first seconds: those that stay within `far`; the others as
+/// The boxes around what balls sweep in the first seconds: those that stay within `far` or are tethered; the others as
 /// long as they are within `near`; and these as long as they are within `farthest`.
 fn sweep(
     world: &mut World,
@@ -127,6 +158,7 @@ fn sweep(
     }
     let add =
         |to: &mut Option<Bounds>, more: Bounds| *to = Some(to.map_or(more, |it| it.with(more)));
+    let tethered = tethered(world);
     let mut of_balls = BTreeMap::<u64, Swept>::new();
     let frame_time = simulation.frame_time;
     let frames = (FIRST_SECONDS.min(simulation.duration) / frame_time).ceil() as usize;
@@ -138,7 +170,7 @@ fn sweep(
         }
         for (number, sphere) in spheres(world) {
             let swept = of_balls.entry(number).or_default();
-            swept.left |= !far.holds(&sphere);
+            swept.left |= !far.holds(&sphere) && !tethered.contains(&number);
             if !swept.left {
                 add(&mut swept.far, sphere);
             }

@@ -92,6 +92,19 @@ fn every_built_in_scene_has_all_of_its_balls_in_its_framing() {
 }
 
 #[test]
+fn all_that_a_double_pendulum_sweeps_is_in_the_picture_with_the_point_that_it_hangs_on() {
+    let balls = "spheres = [{ position = [1.0, 0.0, 0.0], radius = 0.05 }, \
+        { position = [3.0, 0.0, 0.0], radius = 0.05 }]\n";
+    let rods = "springs = [{ sphere = 0, anchor = [0.0, 0.0, 0.0], stiffness = 1e5 }, \
+        { spheres = [0, 1], stiffness = 1e5 }]\n";
+    let Framing { whole, balls } = framing(&format!("{GRAVITY}{balls}{rods}"));
+    assert!(whole.holds(&Bounds::at(DVec3::ZERO)) && whole.holds(&balls), "{whole:?}");
+    // Each of them swings to the other side, and the outer one passes below.
+    assert!(balls.min.x < -2.0 && balls.min.y < -2.5 && balls.max.x > 3.0, "{balls:?}");
+    assert!(whole.radius() < 5.0, "{whole:?}");
+}
+
+#[test]
 fn a_scene_without_anything_has_no_framing() {
     assert_eq!(Framing::of_scene(&scene("")), None);
     assert_eq!(Framing::of_drawing(&Drawing::default()), None);
