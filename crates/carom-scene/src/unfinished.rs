@@ -105,6 +105,26 @@ impl Unfinished {
         Ok(Self { file, place: Some(place), target, stream: None })
     }
 
+    /// Creates it with what `begin` writes, and returns what that returns; nothing is left where that fails.
+    ///
+    /// # Errors
+    /// As [`Self::create`], and those of `begin`.
+    #[cfg(feature = "recording")]
+    pub fn begin<T, E: From<io::Error>>(
+        target: &Path,
+        begin: impl FnOnce(&mut File) -> Result<T, E>,
+    ) -> Result<(Self, T), E> {
+        let mut unfinished = Self::create(target)?;
+        match begin(unfinished.file()) {
+            Ok(begun) => Ok((unfinished, begun)),
+            Err(error) => {
+                // An error here comes after another one.
+                unfinished.remove().ok();
+                Err(error)
+            }
+        }
+    }
+
     /// Opens one that a program left, to make `target` of it.
     ///
     /// # Errors
@@ -154,6 +174,27 @@ impl Unfinished {
             drop(fs::remove_file(&closing));
         }
         closed
+    }
+
+    /// [`Self::close`]s it, and removes it. `close` has `None` to say where its frames cannot be read.
+    ///
+    /// # Errors
+    /// If `close` or the disk fails; then it stays, and the error says where.
+    pub fn complete<T>(
+        mut self,
+        close: impl FnOnce(&mut File, File) -> io::Result<Option<T>>,
+    ) -> io::Result<T> {
+        let changed = || io::Error::new(io::ErrorKind::InvalidData, "its frames have changed");
+        let closed = self.close(|source, target| close(source, target)?.ok_or_else(changed));
+        match (closed, self.place()) {
+            (Ok(closed), _) => self.remove().map(|()| closed),
+            (Err(error), Some(place)) => {
+                let place = place.display();
+                let kept = format!("{error}; its frames are in {place}, for `carom recover`");
+                Err(io::Error::new(error.kind(), kept))
+            }
+            (Err(error), None) => Err(error),
+        }
     }
 
     /// Removes it.

@@ -12,6 +12,8 @@ mod ledger;
 mod npz;
 mod npz_journal;
 mod playback;
+pub mod records;
+mod recovered;
 mod recovery;
 mod replay;
 mod rotation;
@@ -29,7 +31,8 @@ pub use format::Format;
 pub use impacts::ImpactTable;
 pub use ledger::LedgerTable;
 pub use playback::Playback;
-pub use recovery::{Recovered, RecoveryError, recover, recover_table};
+pub use recovered::{Recovered, RecoveryError, recover_by};
+pub use recovery::{recover, recover_table};
 pub use replay::{LineProblem, Replay, ReplayBall, ReplayError, ReplayFrame};
 
 use error::unwritable;

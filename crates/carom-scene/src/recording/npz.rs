@@ -6,6 +6,7 @@
 //! sphere of any frame `id`, `radius` and `mass`, as they were last.
 
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::Path;
 
@@ -16,7 +17,8 @@ use zip::write::SimpleFileOptions;
 
 use super::failing_once::FailingOnce;
 use super::format::Format;
-use super::npz_journal::{Column, Head, Journal, JournalWriter};
+use super::npz_journal::{Column, Extent, Head, Journal, JournalWriter};
+use super::recovered::Recovered;
 use crate::unfinished::Unfinished;
 
 /// An NPZ file holds one array after the other, frames come one after the other: they go to a
@@ -28,15 +30,8 @@ pub(super) struct Npz {
 
 impl Npz {
     pub fn create(path: &Path) -> io::Result<Self> {
-        let mut unfinished = Unfinished::create(path)?;
-        match JournalWriter::begin(unfinished.file()) {
-            Ok(journal) => Ok(Self { unfinished, journal }),
-            Err(error) => {
-                // An error here comes after another one.
-                unfinished.remove().ok();
-                Err(error)
-            }
-        }
+        let (unfinished, journal) = Unfinished::begin(path, JournalWriter::begin)?;
+        Ok(Self { unfinished, journal })
     }
 }
 
@@ -46,26 +41,19 @@ impl Format for Npz {
     }
 
     fn finish(self: Box<Self>) -> io::Result<()> {
-        let Self { mut unfinished, .. } = *self;
-        let closed = unfinished.close(|source, target| match Journal::open(source)? {
-            Some(mut journal) => archive(&mut journal, target),
-            None => Err(io::Error::new(io::ErrorKind::InvalidData, "the journal has changed")),
-        });
-        let place = unfinished.place().map(Path::to_owned);
-        match (closed, place) {
-            (Ok(()), _) => unfinished.remove(),
-            (Err(error), Some(place)) => {
-                let place = place.display();
-                let kept = format!("{error}; its frames are in {place}, for `carom recover`");
-                Err(io::Error::new(error.kind(), kept))
-            }
-            (Err(error), None) => Err(error),
-        }
+        self.unfinished.complete(close).map(drop)
     }
 }
 
-/// Writes the archive of the whole frames of a journal.
-pub(super) fn archive(journal: &mut Journal, file: impl Write + Seek) -> io::Result<()> {
+/// Writes the archive of the whole frames of a journal; `None` for a file that is none.
+pub(super) fn close(source: &mut File, target: File) -> io::Result<Option<Recovered>> {
+    let Some(mut journal) = Journal::open(source)? else { return Ok(None) };
+    archive(&mut journal, target)?;
+    let Extent { frames, last, rest, is_damaged, .. } = journal.extent;
+    Ok(Some(Recovered { frames, last, left_out: rest, is_damaged }))
+}
+
+fn archive(journal: &mut Journal, file: impl Write + Seek) -> io::Result<()> {
     write_archive(journal, file).map_err(|error| {
         let of_zip = error.get_ref().and_then(|it| it.downcast_ref::<ZipError>());
         match of_zip {

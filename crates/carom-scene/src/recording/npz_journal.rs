@@ -1,30 +1,22 @@
-//! The growing form of NPZ files: frame after frame, each with its checksum. What is whole of it can
-//! be read whenever its writer stops.
+//! The growing form of NPZ files: frame after frame.
 //!
-//! All numbers are little-endian words of 64 bits. After [`MAGIC`], a frame is a head - time \[s\], number of spheres,
-//! [`ROTATION`] and [`BODIES`] as bits, and the checksum of these three -, its columns one after the other, and
-//! their checksum.
+//! The head of a frame has its time \[s\], the number of spheres, and [`ROTATION`] and [`BODIES`] as bits; the body,
+//! its columns one after the other.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 
 use carom::World;
-use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
+use super::records::{self, CHUNK, HEAD, Magic, RecordWriter, WORD, Words, parse_head};
 use super::rotation::{angular_velocity, orientation};
 
 /// What a journal begins with.
-pub(super) const MAGIC: &[u8; 16] = b"carom npz 1\x1a\r\n\0\0";
+const MAGIC: &Magic = b"carom npz 1\x1a\r\n\0\0";
 /// Bit of a frame with the columns of rotation.
 const ROTATION: u64 = 1;
 /// Bit of a frame with radii and masses: those before do not hold any longer.
 const BODIES: u64 = 2;
-/// A word \[byte\].
-const WORD: u64 = 8;
-/// The head of a frame \[byte\].
-const HEAD: u64 = 4 * WORD;
-/// So much is gathered before it is written: most frames are written at once, and none needs more memory \[byte\].
-const CHUNK: usize = 1 << 16;
 
 /// What a frame has of every sphere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,18 +81,12 @@ impl JournalWriter {
     pub fn write(&mut self, world: &World, out: &mut impl Write) -> io::Result<()> {
         let has_rotation = *self.has_rotation.get_or_insert_with(|| world.has_spin());
         let bits = u64::from(has_rotation) * ROTATION + u64::from(self.renew(world)) * BODIES;
-        let spheres = world.spheres();
-        self.chunk.clear();
-        for word in [world.time().to_bits(), spheres.len() as u64, bits] {
-            self.chunk.extend(word.to_le_bytes());
-        }
-        self.chunk.extend(xxh3_64(&self.chunk).to_le_bytes());
-        let mut body =
-            Body { chunk: &mut self.chunk, out, sum: Xxh3::new(), summed: HEAD as usize };
+        let words = [world.time().to_bits(), world.spheres().len() as u64, bits];
+        let mut record = RecordWriter::begin(&mut self.chunk, out, words);
         for column in Column::ALL.into_iter().filter(|it| it.is_in(bits)) {
-            body.column(column, world)?;
+            write_column(&mut record, column, world)?;
         }
-        body.end()
+        record.end()
     }
 
     /// Notes numbers, radii and masses; tells whether they are others than before.
@@ -121,51 +107,28 @@ impl JournalWriter {
     }
 }
 
-/// The columns of a frame on their way to the disk.
-struct Body<'a, W> {
-    chunk: &'a mut Vec<u8>,
-    out: &'a mut W,
-    sum: Xxh3,
-    /// So much of the chunk is in the sum, or is not to be.
-    summed: usize,
+fn write_column(
+    record: &mut RecordWriter<impl Write>,
+    column: Column,
+    world: &World,
+) -> io::Result<()> {
+    let spheres = world.spheres();
+    for i in 0..spheres.len() {
+        match column {
+            Column::Ball => record.push(&spheres.ids()[i].number().to_le_bytes())?,
+            Column::Position => push_numbers(record, &spheres.positions()[i].to_array())?,
+            Column::Velocity => push_numbers(record, &spheres.velocities()[i].to_array())?,
+            Column::Orientation => push_numbers(record, &orientation(world, i))?,
+            Column::AngularVelocity => push_numbers(record, &angular_velocity(world, i))?,
+            Column::Radius => push_numbers(record, &[spheres.radii()[i]])?,
+            Column::Mass => push_numbers(record, &[spheres.masses()[i]])?,
+        }
+    }
+    Ok(())
 }
 
-impl<W: Write> Body<'_, W> {
-    fn column(&mut self, column: Column, world: &World) -> io::Result<()> {
-        let spheres = world.spheres();
-        for i in 0..spheres.len() {
-            match column {
-                Column::Ball => self.push(&[spheres.ids()[i].number()]),
-                Column::Position => self.numbers(&spheres.positions()[i].to_array()),
-                Column::Velocity => self.numbers(&spheres.velocities()[i].to_array()),
-                Column::Orientation => self.numbers(&orientation(world, i)),
-                Column::AngularVelocity => self.numbers(&angular_velocity(world, i)),
-                Column::Radius => self.numbers(&[spheres.radii()[i]]),
-                Column::Mass => self.numbers(&[spheres.masses()[i]]),
-            }
-            if self.chunk.len() >= CHUNK {
-                self.sum.update(&self.chunk[self.summed..]);
-                self.out.write_all(self.chunk)?;
-                self.chunk.clear();
-                self.summed = 0;
-            }
-        }
-        Ok(())
-    }
-
-    fn push(&mut self, words: &[u64]) {
-        self.chunk.extend(words.iter().flat_map(|word| word.to_le_bytes()));
-    }
-
-    fn numbers(&mut self, values: &[f64]) {
-        self.chunk.extend(values.iter().flat_map(|value| value.to_le_bytes()));
-    }
-
-    fn end(mut self) -> io::Result<()> {
-        self.sum.update(&self.chunk[self.summed..]);
-        self.push(&[self.sum.digest()]);
-        self.out.write_all(self.chunk)
-    }
+fn push_numbers(record: &mut RecordWriter<impl Write>, numbers: &[f64]) -> io::Result<()> {
+    numbers.iter().try_for_each(|number| record.push(&number.to_le_bytes()))
 }
 
 /// The head of a frame, and where its columns are.
@@ -178,12 +141,9 @@ pub(super) struct Head {
 }
 
 impl Head {
-    fn parse(bytes: &[u8; HEAD as usize]) -> Option<Self> {
-        let word = |i: usize| -> Option<u64> {
-            Some(u64::from_le_bytes(bytes.get(8 * i..8 * i + 8)?.try_into().ok()?))
-        };
-        let is_whole = xxh3_64(&bytes[..3 * WORD as usize]) == word(3)?;
-        is_whole.then_some(Self { time: f64::from_bits(word(0)?), count: word(1)?, bits: word(2)? })
+    fn of(words: &Words) -> Self {
+        let [time, count, bits] = *words;
+        Self { time: f64::from_bits(time), count, bits }
     }
 
     /// Where a column begins after the head, and its bytes; `None` where the frame has none.
@@ -235,26 +195,23 @@ pub(super) struct Journal<'a> {
 impl<'a> Journal<'a> {
     /// Finds what is whole; `None` for a file that is no journal.
     pub fn open(file: &'a mut File) -> io::Result<Option<Self>> {
-        let length = file.seek(SeekFrom::End(0))?;
-        file.rewind()?;
-        let mut reader = BufReader::with_capacity(CHUNK, &mut *file);
-        let mut magic = [0; MAGIC.len()];
-        if length < magic.len() as u64 {
-            return Ok(None);
-        }
-        reader.read_exact(&mut magic)?;
-        if magic != *MAGIC {
-            return Ok(None);
-        }
-        let mut extent = Extent { end: magic.len() as u64, ..Extent::default() };
-        while let Some(head) = whole_frame(&mut reader, length, &mut extent)? {
+        let mut extent = Extent::default();
+        // Spheres turn in all frames, or in none.
+        let mut turning = None;
+        let length = |words: &Words| {
+            let head = Head::of(words);
+            let is_alike = head.has_rotation() == *turning.get_or_insert(head.has_rotation());
+            if is_alike { head.body() } else { None }
+        };
+        let each = |_, words: &Words| {
+            let head = Head::of(words);
             extent.has_rotation = head.has_rotation();
-            extent.frames += 1;
             extent.rows += head.count;
             extent.last = Some(head.time);
-        }
-        extent.rest = length - extent.end;
-        Ok(Some(Self { file, extent }))
+        };
+        let Some(found) = records::scan(file, MAGIC, length, each)? else { return Ok(None) };
+        let records::Extent { records: frames, end, rest, is_damaged } = found;
+        Ok(Some(Self { file, extent: Extent { frames, end, rest, is_damaged, ..extent } }))
     }
 
     /// Gives every whole frame to `each`, with what reads a column of it.
@@ -268,7 +225,7 @@ impl<'a> Journal<'a> {
             let mut head = [0; HEAD as usize];
             reader.read_exact(&mut head)?;
             let changed = || io::Error::new(io::ErrorKind::InvalidData, "the journal has changed");
-            let head = Head::parse(&head).ok_or_else(changed)?;
+            let head = Head::of(&parse_head(&head).ok_or_else(changed)?);
             let mut columns = Columns { reader: &mut reader, head, at: 0 };
             each(head, &mut columns)?;
             let body = head.body().unwrap_or(0) + WORD;
@@ -310,44 +267,4 @@ impl Columns<'_, '_> {
         self.at += bytes;
         Ok(())
     }
-}
-
-/// Reads a frame that is whole, and moves the end of the extent behind it.
-fn whole_frame(
-    reader: &mut impl Read,
-    length: u64,
-    extent: &mut Extent,
-) -> io::Result<Option<Head>> {
-    let rest = length - extent.end;
-    if rest < HEAD {
-        return Ok(None);
-    }
-    let mut head = [0; HEAD as usize];
-    reader.read_exact(&mut head)?;
-    let head = Head::parse(&head)
-        .filter(|head| extent.frames == 0 || head.has_rotation() == extent.has_rotation);
-    let Some((head, body)) = head.and_then(|head| Some((head, head.body()?))) else {
-        extent.is_damaged = true;
-        return Ok(None);
-    };
-    if rest - HEAD < body.saturating_add(WORD) {
-        return Ok(None);
-    }
-    let mut sum = Xxh3::new();
-    let mut left = body;
-    let mut chunk = vec![0; CHUNK.min(body as usize)];
-    while left > 0 {
-        let part = left.min(CHUNK as u64);
-        reader.read_exact(&mut chunk[..part as usize])?;
-        sum.update(&chunk[..part as usize]);
-        left -= part;
-    }
-    let mut expected = [0; WORD as usize];
-    reader.read_exact(&mut expected)?;
-    if sum.digest() != u64::from_le_bytes(expected) {
-        extent.is_damaged = true;
-        return Ok(None);
-    }
-    extent.end += HEAD + body + WORD;
-    Ok(Some(head))
 }

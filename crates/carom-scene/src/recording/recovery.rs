@@ -2,93 +2,18 @@
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::npz_journal::Journal;
+use super::recovered::{Recovered, RecoveryError, recover_by};
 use super::{csv_table, impacts, ledger, npz};
-use crate::unfinished::{Unfinished, lock};
-
-/// What was recovered of a recording.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Recovered {
-    /// Frames.
-    pub frames: u64,
-    /// Time of the last one \[s\]; `None` without a frame.
-    pub last: Option<f64>,
-    /// Bytes after the last whole frame, which are left out.
-    pub left_out: u64,
-    /// Whether these are no frame that was cut short, but something else, like what a failing disk leaves. Then the
-    /// unfinished file stays.
-    pub is_damaged: bool,
-}
-
-/// Why a recording cannot be recovered.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum RecoveryError {
-    /// The file cannot be read, or is still being written.
-    #[error("cannot recover {path}: {source}")]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// The file is none that a run left.
-    #[error("{path} is no unfinished recording")]
-    Foreign {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The file has no frame that is whole.
-    #[error("{path} has no whole frame")]
-    Empty {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The file is no table that a run writes.
-    #[error("{path} is no table of a run: its first line names other columns")]
-    ForeignTable {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The complete file cannot be written.
-    #[error("cannot write {path}: {source}")]
-    Unwritable {
-        /// The complete file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-}
+use crate::unfinished::lock;
 
 /// Makes the NPZ file `target` of what a killed run left in `unfinished`, and removes that.
 ///
 /// # Errors
 /// [`RecoveryError`]; then `unfinished` and `target` are as they were before.
 pub fn recover(unfinished: &Path, target: &Path) -> Result<Recovered, RecoveryError> {
-    let unreadable = |source| RecoveryError::Unreadable { path: unfinished.to_owned(), source };
-    let unwritable = |source| RecoveryError::Unwritable { path: target.to_owned(), source };
-    let mut file = Unfinished::open(unfinished, target).map_err(unreadable)?;
-    let journal = Journal::open(file.file()).map_err(unreadable)?;
-    let extent = journal.map(|journal| journal.extent);
-    let extent = extent.ok_or_else(|| RecoveryError::Foreign { path: unfinished.to_owned() })?;
-    let closed = file.close(|source, target| match Journal::open(source)? {
-        Some(mut journal) => npz::archive(&mut journal, target),
-        None => Ok(()),
-    });
-    closed.map_err(unwritable)?;
-    if !extent.is_damaged {
-        file.remove().map_err(unreadable)?;
-    }
-    Ok(Recovered {
-        frames: extent.frames,
-        last: extent.last,
-        left_out: extent.rest,
-        is_damaged: extent.is_damaged,
-    })
+    recover_by(unfinished, target, npz::close)
 }
 
 /// Cuts off the last line of a table if it has no end, as a killed run may leave it; returns how many

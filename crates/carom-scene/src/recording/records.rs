@@ -1,0 +1,170 @@
+//! Files that grow record by record, each with its checksums: what is whole of them can be read whenever their writer
+//! stops.
+//!
+//! All numbers are little-endian words of 64 bits. After the bytes that tell what kind of file it is, a record is a head
+//! - three words, and the checksum of these -, a body whose length follows from the head, and the checksum of that.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, Write};
+
+use xxhash_rust::xxh3::{Xxh3, xxh3_64};
+
+/// The bytes that tell what kind of file it is.
+pub type Magic = [u8; 16];
+
+/// What a head says.
+pub type Words = [u64; 3];
+
+/// A word \[byte\].
+pub(super) const WORD: u64 = 8;
+/// The head of a record \[byte\].
+pub const HEAD: u64 = 4 * WORD;
+/// So much is gathered before it is written: most records are written at once, and none needs more memory \[byte\].
+pub(super) const CHUNK: usize = 1 << 16;
+
+/// A record on its way to the disk; it is with the operating system when [`Self::end`] returns.
+pub struct RecordWriter<'a, W> {
+    chunk: &'a mut Vec<u8>,
+    out: &'a mut W,
+    sum: Xxh3,
+    /// So much of the chunk is in the sum, or is not to be.
+    summed: usize,
+}
+
+impl<W> std::fmt::Debug for RecordWriter<'_, W> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("RecordWriter").field("summed", &self.summed).finish_non_exhaustive()
+    }
+}
+
+impl<'a, W: Write> RecordWriter<'a, W> {
+    /// Begins a record with this head. `chunk` is memory that is used again.
+    pub fn begin(chunk: &'a mut Vec<u8>, out: &'a mut W, words: Words) -> Self {
+        chunk.clear();
+        chunk.extend(words.iter().flat_map(|word| word.to_le_bytes()));
+        let head_sum = xxh3_64(chunk);
+        chunk.extend(head_sum.to_le_bytes());
+        Self { chunk, out, sum: Xxh3::new(), summed: HEAD as usize }
+    }
+
+    /// Adds to the body.
+    ///
+    /// # Errors
+    /// If the disk is full or gone.
+    pub fn push(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.chunk.extend(bytes);
+        if self.chunk.len() >= CHUNK {
+            self.sum.update(&self.chunk[self.summed..]);
+            self.out.write_all(self.chunk)?;
+            self.chunk.clear();
+            self.summed = 0;
+        }
+        Ok(())
+    }
+
+    /// Ends the record.
+    ///
+    /// # Errors
+    /// If the disk is full or gone.
+    pub fn end(mut self) -> io::Result<()> {
+        self.sum.update(&self.chunk[self.summed..]);
+        self.chunk.extend(self.sum.digest().to_le_bytes());
+        self.out.write_all(self.chunk)
+    }
+}
+
+/// The words of a head.
+pub(super) fn parse_head(bytes: &[u8; HEAD as usize]) -> Option<Words> {
+    let (words, sum) = bytes.split_last_chunk()?;
+    let is_whole = xxh3_64(words) == u64::from_le_bytes(*sum);
+    let mut words =
+        words.chunks_exact(WORD as usize).map(|it| it.try_into().map(u64::from_le_bytes));
+    let mut next = || words.next()?.ok();
+    is_whole.then_some([next()?, next()?, next()?])
+}
+
+/// How far a file is whole.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Extent {
+    /// Whole records.
+    pub records: u64,
+    /// Bytes up to the end of the last one.
+    pub end: u64,
+    /// Bytes after that.
+    pub rest: u64,
+    /// Whether these are no record that was cut short, but something else.
+    pub is_damaged: bool,
+}
+
+/// Reads a file from its beginning, and finds how far it is whole; `None` for one of another kind.
+///
+/// `length` tells how long the body after a head is \[byte\]; `None` where no record has such a head. `each` gets the place of every
+/// whole record in the file, and its head.
+///
+/// # Errors
+/// If the file cannot be read.
+pub fn scan(
+    file: &mut File,
+    magic: &Magic,
+    mut length: impl FnMut(&Words) -> Option<u64>,
+    mut each: impl FnMut(u64, &Words),
+) -> io::Result<Option<Extent>> {
+    let whole = file.seek(io::SeekFrom::End(0))?;
+    file.rewind()?;
+    let mut reader = BufReader::with_capacity(CHUNK, file);
+    let mut found = Magic::default();
+    if whole < found.len() as u64 {
+        return Ok(None);
+    }
+    reader.read_exact(&mut found)?;
+    if found != *magic {
+        return Ok(None);
+    }
+    let mut extent = Extent { end: magic.len() as u64, ..Extent::default() };
+    while let Some((words, size)) = record(&mut reader, whole, &mut extent, &mut length)? {
+        each(extent.end, &words);
+        extent.records += 1;
+        extent.end += size;
+    }
+    extent.rest = whole - extent.end;
+    Ok(Some(extent))
+}
+
+/// Reads a record that is whole; returns its head, and how many bytes it has.
+fn record(
+    reader: &mut impl Read,
+    whole: u64,
+    extent: &mut Extent,
+    length: &mut impl FnMut(&Words) -> Option<u64>,
+) -> io::Result<Option<(Words, u64)>> {
+    let rest = whole - extent.end;
+    if rest < HEAD {
+        return Ok(None);
+    }
+    let mut head = [0; HEAD as usize];
+    reader.read_exact(&mut head)?;
+    let head = parse_head(&head);
+    let Some((words, body)) = head.and_then(|words| Some((words, length(&words)?))) else {
+        extent.is_damaged = true;
+        return Ok(None);
+    };
+    if rest - HEAD < body.saturating_add(WORD) {
+        return Ok(None);
+    }
+    let mut sum = Xxh3::new();
+    let mut left = body;
+    let mut chunk = vec![0; CHUNK.min(body as usize)];
+    while left > 0 {
+        let part = left.min(CHUNK as u64);
+        reader.read_exact(&mut chunk[..part as usize])?;
+        sum.update(&chunk[..part as usize]);
+        left -= part;
+    }
+    let mut expected = [0; WORD as usize];
+    reader.read_exact(&mut expected)?;
+    if sum.digest() != u64::from_le_bytes(expected) {
+        extent.is_damaged = true;
+        return Ok(None);
+    }
+    Ok(Some((words, HEAD + body + WORD)))
+}
