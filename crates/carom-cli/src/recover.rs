@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use carom_gltf::recover_animation;
 use carom_scene::recording::{self, Recovered, RecoveryError};
 use carom_scene::unfinished;
 
@@ -18,7 +19,10 @@ pub fn recover(args: &Recover) -> Result<(), Failure> {
     let (unfinished, target) = places(args)?;
     args.replacing.check([target.as_path()])?;
     let recovered = match recording::recover(&unfinished, &target) {
-        Err(RecoveryError::Foreign { .. }) => film(&unfinished, &target),
+        Err(RecoveryError::Foreign { .. }) => match recover_animation(&unfinished, &target) {
+            Err(RecoveryError::Foreign { .. }) => film(&unfinished, &target),
+            recovered => recovered.map_err(refused),
+        },
         recovered => recovered.map_err(refused),
     };
     Ok(tell(&unfinished, &target, recovered?)?)

@@ -208,8 +208,6 @@ struct Outputs {
     impacts: Option<ImpactTable>,
     ledger: Option<LedgerTable>,
     every: u64,
-    /// Whether the frames of a trajectory stay where a later one fails: an animation is there as a whole, or not.
-    keeps_frames: bool,
 }
 
 impl Outputs {
@@ -238,7 +236,6 @@ impl Outputs {
             impacts: args.impacts.as_deref().map(ImpactTable::create).transpose()?,
             ledger: args.ledger.as_deref().map(LedgerTable::create).transpose()?,
             every: args.every,
-            keeps_frames: !args.out.as_deref().is_some_and(is_animation),
         })
     }
 
@@ -253,11 +250,7 @@ impl Outputs {
         if let Some(trajectory) = &mut self.trajectory
             && frame.is_multiple_of(self.every)
         {
-            let keeps_frames = self.keeps_frames;
-            trajectory.write(world).map_err(|error| match keeps_frames {
-                true => with_kept(error, trajectory.frames()),
-                false => error.into(),
-            })?;
+            trajectory.write(world).map_err(|error| with_kept(error, trajectory.frames()))?;
         }
         Ok(())
     }

@@ -99,7 +99,8 @@ fn a_recorded_animation_is_a_scene_that_runs_as_the_first() {
         |table: &str| table.lines().find(|it| it.starts_with("state hash")).map(str::to_owned);
     assert_eq!(hash(&second), hash(&first));
     assert!(bad_line(&again, 2).contains("cradle.glb"), "it is not written over");
-    let nowhere = path(&folder, "no/run.glb");
+    // Where a file is, there is no folder.
+    let nowhere = path(&folder, "cradle.toml/run.glb");
     assert!(bad_line(&["run", "cradle", "--out", &nowhere], 1).contains("run.glb"));
     assert!(
         bad_line(&["run", "cradle", "--out", "run.mov"], 2).contains(".glb (an animation in glTF)")

@@ -13,7 +13,7 @@ pub(crate) const FLOAT: u32 = 5126;
 pub(crate) const UNSIGNED_SHORT: u32 = 5123;
 
 /// A whole file.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct Document {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -50,7 +50,7 @@ pub(crate) struct Document {
 }
 
 /// The version of glTF, and which program wrote the file.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Asset {
     pub version: String,
@@ -59,7 +59,7 @@ pub(crate) struct Asset {
 }
 
 /// Extensions of a whole file.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct DocumentExtensions {
     #[serde(rename = "KHR_lights_punctual", skip_serializing_if = "Option::is_none")]
@@ -71,7 +71,7 @@ pub(crate) struct DocumentExtensions {
 }
 
 /// The nodes of a scene that hang on no other.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Scene {
     #[serde(skip_serializing_if = "String::is_empty")]
@@ -129,14 +129,14 @@ pub(crate) struct LightReference {
 }
 
 /// Lights of a file.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Lights {
     pub lights: Vec<Light>,
 }
 
 /// A light; a directional one shines along its node's local -z.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Light {
     #[serde(rename = "type")]
     pub kind: String,
@@ -149,7 +149,7 @@ pub(crate) struct Light {
 }
 
 /// A camera; it looks along its node's local -z.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Camera {
     #[serde(rename = "type")]
     pub kind: String,
@@ -158,7 +158,7 @@ pub(crate) struct Camera {
 }
 
 /// What a camera sees in perspective.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Perspective {
     /// Vertical field of view \[rad\].
     pub yfov: f64,
@@ -170,7 +170,7 @@ pub(crate) struct Perspective {
 }
 
 /// What is drawn at nodes.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Mesh {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
@@ -252,7 +252,7 @@ pub(crate) struct Transmission {
 }
 
 /// How nodes move.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Animation {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
@@ -261,14 +261,14 @@ pub(crate) struct Animation {
 }
 
 /// What of a node moves, and how.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Channel {
     pub sampler: usize,
     pub target: Target,
 }
 
 /// What of a node moves.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Target {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<usize>,
@@ -276,7 +276,7 @@ pub(crate) struct Target {
 }
 
 /// Times and values.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Sampler {
     pub input: usize,
     pub output: usize,
@@ -285,7 +285,7 @@ pub(crate) struct Sampler {
 }
 
 /// Where numbers lie, and of what kind they are.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Accessor {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -307,7 +307,7 @@ pub(crate) struct Accessor {
 }
 
 /// A part of a buffer.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct BufferView {
     pub buffer: usize,
@@ -321,7 +321,7 @@ pub(crate) struct BufferView {
 }
 
 /// Bytes: of a file, in the address itself, or those that come with a .glb file.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Buffer {
     pub byte_length: u64,

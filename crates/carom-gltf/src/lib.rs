@@ -23,5 +23,5 @@ mod import;
 mod rigid_body;
 
 pub use carom_scene::import::Omission;
-pub use export::{Animation, ExportError};
+pub use export::{Animation, ExportError, recover_animation};
 pub use import::{ImportError, Imported, Options, import};

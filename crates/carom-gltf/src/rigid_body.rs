@@ -4,7 +4,7 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 /// Shapes of a file.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Shapes {
     pub shapes: Vec<Shape>,
@@ -63,7 +63,7 @@ pub(crate) struct PlaneShape {
 }
 
 /// What bodies of a file have in common.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct RigidBodies {
     #[serde(skip_serializing_if = "Vec::is_empty")]

@@ -7,32 +7,32 @@ use super::arrays::Arrays;
 use super::tracks::Track;
 use crate::document::{Animation, Channel, Sampler, Target};
 
-/// The animation of these tracks, each with its node, and the arrays that it refers to; the keys of positions
+/// The animation of these tracks, and the arrays that it refers to; the keys of positions
 /// and rotations are to come after all bytes that are there then, in the order of the tracks. `None` where all
 /// is at rest.
 pub(super) fn of_tracks(
-    tracks: &[(&Track, usize)],
+    tracks: &[&Track],
     times: &[f32],
     arrays: &mut Arrays,
 ) -> Option<Animation> {
     let (inputs, animation) = (BTreeMap::new(), empty());
     let mut channels = Channels { arrays, times, times_view: None, inputs, animation };
-    for (track, node) in tracks {
-        channels.push_scales(track, *node);
+    for track in tracks {
+        channels.push_scales(track);
     }
-    let bytes: u64 = tracks.iter().map(|(track, _)| track.bytes()).sum();
+    let bytes: u64 = tracks.iter().map(|track| track.bytes()).sum();
     if bytes > 0 {
         // Before the view that comes last, all others.
         let _ = channels.times_view();
         let view = channels.arrays.push_later(bytes);
         let mut offset = 0;
-        for (track, node) in tracks {
+        for track in tracks {
             let keys =
                 [(track.moves, "translation", "VEC3", 12), (track.turns, "rotation", "VEC4", 16)];
             for (_, path, kind, size) in keys.into_iter().filter(|it| it.0) {
                 let output = channels.arrays.push_keys_in(view, offset, kind, track.len());
                 let input = channels.times_of(&track.frames);
-                channels.push(*node, path, "LINEAR", [input, output]);
+                channels.push(track.node, path, "LINEAR", [input, output]);
                 offset += size * track.len() as u64;
             }
         }
@@ -57,7 +57,7 @@ struct Channels<'a> {
 
 impl Channels<'_> {
     /// Adds the sizes of a body, where they change, or where it is not always there: each holds until the next.
-    fn push_scales(&mut self, track: &Track, node: usize) {
+    fn push_scales(&mut self, track: &Track) {
         let frames = self.times.len() as u32;
         let Range { start, end } = track.frames;
         if track.scales.len() == 1 && start == 0 && end == frames {
@@ -71,7 +71,7 @@ impl Channels<'_> {
         let scales: Vec<[f32; 3]> = scales.iter().map(|it| it.map(|part| part as f32)).collect();
         let input = self.arrays.push_times(&times);
         let output = self.arrays.push_scales(&scales);
-        self.push(node, "scale", "STEP", [input, output]);
+        self.push(track.node, "scale", "STEP", [input, output]);
     }
 
     /// The accessor of the times of these frames.

@@ -1,29 +1,33 @@
 //! Runs as animations.
 
+mod addition;
 mod arrays;
 mod bodies;
 mod channels;
+mod compose;
+mod frames;
 mod geometry;
 mod look;
 mod nodes;
 mod tracks;
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io;
 use std::path::Path;
 
 use carom::World;
-use carom_scene::recording::Format;
+use carom_scene::recording::{Format, Recovered, RecoveryError, recover_by};
 use carom_scene::scene::Scene;
+use carom_scene::unfinished::Unfinished;
 use carom_scene::{Palette, SceneError};
 use thiserror::Error;
 
-use crate::document::{Asset, Buffer, Document};
-use crate::extensions::{BODIES, LIGHTS, SHAPES, TRANSMISSION};
 use crate::glb;
+use addition::Marks;
 use arrays::Arrays;
+use compose::compose;
+use frames::Frame;
 use nodes::{Nodes, coat_of};
-use tracks::{Placement, Track, Tracks};
+use tracks::{Changes, Placement, Tracks};
 
 /// Why a recording cannot begin.
 #[derive(Debug, Error)]
@@ -43,30 +47,32 @@ pub enum ExportError {
 /// size 1. Keys are the frames, with straight ways between them. What appears later has no size before, and
 /// none after it is gone. Nodes begin as the world does, in 64 bits; keys have 32 bits.
 ///
-/// The file is complete at the end only. Until then, rows wait in a temporary file beside it, 28 bytes for each
-/// ball, collider and frame; in memory are 64 MiB of them at a time, some 3 kB for each ball, and 20 bytes for each
-/// frame.
+/// The file gets its name once it is complete. Until then its frames are in `NAME.0.unfinished` beside it (1, 2, ... where
+/// another one is left), 28 bytes for each ball, collider and frame: each is with the operating system when it is written, and
+/// [`recover_animation`] makes the animation of what a killed process leaves. In memory are some 3 kB for each ball; at the
+/// end 64 MiB of rows at a time and 60 bytes for each frame, too.
 pub struct Animation {
-    file: File,
+    unfinished: Unfinished,
     palette: Palette,
     nodes: Nodes,
     arrays: Arrays,
-    /// Balls, with the nodes of those that were there, in the order of the tracks.
+    /// How much of nodes and arrays is in the unfinished file.
+    marks: Marks,
     balls: Tracks,
-    ball_nodes: Vec<usize>,
     colliders: Tracks,
-    collider_nodes: Vec<usize>,
-    /// \[s\], one for each frame.
-    times: Vec<f32>,
+    /// Of the last frame \[s\].
+    time: Option<f32>,
     /// Whether spheres turn; known from the start on.
     has_spin: bool,
-    /// Whether a frame was written in part: then rows and tracks do not belong together.
+    /// Whether a frame was written in part: then nothing comes after it.
     broken: bool,
+    /// Memory that is used again.
+    chunk: Vec<u8>,
 }
 
 impl std::fmt::Debug for Animation {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Animation").field("frames", &self.times.len()).finish_non_exhaustive()
+        f.debug_struct("Animation").field("time", &self.time).finish_non_exhaustive()
     }
 }
 
@@ -77,143 +83,129 @@ impl Animation {
     /// For a place that cannot be written to, and a scene that makes no sense.
     pub fn create(path: &Path, scene: &Scene, world: &World) -> Result<Self, ExportError> {
         let palette = Palette::new(scene)?;
-        let file = File::create(path)?;
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let folder = folder.unwrap_or(Path::new("."));
+        let (unfinished, ()) = Unfinished::begin(path, frames::begin)?;
         let mut animation = Self {
-            file,
+            unfinished,
             palette,
             nodes: Nodes::new(scene, world),
             arrays: Arrays::default(),
-            balls: Tracks::create(folder)?,
-            ball_nodes: Vec::new(),
-            colliders: Tracks::create(folder)?,
-            collider_nodes: Vec::new(),
-            times: Vec::new(),
+            marks: Marks::default(),
+            balls: Tracks::default(),
+            colliders: Tracks::default(),
+            time: None,
             has_spin: world.has_spin(),
             broken: false,
+            chunk: Vec::new(),
         };
-        animation.add_colliders(scene, world);
-        animation.push(world)?;
-        Ok(animation)
-    }
-
-    /// Adds the colliders that are there at the start, in the looks of the scene.
-    fn add_colliders(&mut self, scene: &Scene, world: &World) {
-        let written = scene.all_colliders();
-        for (i, (_, collider)) in world.colliders().enumerate() {
-            let written = written.get(i);
-            let coat = written.is_none_or(|it| it.visible).then(|| self.palette.collider(i));
-            let name = written.map(|it| it.name.clone()).filter(|it| !it.is_empty());
-            let name = name.unwrap_or_else(|| format!("collider {i}"));
-            let node = self.nodes.push_collider(&name, collider, coat, &mut self.arrays);
-            self.collider_nodes.push(node);
+        match animation.push(world, Some(scene)) {
+            Ok(()) => Ok(animation),
+            Err(error) => {
+                // An error here comes after another one.
+                animation.unfinished.remove().ok();
+                Err(error.into())
+            }
         }
     }
 
-    /// Adds a frame.
-    fn push(&mut self, world: &World) -> io::Result<()> {
+    /// Adds a frame; the first one, of a world that was made of a scene.
+    fn push(&mut self, world: &World, scene: Option<&Scene>) -> io::Result<()> {
         let time = world.time() as f32;
-        if self.times.last().is_some_and(|last| *last >= time) {
+        if self.time.is_some_and(|last| last >= time) {
             let text = "times of its keys have 32 bits, in which these frames fall together: write fewer (--every)";
             return Err(io::Error::new(io::ErrorKind::InvalidInput, text));
         }
-        // What a ball takes in the JSON, generously.
-        const NODE: u64 = 1500;
-        let json = NODE * (self.ball_nodes.len() + world.spheres().len()) as u64;
-        let keys = self.balls.bytes() + self.colliders.bytes();
-        let frame = 28 * world.spheres().len() as u64;
-        if json + keys + frame + self.arrays.bytes.len() as u64 > u64::from(u32::MAX) {
+        if self.bytes_with(world) > u64::from(u32::MAX) {
             return Err(glb::too_large());
         }
+        if self.broken {
+            return Err(io::Error::other("the frame before was written in part"));
+        }
         self.broken = true;
-        let is_start = self.times.is_empty();
         self.palette.follow(world.time());
-        let spheres = world.spheres();
-        self.balls.push(spheres.ids().iter().enumerate().map(|(i, id)| {
-            let sphere = spheres.get(i);
-            let (position, rotation) = (sphere.position, sphere.orientation.normalize());
-            (id.number(), Placement { position, rotation, scale: [sphere.radius; 3] })
-        }))?;
-        for track in &self.balls.tracks()[self.ball_nodes.len()..] {
-            let place = spheres.ids().partition_point(|id| id.number() < track.number);
-            let sphere = spheres.get(place);
-            let coat = coat_of(&self.palette, track.number, &sphere);
-            let look = (coat, self.has_spin);
-            let node =
-                self.nodes.push_ball(track.number, &sphere, look, is_start, &mut self.arrays);
-            self.ball_nodes.push(node);
-        }
-        let nodes = &self.nodes;
-        let places = world.colliders().map(|(id, it)| (id.number(), nodes.collider_place(it)));
-        self.colliders.push(places)?;
-        let later = &self.colliders.tracks()[self.collider_nodes.len()..];
-        for number in later.iter().map(|track| track.number) {
-            let of_number = world.colliders().find(|(id, _)| id.number() == number);
-            let Some((_, collider)) = of_number else { continue };
-            let coat = Some(self.palette.collider(usize::MAX));
-            let name = format!("collider {number}");
-            let node = self.nodes.push_collider(&name, collider, coat, &mut self.arrays);
-            self.nodes.document.nodes[node].scale = Some([0.0; 3]);
-            self.collider_nodes.push(node);
-        }
-        self.times.push(time);
+        let mut rows = Vec::new();
+        let colliders = self.push_colliders(world, scene, &mut rows);
+        let balls = self.push_balls(world, scene.is_some(), &mut rows);
+        let (added, arrays) = self.marks.advance(&self.nodes, &self.arrays).unzip();
+        let frame = Frame { time: world.time(), balls, colliders, added };
+        let arrays = arrays.unwrap_or_default();
+        frames::append(self.unfinished.file(), &mut self.chunk, &frame, &arrays, &rows)?;
+        self.time = Some(time);
         self.broken = false;
         Ok(())
     }
 
-    /// Everything but the binary part.
-    fn document(&mut self) -> Document {
-        let pairs = [(&self.balls, &self.ball_nodes), (&self.colliders, &self.collider_nodes)];
-        let tracks: Vec<(&Track, usize)> = pairs
-            .into_iter()
-            .flat_map(|(tracks, nodes)| tracks.tracks().iter().zip(nodes.iter().copied()))
-            .collect();
-        let animation = channels::of_tracks(&tracks, &self.times, &mut self.arrays);
-        let Nodes { document, bodies, .. } = &mut self.nodes;
-        let mut document = std::mem::take(document);
-        document.asset = Some(Asset {
-            version: "2.0".to_owned(),
-            generator: format!("Carom {}", env!("CARGO_PKG_VERSION")),
+    /// What the complete file takes at most with one more frame \[byte\].
+    fn bytes_with(&self, world: &World) -> u64 {
+        // What a ball takes in the JSON, generously.
+        const NODE: u64 = 1500;
+        let json = NODE * (self.balls.tracks().len() + world.spheres().len()) as u64;
+        let keys = self.balls.bytes() + self.colliders.bytes();
+        let frame = 28 * world.spheres().len() as u64;
+        json + keys + frame + self.arrays.bytes.len() as u64
+    }
+
+    /// Adds the rows of colliders; those that are there at the start are in the looks of the scene.
+    fn push_colliders(
+        &mut self,
+        world: &World,
+        scene: Option<&Scene>,
+        rows: &mut Vec<u8>,
+    ) -> Changes {
+        let Self { nodes, arrays, palette, .. } = self;
+        let there: Vec<_> = world.colliders().map(|(id, it)| (id.number(), it)).collect();
+        let places = there.iter().map(|&(number, it)| (number, nodes.collider_place(it)));
+        let places: Vec<_> = places.collect();
+        let written = scene.map(Scene::all_colliders);
+        let node = |number| {
+            let place = there.partition_point(|it| it.0 < number);
+            let (_, collider) = there[place];
+            let Some(written) = &written else {
+                let (name, coat) = (format!("collider {number}"), palette.collider(usize::MAX));
+                return nodes.push_later_collider(&name, collider, coat, arrays);
+            };
+            let written = written.get(place);
+            let coat = written.is_none_or(|it| it.visible).then(|| palette.collider(place));
+            let name = written.map(|it| it.name.clone()).filter(|it| !it.is_empty());
+            let name = name.unwrap_or_else(|| format!("collider {place}"));
+            nodes.push_collider(&name, collider, coat, arrays)
+        };
+        self.colliders.push(places.into_iter(), node, rows)
+    }
+
+    /// Adds the rows of balls.
+    fn push_balls(&mut self, world: &World, is_start: bool, rows: &mut Vec<u8>) -> Changes {
+        let Self { nodes, arrays, palette, has_spin, .. } = self;
+        let spheres = world.spheres();
+        let places = spheres.ids().iter().enumerate().map(|(i, id)| {
+            let sphere = spheres.get(i);
+            let (position, rotation) = (sphere.position, sphere.orientation.normalize());
+            (id.number(), Placement { position, rotation, scale: [sphere.radius; 3] })
         });
-        document.animations.extend(animation);
-        document.accessors = std::mem::take(&mut self.arrays.accessors);
-        document.buffer_views = std::mem::take(&mut self.arrays.views);
-        document.extensions_used = vec![LIGHTS.to_owned()];
-        if document.materials.iter().any(|it| it.extensions.transmission.is_some()) {
-            document.extensions_used.push(TRANSMISSION.to_owned());
-        }
-        if !bodies.shapes.shapes.is_empty() {
-            document.extensions_used.extend([SHAPES, BODIES].map(ToOwned::to_owned));
-            document.extensions.shapes = Some(std::mem::take(&mut bodies.shapes));
-            document.extensions.bodies = Some(std::mem::take(&mut bodies.materials));
-        }
-        document
+        let node = |number| {
+            let sphere = spheres.get(spheres.ids().partition_point(|id| id.number() < number));
+            let look = (coat_of(palette, number, &sphere), *has_spin);
+            nodes.push_ball(number, &sphere, look, is_start, arrays)
+        };
+        self.balls.push(places, node, rows)
     }
 }
 
 impl Format for Animation {
     fn write(&mut self, world: &World) -> io::Result<()> {
-        self.push(world)
+        self.push(world, None)
     }
 
-    fn finish(mut self: Box<Self>) -> io::Result<()> {
-        if self.broken {
-            return Err(io::Error::other("a frame was written in part; there is no animation"));
-        }
-        let mut document = self.document();
-        let Self { file, arrays, balls, colliders, .. } = *self;
-        let byte_length = arrays.bytes.len() as u64 + balls.bytes() + colliders.bytes();
-        if byte_length > 0 {
-            document.buffers.push(Buffer { byte_length, uri: None });
-        }
-        let json = serde_json::to_vec(&document)?;
-        drop(document);
-        let mut out = BufWriter::new(file);
-        glb::write_head(&mut out, &json, byte_length)?;
-        out.write_all(&arrays.bytes)?;
-        balls.write_keys(&mut out)?;
-        colliders.write_keys(&mut out)?;
-        out.flush()
+    fn finish(self: Box<Self>) -> io::Result<()> {
+        // What it knows of the run is in the unfinished file, too.
+        let Self { unfinished, .. } = *self;
+        unfinished.complete(compose).map(drop)
     }
+}
+
+/// Makes the animation `target` of what a killed run left in `unfinished`, and removes that.
+///
+/// # Errors
+/// [`RecoveryError`]; then `unfinished` and `target` are as they were before.
+pub fn recover_animation(unfinished: &Path, target: &Path) -> Result<Recovered, RecoveryError> {
+    recover_by(unfinished, target, compose)
 }

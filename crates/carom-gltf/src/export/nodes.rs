@@ -83,6 +83,19 @@ impl Nodes {
         self.push(Node { children: walls, mesh, extensions, ..node })
     }
 
+    /// Adds a collider that is not there at the start, and has no size then. Returns the index of its node.
+    pub fn push_later_collider(
+        &mut self,
+        name: &str,
+        collider: &Collider,
+        coat: Coat,
+        arrays: &mut Arrays,
+    ) -> usize {
+        let node = self.push_collider(name, collider, Some(coat), arrays);
+        self.document.nodes[node].scale = Some([0.0; 3]);
+        node
+    }
+
     /// Where the node of a collider is, and how its mesh of size 1 is scaled.
     pub fn collider_place(&self, collider: &Collider) -> Placement {
         let scale = match collider.shape {

@@ -1,13 +1,13 @@
 //! Where bodies are, frame by frame, turned into a track for each body.
 //!
-//! Frames come one after the other, but an animation holds one body after the other: rows wait in a temporary
+//! Frames come one after the other, but an animation holds one body after the other: rows wait in the unfinished
 //! file until all frames are known.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
-use std::path::Path;
+use std::io::{self, Read, Seek, SeekFrom, Write};
 
 use carom::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// Where a body is, and how large.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +25,8 @@ pub(super) struct Placement {
 pub(super) struct Track {
     /// The number of the body.
     pub number: u64,
+    /// The index of its node.
+    pub node: usize,
     /// The first frame in which it is there, and the one after the last.
     pub frames: std::ops::Range<u32>,
     /// From which frames on it has which scale.
@@ -37,6 +39,24 @@ pub(super) struct Track {
 }
 
 impl Track {
+    /// Of a body that comes in this frame.
+    fn new(came: Came, frame: u32) -> Self {
+        let Came { number, node, scale } = came;
+        let (frames, scales, last) = (frame..frame, vec![(frame, scale)], [0.0; Row::NUMBERS]);
+        Self { number, node, frames, scales, moves: false, turns: false, last }
+    }
+
+    /// Goes on by a frame.
+    fn push(&mut self, row: [f32; Row::NUMBERS]) {
+        if self.frames.is_empty() {
+            self.last = row;
+        }
+        self.frames.end += 1;
+        self.moves |= row[..3] != self.last[..3];
+        self.turns |= row[3..] != self.last[3..];
+        self.last = row;
+    }
+
     /// Number of frames in which it is there.
     pub fn len(&self) -> usize {
         self.frames.len()
@@ -50,11 +70,11 @@ impl Track {
 }
 
 /// Position x, y, z \[m\] and rotation x, y, z, w, in 32 bits.
-struct Row;
+pub(super) struct Row;
 
 impl Row {
     const NUMBERS: usize = 7;
-    const BYTES: usize = 4 * Self::NUMBERS;
+    pub const BYTES: usize = 4 * Self::NUMBERS;
 
     /// Of two opposite quaternions, which turn alike, the one nearer to that of `last`: what is between two
     /// keys is then the shorter way from one to the other.
@@ -67,16 +87,42 @@ impl Row {
         let [a, b, c, d] = if along < 0.0 { turn.map(|it| -it) } else { turn };
         [x, y, z, a, b, c, d]
     }
+
+    fn read(bytes: &[u8]) -> [f32; Self::NUMBERS] {
+        let mut numbers = bytes.chunks_exact(4).map(|it| [it[0], it[1], it[2], it[3]]);
+        [(); Self::NUMBERS].map(|()| numbers.next().map_or(0.0, f32::from_le_bytes))
+    }
+}
+
+/// A body that was not there before.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Came {
+    number: u64,
+    /// The index of its node.
+    node: usize,
+    scale: [f64; 3],
+}
+
+/// What a frame changes of who is there, and how large they are; numbers of bodies ascend.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(super) struct Changes {
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    gone: Vec<u64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    came: Vec<Came>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    scaled: Vec<(u64, [f64; 3])>,
 }
 
 /// Tracks on their way.
+#[derive(Debug, Default)]
 pub(super) struct Tracks {
-    file: BufWriter<File>,
     tracks: Vec<Track>,
-    /// Indices of the tracks of bodies that are there, in order.
+    /// Indices of the tracks of bodies that are there, in the order of their numbers.
     alive: Vec<usize>,
-    /// The rows before each frame.
-    frame_starts: Vec<u64>,
+    /// Where the rows of each frame begin in the unfinished file \[byte\].
+    rows: Vec<u64>,
     /// Bytes of the keys of all tracks.
     bytes: u64,
 }
@@ -85,14 +131,7 @@ impl Tracks {
     /// Bytes of rows that are in memory at a time.
     const BLOCK: usize = 64 << 20;
 
-    /// Without frames; its rows wait in this folder.
-    pub fn create(folder: &Path) -> io::Result<Self> {
-        let file = BufWriter::new(tempfile::tempfile_in(folder)?);
-        let (tracks, alive) = (Vec::new(), Vec::new());
-        Ok(Self { file, tracks, alive, frame_starts: vec![0], bytes: 0 })
-    }
-
-    /// All tracks, in the order of the numbers of their bodies.
+    /// All tracks, in the order in which their bodies came.
     pub fn tracks(&self) -> &[Track] {
         &self.tracks
     }
@@ -102,57 +141,111 @@ impl Tracks {
         self.bytes
     }
 
-    /// Adds a frame: bodies in the order of their numbers, which are never given again.
-    pub fn push(&mut self, bodies: impl Iterator<Item = (u64, Placement)>) -> io::Result<()> {
-        let frame = self.frame_starts.len() as u32 - 1;
+    /// Adds a frame: bodies in the order of their numbers, which are never given again; `node` has the index of the
+    /// node of one that was not there before. Appends their rows to `rows`, and returns what else changes.
+    pub fn push(
+        &mut self,
+        bodies: impl Iterator<Item = (u64, Placement)>,
+        mut node: impl FnMut(u64) -> usize,
+        rows: &mut Vec<u8>,
+    ) -> Changes {
+        let frame = self.begin(0);
+        let mut changes = Changes::default();
         let before = std::mem::take(&mut self.alive);
         let mut before = before.into_iter().peekable();
-        let mut rows = 0;
         for (number, place) in bodies {
             // What comes before it in the order is no longer there.
-            while before.next_if(|&index| self.tracks[index].number < number).is_some() {}
-            let index = match before.next_if(|&index| self.tracks[index].number == number) {
-                Some(index) => index,
-                None => {
-                    let frames = frame..frame;
-                    let scales = vec![(frame, place.scale)];
-                    let last = Row::of(&place, None);
-                    let (moves, turns) = (false, false);
-                    self.tracks.push(Track { number, frames, scales, moves, turns, last });
-                    self.tracks.len() - 1
-                }
-            };
-            self.alive.push(index);
-            let track = &mut self.tracks[index];
-            self.bytes -= track.bytes();
-            let row = Row::of(&place, Some(&track.last));
-            track.frames.end = frame + 1;
-            track.moves |= row[..3] != track.last[..3];
-            track.turns |= row[3..] != track.last[3..];
-            track.last = row;
-            if track.scales.last().is_some_and(|last| last.1 != place.scale) {
-                track.scales.push((frame, place.scale));
+            while let Some(gone) = before.next_if(|&index| self.tracks[index].number < number) {
+                changes.gone.push(self.tracks[gone].number);
             }
-            self.bytes += track.bytes();
-            row.iter().try_for_each(|number| self.file.write_all(&number.to_le_bytes()))?;
-            rows += 1;
+            let known = before.next_if(|&index| self.tracks[index].number == number);
+            let index = known.unwrap_or_else(|| {
+                let came = Came { number, node: node(number), scale: place.scale };
+                changes.came.push(came);
+                self.add(came, frame)
+            });
+            if self.scale(index, frame, place.scale) {
+                changes.scaled.push((number, place.scale));
+            }
+            let row = Row::of(&place, known.map(|index| &self.tracks[index].last));
+            rows.extend(row.iter().flat_map(|number| number.to_le_bytes()));
+            self.alive.push(index);
+            self.go_on(index, row);
         }
-        let start = self.frame_starts.last().copied().unwrap_or(0);
-        self.frame_starts.push(start + rows);
-        Ok(())
+        changes.gone.extend(before.map(|index| self.tracks[index].number));
+        changes
     }
 
-    /// Writes the keys of all tracks: of each the positions, if it moves, and then the rotations, if it turns.
-    pub fn write_keys(self, out: &mut impl Write) -> io::Result<()> {
-        let Self { file, tracks, frame_starts, .. } = self;
-        let mut file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
-        // Rows of each frame that belong to the tracks before a block.
-        let mut skipped = vec![0; frame_starts.len() - 1];
+    /// Adds a frame of which this changes, and whose rows begin at this place of the unfinished file; reads them from
+    /// `rows`. Returns whether all bodies have one.
+    pub fn repeat(&mut self, changes: &Changes, place: u64, mut rows: impl Read) -> bool {
+        let frame = self.begin(place);
+        let Changes { gone, came, scaled } = changes;
+        let mut alive = std::mem::take(&mut self.alive);
+        alive.retain(|&index| gone.binary_search(&self.tracks[index].number).is_err());
+        alive.extend(came.iter().map(|it| self.add(*it, frame)));
+        if !came.is_empty() {
+            alive.sort_by_key(|&index| self.tracks[index].number);
+        }
+        for (number, scale) in scaled {
+            let found = alive.binary_search_by_key(number, |&index| self.tracks[index].number);
+            if let Ok(place) = found {
+                self.scale(alive[place], frame, *scale);
+            }
+        }
+        let mut row = [0; Row::BYTES];
+        let are_whole = alive.iter().all(|&index| {
+            let is_there = rows.read_exact(&mut row).is_ok();
+            self.go_on(index, Row::read(&row));
+            is_there
+        });
+        self.alive = alive;
+        are_whole
+    }
+
+    /// Length of the rows of the last frame \[byte\].
+    pub fn rows_length(&self) -> u64 {
+        (self.alive.len() * Row::BYTES) as u64
+    }
+
+    /// Begins a frame; returns its number.
+    fn begin(&mut self, place: u64) -> u32 {
+        self.rows.push(place);
+        self.rows.len() as u32 - 1
+    }
+
+    /// Adds a track; returns its index.
+    fn add(&mut self, came: Came, frame: u32) -> usize {
+        self.tracks.push(Track::new(came, frame));
+        self.tracks.len() - 1
+    }
+
+    /// Sets the scale of a body from a frame on; returns whether it was another one.
+    fn scale(&mut self, index: usize, frame: u32, scale: [f64; 3]) -> bool {
+        let scales = &mut self.tracks[index].scales;
+        let is_other = scales.last().is_none_or(|last| last.1 != scale);
+        if is_other {
+            scales.push((frame, scale));
+        }
+        is_other
+    }
+
+    fn go_on(&mut self, index: usize, row: [f32; Row::NUMBERS]) {
+        let track = &mut self.tracks[index];
+        self.bytes -= track.bytes();
+        track.push(row);
+        self.bytes += track.bytes();
+    }
+
+    /// Writes the keys of all tracks, of rows in this file: of each the positions, if it moves, and then the rotations, if
+    /// it turns.
+    pub fn write_keys(self, file: &mut File, out: &mut impl Write) -> io::Result<()> {
+        let Self { tracks, mut rows, .. } = self;
         let mut rest = &tracks[..];
         while !rest.is_empty() {
             let (block, later) = rest.split_at(block_len(rest, Self::BLOCK));
             rest = later;
-            let keys = read_block(&mut file, block, &frame_starts, &mut skipped)?;
+            let keys = read_block(file, block, &mut rows)?;
             for (track, rows) in block.iter().zip(&keys) {
                 let rows = || rows.chunks_exact(Row::BYTES);
                 if track.moves {
@@ -177,13 +270,9 @@ fn block_len(tracks: &[Track], most: usize) -> usize {
     fits.count().max(1)
 }
 
-/// The rows of each track of a block.
-fn read_block(
-    file: &mut File,
-    block: &[Track],
-    frame_starts: &[u64],
-    skipped: &mut [u64],
-) -> io::Result<Vec<Vec<u8>>> {
+/// The rows of each track of a block; `places` are those of each frame of this block and later ones, and thereafter of the
+/// later ones only.
+fn read_block(file: &mut File, block: &[Track], places: &mut [u64]) -> io::Result<Vec<Vec<u8>>> {
     let is_still = |track: &Track| !track.moves && !track.turns;
     let needed = |track: &Track| if is_still(track) { 0 } else { track.len() * Row::BYTES };
     let mut keys: Vec<Vec<u8>> =
@@ -193,14 +282,14 @@ fn read_block(
     let mut rows = Vec::new();
     for frame in first..end {
         let there = || (0..block.len()).filter(|&i| block[i].frames.contains(&frame));
-        let start = frame_starts[frame as usize] + skipped[frame as usize];
-        let count = there().count();
-        skipped[frame as usize] += count as u64;
+        let place = &mut places[frame as usize];
+        rows.resize(there().count() * Row::BYTES, 0);
+        let start = SeekFrom::Start(*place);
+        *place += rows.len() as u64;
         if there().all(|i| is_still(&block[i])) {
             continue;
         }
-        file.seek(SeekFrom::Start(start * Row::BYTES as u64))?;
-        rows.resize(count * Row::BYTES, 0);
+        file.seek(start)?;
         file.read_exact(&mut rows)?;
         for (i, row) in there().zip(rows.chunks_exact(Row::BYTES)) {
             if !is_still(&block[i]) {
@@ -219,26 +308,39 @@ mod tests {
         Placement { position: DVec3::X * x, rotation: DQuat::IDENTITY, scale: [1.0; 3] }
     }
 
+    /// Frames, as tracks and as a file of rows with what changes besides.
+    fn tracks(frames: &[Vec<(u64, Placement)>]) -> (Tracks, File) {
+        let (mut tracks, mut repeated) = (Tracks::default(), Tracks::default());
+        let mut file = tempfile::tempfile().unwrap();
+        for frame in frames {
+            let mut rows = Vec::new();
+            let changes = tracks.push(frame.iter().copied(), |number| number as usize, &mut rows);
+            let place = file.stream_position().unwrap();
+            file.write_all(&rows).unwrap();
+            assert!(repeated.repeat(&changes, place, &rows[..]));
+        }
+        assert_eq!(format!("{:?}", tracks.tracks), format!("{:?}", repeated.tracks));
+        assert_eq!((tracks.bytes, tracks.alive), (repeated.bytes, repeated.alive.clone()));
+        (repeated, file)
+    }
+
     /// Body 0 is there throughout, 1 in the first frame, 2 rests from the second on, 3 moves from there on.
-    fn tracks() -> Tracks {
-        let mut tracks = Tracks::create(Path::new(".")).unwrap();
-        let frames = [
+    fn some() -> (Tracks, File) {
+        tracks(&[
             vec![(0, at(0.0)), (1, at(10.0))],
             vec![(0, at(1.0)), (2, at(20.0)), (3, at(30.0))],
             vec![(0, at(2.0)), (2, at(20.0)), (3, at(31.0))],
-        ];
-        frames.into_iter().for_each(|frame| tracks.push(frame.into_iter()).unwrap());
-        tracks
+        ])
     }
 
     #[test]
     fn each_body_has_its_own_places_in_order() {
-        let tracks = tracks();
+        let (tracks, mut file) = some();
         let frames: Vec<_> = tracks.tracks().iter().map(|it| it.frames.clone()).collect();
         assert_eq!(frames, [0..3, 0..1, 1..3, 1..3]);
         let bytes = tracks.bytes();
         let mut out = Vec::new();
-        tracks.write_keys(&mut out).unwrap();
+        tracks.write_keys(&mut file, &mut out).unwrap();
         assert_eq!(out.len() as u64, bytes);
         let x: Vec<f32> = out
             .chunks_exact(12)
@@ -249,23 +351,35 @@ mod tests {
 
     #[test]
     fn blocks_of_one_track_give_what_one_block_gives() {
-        let Tracks { file, tracks, frame_starts, .. } = tracks();
-        let mut file = file.into_inner().unwrap();
-        let whole = read_block(&mut file, &tracks, &frame_starts, &mut [0; 3]).unwrap();
-        let mut skipped = [0; 3];
-        let mut one = |it| read_block(&mut file, it, &frame_starts, &mut skipped).unwrap();
+        let (Tracks { tracks, mut rows, .. }, mut file) = some();
+        let whole = read_block(&mut file, &tracks, &mut rows.clone()).unwrap();
+        let mut one = |it| read_block(&mut file, it, &mut rows).unwrap();
         let single: Vec<_> = tracks.chunks(block_len(&tracks, 1)).flat_map(&mut one).collect();
         assert_eq!(single, whole);
     }
 
     #[test]
     fn a_turn_goes_the_shorter_way() {
-        let mut tracks = Tracks::create(Path::new(".")).unwrap();
         let turned = |rotation| Placement { rotation, ..at(0.0) };
         let quarter = DQuat::from_xyzw(0.0, 0.5_f64.sqrt(), 0.0, 0.5_f64.sqrt());
-        for rotation in [quarter, -quarter] {
-            tracks.push([(0, turned(rotation))].into_iter()).unwrap();
-        }
+        let (tracks, _) = tracks(&[quarter, -quarter].map(|it| vec![(0, turned(it))]));
         assert!(!tracks.tracks()[0].turns, "the opposite quaternion is the same rotation");
+    }
+
+    #[test]
+    fn sizes_that_change_are_kept_with_the_frame_from_which_they_hold() {
+        let sized = |scale| vec![(7, Placement { scale: [scale; 3], ..at(0.0) })];
+        let (tracks, _) = tracks(&[sized(1.0), sized(2.0), sized(2.0), vec![], sized(2.0)]);
+        let scales: Vec<_> = tracks.tracks().iter().map(|it| it.scales.clone()).collect();
+        assert_eq!(scales, [vec![(0, [1.0; 3]), (1, [2.0; 3])], vec![(4, [2.0; 3])]]);
+    }
+
+    #[test]
+    fn rows_that_are_missing_are_noticed() {
+        let mut rows = Vec::new();
+        let there = [(0, at(0.0)), (1, at(1.0))];
+        let changes = Tracks::default().push(there.into_iter(), |_| 0, &mut rows);
+        assert!(Tracks::default().repeat(&changes, 0, &rows[..]));
+        assert!(!Tracks::default().repeat(&changes, 0, &rows[..Row::BYTES]));
     }
 }
