@@ -37,6 +37,11 @@ fn recordings_with_mistakes_are_played_or_refused() {
 }
 
 #[test]
+fn unfinished_files_with_mistakes_are_recovered_or_refused() {
+    holds("unfinished", 500);
+}
+
+#[test]
 fn mazes_with_mistakes_are_read_or_refused() {
     holds("mazes", 500);
 }

@@ -8,17 +8,19 @@ mod overrides;
 mod recordings;
 mod scenes;
 mod submissions;
+mod unfinished;
 mod unity;
 mod worlds;
 
 use crate::target::Target;
 
 /// All targets.
-pub const TARGETS: [Target; 10] = [
+pub const TARGETS: [Target; 11] = [
     scenes::TARGET,
     overrides::TARGET,
     links::TARGET,
     recordings::TARGET,
+    unfinished::TARGET,
     mazes::TARGET,
     unity::TARGET,
     gltf::TARGET,
