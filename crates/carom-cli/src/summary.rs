@@ -351,11 +351,40 @@ fn energy_change(start: f64, end: f64) -> String {
     } else {
         format!(", {:+.3e} of the start", (end - start) / start.abs())
     };
-    format!("{start:.6} -> {end:.6} J ({:+.3e}{relative})", end - start)
+    format!("{} J ({:+.3e}{relative})", from_to(start, end), end - start)
 }
 
 /// Sizes of the momentum, and the size of its change as a vector.
 fn momentum_change(start: DVec3, end: DVec3) -> String {
-    let (size, change) = ([start.length(), end.length()], (end - start).length());
-    format!("{:.6} -> {:.6} kg m/s (change {change:.3e})", size[0], size[1])
+    let change = (end - start).length();
+    format!("{} kg m/s (change {change:.3e})", from_to(start.length(), end.length()))
+}
+
+/// Two numbers to six digits, with powers of ten where they are very large, or both very small.
+fn from_to(start: f64, end: f64) -> String {
+    /// What six digits after the point, and not many before it, show well.
+    const PLAIN: std::ops::Range<f64> = 1e-3..1e9;
+    let largest = start.abs().max(end.abs());
+    if largest == 0.0 || PLAIN.contains(&largest) {
+        format!("{start:.6} -> {end:.6}")
+    } else {
+        format!("{start:.6e} -> {end:.6e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_powers_of_ten_where_zeros_would_hide_them() {
+        assert_eq!(from_to(0.0, 0.0), "0.000000 -> 0.000000");
+        assert_eq!(from_to(12.5, 0.0), "12.500000 -> 0.000000");
+        assert_eq!(from_to(1.5e-6, -2e-7), "1.500000e-6 -> -2.000000e-7");
+        assert_eq!(from_to(1.0, 1e33), "1.000000e0 -> 1.000000e33");
+        assert_eq!(
+            energy_change(2.0, 1.0),
+            "2.000000 -> 1.000000 J (-1.000e0, -5.000e-1 of the start)"
+        );
+    }
 }
