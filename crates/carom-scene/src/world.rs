@@ -62,7 +62,25 @@ pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
     if !scene.simulation.allow_overlap {
         overlap::refuse(scene, &world, &first_of_generator)?;
     }
+    check_step(scene, &world)?;
     Ok(world)
+}
+
+/// Refuses a scene whose first step would be.
+fn check_step(scene: &Scene, world: &World) -> Result<(), Problem> {
+    world.check_step(scene.simulation.frame_time).map_err(|error| match error {
+        carom::Error::Invalid { subject: carom::Subject::Settings, .. } => {
+            settings_problem(&scene.simulation, error)
+        }
+        carom::Error::Invalid { subject: carom::Subject::Emitter(id), .. } => {
+            Problem::of_physics(&format!("emitters[{}]", id.number()), error)
+        }
+        carom::Error::Invalid { ref source, .. } if source.field == "stiffness" => {
+            let carom::InvalidValue { requirement, value, .. } = source;
+            Problem::new("springs", format!("`stiffness` must be {requirement}, not {value}"))
+        }
+        other => Problem::new("simulation", other.to_string()),
+    })
 }
 
 fn add_forces(world: &mut World, forces: &[Force]) -> Result<(), Problem> {

@@ -269,6 +269,21 @@ fn spheres_that_overlap_at_the_start_are_refused_unless_allowed() {
 }
 
 #[test]
+fn what_the_first_step_would_refuse_is_refused_before_it() {
+    let balls = "spheres = [{ radius = 0.5 }, { position = [2, 0, 0], radius = 0.5 }]\n";
+    let small = "[simulation.boundary.periodic]\nsize = [9, 1.9, 9]\n";
+    let refused = refusal(&format!("name = 'test'\n{balls}{small}"));
+    let place = "test.toml:4: simulation.boundary.periodic.size: must be at least four times the";
+    assert!(refused.starts_with(place), "{refused}");
+    let spring = "[[springs]]\nspheres = [0, 1]\nstiffness = 1e15\n";
+    let stiff = format!("name = 'test'\n{balls}{spring}");
+    let refused = refusal(&stiff);
+    assert!(refused.starts_with("test.toml:3: springs: `stiffness` must be"), "{refused}");
+    read(&format!("{stiff}[simulation]\nrule = 'contact'\n")).unwrap();
+    read(&stiff.replace("1e15", "1e5")).unwrap();
+}
+
+#[test]
 fn a_size_that_a_range_of_radii_replaces_makes_sense_all_the_same() {
     for (bad, field) in [("radius = 0, ", "radius"), ("diameter = -2, ", "diameter")] {
         let text = refusal(&RANDOM.replacen("radius = 1, ", bad, 1));

@@ -44,8 +44,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
 /// for the spheres, if there are too many of them, or if springs are too stiff.
 fn begin(attempt: &mut Attempt, parameters: Exact, end: f64) -> Result<Timeline, Error> {
     let (state, time) = (&mut *attempt.state, attempt.start);
-    check_count(state)?;
-    check_box(state)?;
+    check_room(state)?;
     let (before, zone) = (state.timeline.take(), std::mem::take(&mut state.zone));
     let next_emission = emitter::next_due(&state.emitters);
     let (system, motion) = state.split();
@@ -150,6 +149,24 @@ fn refusal(unfinished: Unfinished, time: f64) -> Error {
 /// \[s\]: springs are stable in frames of any length.
 fn no_longer_finite(sphere: SphereId, quantity: &'static str, time: f64) -> Error {
     Error::NonFiniteState { sphere, quantity, time, stable_frame: None }
+}
+
+/// Refuses what a step of this length \[s\] would, before it moves anything.
+///
+/// # Errors
+/// [`Error::Invalid`] if a periodic box is too small for the spheres, if there are too many of them, or if springs
+/// are too stiff.
+pub(super) fn check(state: &State, parameters: Exact, length: f64) -> Result<(), Error> {
+    check_room(state)?;
+    let now = state.now();
+    let tick = exact::tick_for_springs(now.system.fastest_spring_rate(), parameters, length);
+    tick.map(drop).map_err(|unheld| refused_forces(unheld, now.time))
+}
+
+/// Refuses spheres for which there is no room.
+fn check_room(state: &State) -> Result<(), Error> {
+    check_count(state)?;
+    check_box(state)
 }
 
 /// Refuses more spheres than the rule `exact` can tell apart.

@@ -19,6 +19,28 @@ use crate::state::State;
 use crate::validate;
 use crate::work::{StopRequest, Work};
 
+/// Refuses what a step by `dt` \[s\] would refuse before it moves anything.
+///
+/// # Errors
+/// [`Error::Invalid`]
+pub(crate) fn check(state: &State, dt: f64) -> Result<(), Error> {
+    check_length(state, dt)?;
+    state.check_emitters(state.clock.after(dt).seconds())?;
+    match state.settings.rule {
+        Rule::Exact(parameters) => by_event::check(state, parameters, dt),
+        Rule::Discrete(_) | Rule::Bisect(_) | Rule::Contact(_) => Ok(()),
+    }
+}
+
+/// Refuses lengths \[s\] that no step has.
+fn check_length(state: &State, dt: f64) -> Result<(), Error> {
+    let end = state.clock.after(dt).seconds();
+    let requirement = "so short that the time stays finite";
+    validate::positive("dt", dt)
+        .and_then(|()| validate::require(end.is_finite(), "dt", requirement, dt))
+        .map_err(|invalid| invalid.about(Subject::Step))
+}
+
 /// Advances a world by `dt` \[s\], or until something happens in it, by the rule of its settings, and
 /// writes the report.
 ///
@@ -32,14 +54,8 @@ pub(crate) fn step(
     report: &mut StepReport,
     until: Until,
 ) -> Result<(), Error> {
-    validate::positive("dt", dt).map_err(|invalid| invalid.about(Subject::Step))?;
+    check_length(state, dt)?;
     report.clear();
-
-    let end = state.clock.after(dt).seconds();
-    let requirement = "so short that the time stays finite";
-    validate::require(end.is_finite(), "dt", requirement, dt)
-        .map_err(|invalid| invalid.about(Subject::Step))?;
-
     if stop_request.is_some_and(StopRequest::is_made) {
         return Err(Error::Stopped { time: state.clock.seconds() });
     }

@@ -72,6 +72,14 @@ impl World {
         Ok(report)
     }
 
+    /// Whether a step by `dt` \[s\] would be refused before anything moves: [`Self::step`] checks so, too.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`], as [`Self::step`], or if springs are too stiff for the rule `exact`.
+    pub fn check_step(&self, dt: f64) -> Result<(), Error> {
+        step::check(&self.state, dt)
+    }
+
     /// Advances the world to its next impact, and answers it with all others at that instant; by
     /// `within` \[s\] if none comes before. Only under the rule `exact`.
     ///

@@ -161,12 +161,18 @@ fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, Unheld> {
         return Ok(false);
     }
     let (before, rate) = (timeline.force_tick, timeline.spring_rate);
-    let tick = ticks::tick_for_frames(timeline.parameters.force_tick, frame);
-    if !ticks::can_follow_springs(rate, tick) {
-        return Err(Unheld::TooStiff(rate));
-    }
+    let tick = tick_for_springs(rate, timeline.parameters, frame)?;
     timeline.force_tick = ticks::part(tick, ticks::halvings_for_springs(rate, tick));
     Ok(timeline.force_tick != before)
+}
+
+/// The force tick \[s\] in frames of this length \[s\], before springs of this rate \[1/s\] make it shorter.
+///
+/// # Errors
+/// Springs that no part of it follows.
+pub(crate) fn tick_for_springs(rate: f64, parameters: Exact, frame: f64) -> Result<f64, Unheld> {
+    let tick = ticks::tick_for_frames(parameters.force_tick, frame);
+    if ticks::can_follow_springs(rate, tick) { Ok(tick) } else { Err(Unheld::TooStiff(rate)) }
 }
 
 /// Whether forces are to be found anew at the start of a frame \[s\]: those that are held over it, and others

@@ -36,7 +36,9 @@ mod ticks;
 mod timeline;
 mod zone;
 
-pub(crate) use frame::{Arrivals, Unheld, adopt, begin, end, persistent_contacts, start};
+pub(crate) use frame::{
+    Arrivals, Unheld, adopt, begin, end, persistent_contacts, start, tick_for_springs,
+};
 pub(crate) use neighbours::MAX_SPHERES;
 pub(crate) use span::Span;
 pub(crate) use timeline::Timeline;
