@@ -5,6 +5,9 @@ use carom_scene::scene::Rule;
 /// Under the rules that know nothing but frames, balls may overlap by this part of their radius before it
 /// shows.
 const OVERLAP: f64 = 0.5;
+/// A ball that is put into another one overlaps it by more than this part of its radius; what rounding leaves
+/// is far less.
+const INTO_ANOTHER: f64 = 1e-3;
 /// More impacts than this of a ball in a second \[1/s\], under forces, are those of balls that lie on each
 /// other.
 const IMPACT_RATE: f64 = 300.0;
@@ -21,22 +24,29 @@ pub struct Conduct {
     pub overlap: f64,
     /// Impacts of a sphere in a second \[1/s\].
     pub impact_rate: f64,
+    /// Whether an emitter put a ball into another one.
+    pub emitted_into_another: bool,
     /// The length of frames, and the longest in which motion on springs is stable \[s\].
     pub frames: [f64; 2],
 }
 
 /// What would have been better, in a sentence; `None` where all is well.
 pub fn advice(conduct: Conduct) -> Option<String> {
-    let Conduct { rule, has_spheres, has_forces, overlap, impact_rate, frames } = conduct;
+    let Conduct { rule, has_spheres, has_forces, overlap, impact_rate, .. } = conduct;
     if !has_spheres {
         let text = "nothing can move: there are no balls, and no emitters that give some; `carom new NAME` writes \
                     a scene to start from";
         return Some(text.to_owned());
     }
-    if let Some(text) = advice_for_springs(frames) {
+    if let Some(text) = advice_for_springs(conduct.frames) {
         return Some(text);
     }
     match rule {
+        Rule::Exact if conduct.emitted_into_another && overlap > INTO_ANOTHER => Some(
+            "an emitter puts balls into others: a longer `period` leaves them room, and with `needs_room = true` \
+             those are left out that have none"
+                .to_owned(),
+        ),
         Rule::Discrete | Rule::Bisect if overlap > OVERLAP => Some(format!(
             "balls overlap by {overlap:.1} of a radius: `--rule contact` keeps them apart in heaps, \
              `--rule exact` in bounces"

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-use carom::{DVec3, StageCounts, World};
+use carom::{BodyPair, DVec3, StageCounts, World};
 use carom_scene::scene::{ImpactLaw, Integrator, Rule, WindBack};
 use carom_session::{Replay, SessionError};
 use serde::Serialize;
@@ -42,6 +42,8 @@ pub struct Observer {
     /// Under the rule `contact`, and in zones.
     contact: ContactTotals,
     zones: ZoneTotals,
+    /// Whether a ball was emitted into another one.
+    emitted_into_another: bool,
 }
 
 impl Observer {
@@ -65,6 +67,7 @@ impl Observer {
             largest_energy_error: 0.0,
             contact: ContactTotals::default(),
             zones: ZoneTotals::default(),
+            emitted_into_another: false,
         }
     }
 
@@ -97,8 +100,14 @@ impl Observer {
     }
 
     fn look_for_overlaps(&mut self, world: &World) {
-        let depths = world.overlaps(0.0).into_iter().map(|overlap| overlap.depth);
-        let deepest = depths.fold(0.0, f64::max);
+        let overlaps = world.overlaps(0.0);
+        let deepest = overlaps.iter().map(|overlap| overlap.depth).fold(0.0, f64::max);
+        let emitted = &world.report().emitted;
+        let is_new = |id| emitted.binary_search(id).is_ok();
+        self.emitted_into_another |= overlaps.iter().any(|overlap| match &overlap.between {
+            BodyPair::Spheres(first, second) => is_new(first) || is_new(second),
+            BodyPair::Collider { .. } => false,
+        });
         if deepest > 0.0 {
             let smallest = world.spheres().radii().iter().copied().fold(f64::INFINITY, f64::min);
             self.largest_overlap = self.largest_overlap.max(deepest);
@@ -187,6 +196,7 @@ impl Conduct {
             has_forces: !replay.scene().forces.is_empty(),
             overlap: if radius > 0.0 { observer.largest_overlap / radius } else { 0.0 },
             impact_rate: observer.impacts as f64 / (spheres * world.time().max(f64::MIN_POSITIVE)),
+            emitted_into_another: observer.emitted_into_another,
             frames: [replay.simulation().frame_time, world.longest_stable_frame()],
         }
     }

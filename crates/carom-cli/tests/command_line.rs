@@ -418,6 +418,21 @@ fn a_heap_under_another_rule_is_advised_to_use_contact() {
 }
 
 #[test]
+fn an_emitter_that_puts_balls_into_others_is_advised_to_leave_them_room() {
+    let folder = tempfile::tempdir().unwrap();
+    let advice = |more: &str| {
+        let scene = path(&folder, "tap.toml");
+        let ball = "sphere = { radius = 0.2, velocity = [1, 0, 0] }";
+        std::fs::write(&scene, format!("[[emitters]]\n{ball}\n{more}\n")).unwrap();
+        let figures = summary(&["run", &scene, "--seconds", "2"]);
+        figures["advice"].as_str().map(str::to_owned)
+    };
+    assert!(advice("period = 0.3").unwrap().contains("`needs_room = true`"));
+    assert_eq!(advice("period = 0.3\nneeds_room = true"), None);
+    assert_eq!(advice("period = 0.5"), None);
+}
+
+#[test]
 fn a_scene_in_which_nothing_can_move_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let advice = |text: &str| {

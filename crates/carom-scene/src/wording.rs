@@ -2,6 +2,9 @@
 
 use crate::error::nearest;
 
+/// Of a table that has nothing in it.
+pub(crate) const SAYS_NOTHING: &str = "says nothing: it has to say one thing";
+
 /// Words that others use for what a scene calls otherwise.
 const SYNONYMS: [(&str, &str); 35] = [
     ("angle", "degrees"),
@@ -100,7 +103,7 @@ pub(crate) fn in_plain_words(message: &str) -> String {
         return "is one table, not a list: a list has double brackets, like [[spheres]]".to_owned();
     }
     if message.starts_with("wanted exactly 1 element, found 0") {
-        return "says nothing: it has to say one thing".to_owned();
+        return SAYS_NOTHING.to_owned();
     }
     if message.starts_with("wanted exactly 1 element") {
         return "says several things: it has to say one thing".to_owned();

@@ -33,6 +33,11 @@ fn one_slip_is_one_fault_that_says_what_to_write() {
              gravity = { acceleration = [0.0, -9.81, 0.0] }",
         ),
         (
+            "[simulation]\nboundary = { periodic = { size = [9, 0, 9] } }",
+            "3: simulation.boundary.periodic.size: must be positive along every axis; infinite where it is open, \
+             not [9, 0, 9]",
+        ),
+        (
             "[[generators]]\ntype = 'row'\ncount = 5",
             "2: generators[0]: says several things: it has to say one thing, like \
              [generators.row] with its fields below",

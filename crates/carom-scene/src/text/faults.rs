@@ -13,6 +13,7 @@ use crate::error::{Fault, Problem, SceneError};
 use crate::parameters;
 use crate::scene::Scene;
 use crate::table::read;
+use crate::wording::SAYS_NOTHING;
 
 /// Faults of one scene in a list, at most: those after them are likely to follow from them.
 const MOST: usize = 20;
@@ -86,7 +87,8 @@ impl SceneText {
             let problem = Problem { field, ..problem };
             let found = self.fault(&problem);
             // What was taken out is missing now.
-            let is_our_doing = missing(&problem).is_some_and(|field| taken.contains(&field));
+            let is_our_doing = missing(&problem).is_some_and(|field| taken.contains(&field))
+                || is_emptied(&problem, &taken);
             let is_known = faults.contains(&found);
             if !(is_known || is_our_doing) {
                 faults.push(found);
@@ -119,6 +121,12 @@ fn missing(problem: &Problem) -> Option<String> {
     } else {
         format!("{}.{name}", problem.field)
     })
+}
+
+/// Whether a table has nothing left of what was taken out of it.
+fn is_emptied(problem: &Problem, taken: &[String]) -> bool {
+    let is_in = |field: &String| field.strip_prefix(&problem.field)?.strip_prefix('.').map(drop);
+    problem.problem.starts_with(SAYS_NOTHING) && taken.iter().any(|field| is_in(field).is_some())
 }
 
 /// For each list of the table, which elements of it are left, by their places in the file.
