@@ -95,3 +95,30 @@ fn a_ball_that_slides_over_a_round_top_presses_less_the_faster_it_is() {
     let expected = G - speed * speed / 10.0;
     assert!((force - expected).abs() <= 1e-5, "{force} {expected}");
 }
+
+/// Rounding leaves heights, and speeds along which normals turn in an hour or so: far beyond the end of the floor.
+#[test]
+fn a_row_that_slides_on_a_floor_with_an_end_stays_on_it_whatever_rounding_its_heights_have() {
+    for count in 2..6 {
+        let mut world = World::new(Settings::default()).unwrap();
+        world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0))).unwrap();
+        let floor = Shape::Rectangle { size_x: 12.0, size_z: 4.0 };
+        world.add_collider(Collider::new(floor, Pose::at(DVec3::Y * -10.0))).unwrap();
+        let start = |i: usize| -3.31 + 0.3 * i as f64;
+        for i in 0..count {
+            let (height, speed) = if i % 2 == 0 { (0.0, 0.0) } else { (9.3e-14, 1e-30) };
+            let ball = Sphere::new(DVec3::new(start(i), -9.85 + height, 0.0), 0.15)
+                .with_velocity(DVec3::new(-1.0, speed, 0.0))
+                .with_restitution(0.4);
+            world.add_sphere(ball).unwrap();
+        }
+        for _ in 0..120 {
+            world.step(1.0 / 60.0).unwrap();
+        }
+        for (i, place) in world.spheres().positions().iter().enumerate() {
+            // Rounding of coordinates up to 10 m, some times over.
+            let expected = DVec3::new(start(i) - world.time(), -9.85, 0.0);
+            assert!((*place - expected).length() < 1e-12, "{count} balls, ball {i}: {place}");
+        }
+    }
+}

@@ -69,6 +69,9 @@ fn find_smooth(
             (accelerations, turning)
         } else {
             let start = TurnStart { accelerations: &accelerations, forces: &forces };
+            // Beyond the end of a face there is nothing to be in contact with.
+            let sliding = sliding_time(context, group, &persistent, &accelerations);
+            let turning = turning.min(sliding.max(context.parameters.contact_duration));
             match through_the_middle(context, group, &persistent, start, turning) {
                 Ok((middle, valid_for)) => (zero_roundoff(context, group, middle), valid_for),
                 Err(released) => {
