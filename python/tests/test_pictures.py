@@ -313,6 +313,33 @@ def test_a_film_that_cannot_be(
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="limits the size of files")
+def test_where_a_film_cannot_be_finished_the_error_says_where_its_frames_are(
+    tmp_path: Path,
+) -> None:
+    # Where a folder is, no film can be made of the frames; and then a frame does not fit.
+    (tmp_path / "film.mp4.0.closing").mkdir()
+    program = """
+import resource, sys
+import carom
+try:
+    if sys.argv[1:]:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]),) * 2)
+    carom.load("simtest1").record("film.mp4", seconds=1, size=(96, 54), quality="draft")
+except OSError as error:
+    print(error, "|", error.__cause__)
+"""
+    env = {**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"}
+    for limit in ([], ["6000"]):
+        command = [sys.executable, "-c", program, *limit]
+        done = subprocess.run(
+            command, cwd=tmp_path, env=env, capture_output=True, text=True, check=False
+        )
+        assert "film.mp4.0.unfinished, for `carom recover`" in done.stdout, done
+        assert ("File too large" in done.stdout) == bool(limit), done.stdout
+        (tmp_path / "film.mp4.0.unfinished").unlink()
+
+
 def test_a_notebook_shows_a_png() -> None:
     scene = lone((0, 0, 0))
     for content in (scene._repr_png_(), scene.world()._repr_png_()):

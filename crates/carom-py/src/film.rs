@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use carom_cli::pictures::{Filming, Order, Stepped, Studio};
+use carom_render::FilmError;
 use carom_scene::Scene;
 use pyo3::prelude::*;
 
@@ -21,7 +22,8 @@ use crate::stop::PATIENCE;
 /// Films the scene that `text` describes in TOML, for `seconds` [s] or as long as the scene says, up
 /// to a whole frame. Answers with the number of frames.
 ///
-/// After an error or an interruption, the frames until then are a film.
+/// After an error or an interruption, the frames until then are a film; where that fails, the error has what says where
+/// they are for its cause.
 #[pyfunction]
 pub fn film_scene(
     py: Python<'_>,
@@ -50,6 +52,18 @@ fn film(scene: Scene, order: Order, seconds: f64, sight: Sight) -> PyResult<u64>
     let mut filming = Filming::begin(order, &mut stepped, &mut studio).map_err(raised)?;
     // A film of nothing is none: the first frame is in it.
     let frames = whole_frames(seconds, 1.0 / fps)?.max(1);
+    let taken = take_frames(&mut filming, frames);
+    match (taken, filming.finish()) {
+        (Ok(()), finished) => Ok(finished.map_err(|error| raised(error.into()))?.frames),
+        (Err(error), Ok(_) | Err(FilmError::Empty { .. })) => Err(error),
+        (Err(error), Err(lost)) => {
+            Python::attach(|py| error.set_cause(py, Some(raised(lost.into()))));
+            Err(error)
+        }
+    }
+}
+
+fn take_frames(filming: &mut Filming, frames: u64) -> PyResult<()> {
     let mut asked = Instant::now();
     for _ in 0..frames {
         filming.take_frame().map_err(raised)?;
@@ -58,6 +72,5 @@ fn film(scene: Scene, order: Order, seconds: f64, sight: Sight) -> PyResult<u64>
             asked = Instant::now();
         }
     }
-    let summary = filming.finish().map_err(|error| raised(error.into()))?;
-    Ok(summary.frames)
+    Ok(())
 }
