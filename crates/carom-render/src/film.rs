@@ -151,10 +151,9 @@ impl Film {
             removed(unfinished)?;
             return Err(empty());
         }
-        let closed = unfinished.close(plain_film::close);
-        let closed = closed.and_then(|film| match film.frames == frames {
-            true => Ok(film),
-            false => Err(CloseError::Foreign),
+        let closed = unfinished.close(|source, target| {
+            let film = plain_film::close(source, target)?;
+            if film.frames == frames { Ok(film) } else { Err(CloseError::Foreign) }
         });
         let bytes = closed.map_err(|error| self.kept(error, unfinished.place()))?.bytes;
         removed(unfinished)?;

@@ -92,8 +92,6 @@ impl Exports {
         if let Some(recorder) = &mut self.recorder
             && let Err(error) = recorder.collect(device)
         {
-            // What was recorded until then is kept.
-            recorder.end();
             to.notices.complain(error);
         }
         if let Some(recorder) = self.recorder.take_if(|it| it.is_complete()) {

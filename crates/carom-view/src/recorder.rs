@@ -30,6 +30,8 @@ pub struct Recorder {
     last: f64,
     /// Frames that pictures were drawn for.
     frames: u32,
+    /// Frames that are in the film.
+    added: u32,
     /// Pictures under way, each with the frames that it is shown in.
     drawn: VecDeque<(Snapshot, Range<u32>)>,
     /// Whether no frame follows any more.
@@ -40,7 +42,7 @@ impl Recorder {
     /// A film that begins at a time of the simulation \[s\].
     pub fn new(film: Box<dyn FilmMaker>, start: f64) -> Self {
         let drawn = VecDeque::new();
-        Self { film, start, last: start, frames: 0, drawn, is_ending: false }
+        Self { film, start, last: start, frames: 0, added: 0, drawn, is_ending: false }
     }
 
     /// Frames that are due at `time` \[s\]: one picture is to be drawn for all of them, so that the
@@ -70,14 +72,26 @@ impl Recorder {
     /// Puts into the film what has been drawn.
     ///
     /// # Errors
-    /// If a picture was lost or cannot be added.
+    /// If a picture was lost or cannot be added: then the film ends with the frames before.
     pub fn collect(&mut self, device: &Device) -> Result<(), String> {
+        let collected = self.add_drawn(device);
+        if collected.is_err() {
+            self.drawn.clear();
+            self.end();
+        }
+        collected
+    }
+
+    fn add_drawn(&mut self, device: &Device) -> Result<(), String> {
         while let Some((first, _)) = self.drawn.front()
             && first.is_ready(device)
         {
-            let Some((snapshot, mut frames)) = self.drawn.pop_front() else { break };
+            let Some((snapshot, frames)) = self.drawn.pop_front() else { break };
             let picture = snapshot.picture().map_err(|error| error.to_string())?;
-            frames.try_for_each(|frame| self.film.add(&picture, frame))?;
+            for frame in frames {
+                self.film.add(&picture, frame)?;
+                self.added += 1;
+            }
         }
         Ok(())
     }
@@ -102,7 +116,7 @@ impl Recorder {
     /// # Errors
     /// If it cannot be written.
     pub fn finish(self) -> Result<String, String> {
-        let seconds = f64::from(self.frames) / f64::from(FRAMES_PER_SECOND);
+        let seconds = f64::from(self.added) / f64::from(FRAMES_PER_SECOND);
         let name = self.film.finish()?;
         Ok(format!("saved {name} ({seconds:.1} s)"))
     }

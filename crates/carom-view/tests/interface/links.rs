@@ -19,6 +19,8 @@ struct Told {
     /// Numbers of the frames of films, and the pictures' bytes.
     frames: Vec<(u32, usize)>,
     films: Vec<String>,
+    /// The frame for which a film has no room.
+    full_at: Option<u32>,
 }
 
 /// A host that listens.
@@ -60,7 +62,11 @@ struct ListenerFilm {
 
 impl FilmMaker for ListenerFilm {
     fn add(&mut self, picture: &Picture, frame: u32) -> Result<(), String> {
-        self.told.borrow_mut().frames.push((frame, picture.pixels.len()));
+        let mut told = self.told.borrow_mut();
+        if told.full_at.is_some_and(|full| frame >= full) {
+            return Err(format!("no room for frame {frame}"));
+        }
+        told.frames.push((frame, picture.pixels.len()));
         Ok(())
     }
 
@@ -226,4 +232,20 @@ fn a_film_has_every_frame_once_and_its_last_before_it_is_complete() {
     assert!(numbers.iter().copied().eq(0..numbers.len() as u32), "{numbers:?}");
     assert!(told.frames.iter().all(|frame| frame.1 == 4 * 1280 * 720));
     assert_eq!(told.films, ["simtest1-0.000s"]);
+}
+
+#[test]
+fn a_film_that_is_full_ends_there_and_says_how_long_it_is() {
+    let (mut desk, told) = listened(link("scene=simtest1&t=0"));
+    told.borrow_mut().full_at = Some(12);
+    press(&mut desk, Key::R);
+    press(&mut desk, Key::P);
+    desk.run_steps(6);
+    assert!(!desk.state().is_recording());
+    let told = told.borrow();
+    let numbers: Vec<u32> = told.frames.iter().map(|frame| frame.0).collect();
+    assert_eq!(numbers, Vec::from_iter(0..12));
+    assert_eq!(told.films, ["simtest1-0.000s"]);
+    let texts: Vec<&str> = desk.state().notices().texts().collect();
+    assert_eq!(texts, ["no room for frame 12", "saved simtest1-0.000s (0.4 s)"]);
 }
