@@ -5,9 +5,6 @@ use carom_scene::scene::Rule;
 /// Under the rules that know nothing but frames, balls may overlap by this part of their radius before it
 /// shows.
 const OVERLAP: f64 = 0.5;
-/// A ball that is put into another one overlaps it by more than this part of its radius; what rounding leaves
-/// is far less.
-const INTO_ANOTHER: f64 = 1e-3;
 /// More impacts than this of a ball in a second \[1/s\], under forces, are those of balls that lie on each
 /// other.
 const IMPACT_RATE: f64 = 300.0;
@@ -42,7 +39,7 @@ pub fn advice(conduct: Conduct) -> Option<String> {
         return Some(text);
     }
     match rule {
-        Rule::Exact if conduct.emitted_into_another && overlap > INTO_ANOTHER => Some(
+        Rule::Exact if conduct.emitted_into_another => Some(
             "an emitter puts balls into others: a longer `period` leaves them room, and with `needs_room = true` \
              those are left out that have none"
                 .to_owned(),

@@ -231,10 +231,11 @@ impl Outputs {
             let message = "--ledger needs the rule exact: the other rules keep no ledger";
             return Err(Failure::Usage(message.to_owned()));
         }
+        // The trajectory last: one that is dropped leaves an unfinished file.
         Ok(Self {
-            trajectory: args.out.as_deref().map(|path| trajectory(path, replay)).transpose()?,
             impacts: args.impacts.as_deref().map(ImpactTable::create).transpose()?,
             ledger: args.ledger.as_deref().map(LedgerTable::create).transpose()?,
+            trajectory: args.out.as_deref().map(|path| trajectory(path, replay)).transpose()?,
             every: args.every,
         })
     }

@@ -19,6 +19,10 @@ use crate::zone_totals::ZoneTotals;
 const FEW: usize = 100;
 const FRAMES_PER_LOOK: u64 = 16;
 
+/// A ball that is put into another one overlaps it by more than this part of the smallest radius; what rounding leaves
+/// is far less.
+const INTO_ANOTHER: f64 = 1e-3;
+
 /// Watches a run.
 pub struct Observer {
     began: Instant,
@@ -102,14 +106,15 @@ impl Observer {
     fn look_for_overlaps(&mut self, world: &World) {
         let overlaps = world.overlaps(0.0);
         let deepest = overlaps.iter().map(|overlap| overlap.depth).fold(0.0, f64::max);
-        let emitted = &world.report().emitted;
-        let is_new = |id| emitted.binary_search(id).is_ok();
+        let smallest = world.spheres().radii().iter().copied().fold(f64::INFINITY, f64::min);
+        let is_new = |id| world.report().emitted.binary_search(id).is_ok();
         self.emitted_into_another |= overlaps.iter().any(|overlap| match &overlap.between {
-            BodyPair::Spheres(first, second) => is_new(first) || is_new(second),
+            BodyPair::Spheres(first, second) => {
+                overlap.depth > INTO_ANOTHER * smallest && (is_new(first) || is_new(second))
+            }
             BodyPair::Collider { .. } => false,
         });
         if deepest > 0.0 {
-            let smallest = world.spheres().radii().iter().copied().fold(f64::INFINITY, f64::min);
             self.largest_overlap = self.largest_overlap.max(deepest);
             self.largest_relative_overlap = self.largest_relative_overlap.max(deepest / smallest);
         }

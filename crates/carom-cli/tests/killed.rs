@@ -217,38 +217,6 @@ fn a_killed_run_leaves_all_frames_of_an_archive_but_the_one_at_work() {
     }
 }
 
-/// Times \[s\] and positions \[m\] of all balls in the frames of an animation after its start.
-fn keys(animation: &str) -> Vec<(f64, Vec<f64>)> {
-    let bytes = std::fs::read(animation).unwrap();
-    let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
-    let json: serde_json::Value = serde_json::from_slice(&bytes[20..20 + word(12)]).unwrap();
-    let binary = &bytes[28 + word(12)..];
-    let numbers = |accessor: &serde_json::Value| -> Vec<f64> {
-        let number = |it: &serde_json::Value| it.as_u64().unwrap_or(0) as usize;
-        let accessor = &json["accessors"][number(accessor)];
-        let view = &json["bufferViews"][number(&accessor["bufferView"])];
-        let start = number(&view["byteOffset"]) + number(&accessor["byteOffset"]);
-        let width = if accessor["type"] == "SCALAR" { 1 } else { 3 };
-        let words = binary[start..].chunks(4).take(width * number(&accessor["count"]));
-        words.map(|it| f64::from(f32::from_le_bytes(it.try_into().unwrap()))).collect()
-    };
-    let animation = &json["animations"][0];
-    let mut frames: Vec<(f64, Vec<f64>)> = Vec::new();
-    for channel in animation["channels"].as_array().into_iter().flatten() {
-        let sampler = &animation["samplers"][channel["sampler"].as_u64().unwrap() as usize];
-        assert_eq!(channel["target"]["path"], "translation", "balls of the gas do not turn");
-        if frames.is_empty() {
-            frames = numbers(&sampler["input"]).iter().map(|time| (*time, Vec::new())).collect();
-        }
-        let places = numbers(&sampler["output"]);
-        assert_eq!(places.len(), 3 * frames.len());
-        for (frame, place) in frames.iter_mut().zip(places.chunks(3)) {
-            frame.1.extend(place);
-        }
-    }
-    frames.into_iter().skip(1).collect()
-}
-
 #[test]
 #[cfg(target_os = "linux")]
 fn a_killed_run_leaves_all_frames_of_an_animation_but_the_one_at_work() {
@@ -259,7 +227,7 @@ fn a_killed_run_leaves_all_frames_of_an_animation_but_the_one_at_work() {
         let told = killed_gas(&file, moment);
         assert!(!Path::new(&file).exists());
         command::good(&["recover", &file]);
-        gas.check_rounded(&keys(&file), told, |number| f64::from(number as f32));
+        gas.check_rounded(&command::keys(&file), told, |number| f64::from(number as f32));
         std::fs::remove_file(&file).unwrap();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing else is left");
     }

@@ -142,8 +142,8 @@ fn feet<'a>(
     Bounds::around(feet.map(Bounds::at))
 }
 
-/// The boxes around what balls sweep in the first seconds: those that stay within `far` or are tethered; the others as
-/// long as they are within `near`; and these as long as they are within `farthest`.
+/// The boxes around what balls sweep in the first seconds: those that stay within `far`, if they are tethered within
+/// `farthest`; the others as long as they are within `near`; and these as long as they are within `farthest`.
 fn sweep(
     world: &mut World,
     simulation: &Simulation,
@@ -170,7 +170,8 @@ fn sweep(
         }
         for (number, sphere) in spheres(world) {
             let swept = of_balls.entry(number).or_default();
-            swept.left |= !far.holds(&sphere) && !tethered.contains(&number);
+            let limit = if tethered.contains(&number) { &farthest } else { &far };
+            swept.left |= !limit.holds(&sphere);
             if !swept.left {
                 add(&mut swept.far, sphere);
             }

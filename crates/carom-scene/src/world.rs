@@ -66,7 +66,7 @@ pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
     Ok(world)
 }
 
-/// Refuses a scene whose first step would be.
+/// Refuses a scene whose first step would be refused.
 fn check_step(scene: &Scene, world: &World) -> Result<(), Problem> {
     world.check_step(scene.simulation.frame_time).map_err(|error| match error {
         carom::Error::Invalid { subject: carom::Subject::Settings, .. } => {

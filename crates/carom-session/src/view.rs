@@ -189,6 +189,8 @@ impl View {
         // Rules that find contacts late let spheres overlap; a scene has to admit it.
         if !scene.simulation.allow_overlap && scene.world().is_err() {
             scene.simulation.allow_overlap = true;
+            // What else is wrong with it, that does not help.
+            scene.simulation.allow_overlap = scene.world().is_ok();
         }
         scene
     }

@@ -28,7 +28,8 @@ pub const TARGET: Target = Target {
 const WORDS: [u64; 6] = [0, 1, 4095, 1 << 40, u64::MAX / 8, u64::MAX];
 
 fn files() -> Vec<Vec<u8>> {
-    ["npz", "glb"].into_iter().filter_map(|kind| unfinished(kind).ok()).collect()
+    let made = ["npz", "glb"].map(unfinished);
+    made.into_iter().map(|file| file.expect("a run can be recorded here")).collect()
 }
 
 /// What is left of a run of some frames with an emitter.
@@ -91,31 +92,54 @@ impl Records {
     }
 }
 
-/// Files of which one frame has another body, another head, or is elsewhere, with the checksums of that.
+/// The parts of the body of a record: of an animation JSON, arrays and rows, of an NPZ file one.
+fn parts((words, body): &(Words, Vec<u8>), is_animation: bool) -> Vec<Vec<u8>> {
+    if !is_animation {
+        return vec![body.clone()];
+    }
+    let (json, rest) = body.split_at(words[0] as usize);
+    let (arrays, rows) = rest.split_at(words[1] as usize);
+    [json, arrays, rows].map(<[u8]>::to_vec).to_vec()
+}
+
+/// Files of which one frame has another part, another head, or is elsewhere, with the checksums of that.
 fn with_checksums() -> impl Strategy<Value = Vec<u8>> {
-    let files: Vec<Records> = files().iter().filter_map(|it| Records::of(it).ok()).collect();
-    let bodies = files.iter().flat_map(|it| it.list.iter().map(|record| record.1.clone()));
-    let body = prop_oneof![2 => mutated(bodies.collect()).prop_map(Some), 1 => Just(None)];
-    let word = prop_oneof![Just(None), (0..3usize, select(&WORDS[..])).prop_map(Some)];
+    let [npz, animation] =
+        &files().iter().filter_map(|it| Records::of(it).ok()).collect::<Vec<_>>()[..]
+    else {
+        unreachable!("one of each kind")
+    };
+    prop_oneof![1 => changed(npz.clone(), false), 3 => changed(animation.clone(), true)]
+}
+
+/// Files like this one, with something wrong in a record.
+fn changed(file: Records, is_animation: bool) -> impl Strategy<Value = Vec<u8>> {
+    let all: Vec<Vec<Vec<u8>>> = file.list.iter().map(|it| parts(it, is_animation)).collect();
+    let of_place = |place: usize| mutated(all.iter().map(|parts| parts[place].clone()).collect());
+    let count = all[0].len();
+    let part =
+        (0..count).map(|place| of_place(place).prop_map(move |part| Some((place, part))).boxed());
+    let part = proptest::strategy::Union::new(part.chain([Just(None).boxed()]));
+    let word = prop_oneof![4 => Just(None), 1 => (0..3usize, select(&WORDS[..])).prop_map(Some)];
     let at = any::<Index>;
-    (at(), at(), at(), body, word).prop_map(move |(file, place, other, body, word)| {
-        let mut file = file.get(&files).clone();
-        let list = &mut file.list;
+    (at(), at(), part, word).prop_map(move |(place, other, part, word)| {
+        let Records { magic, mut list } = file.clone();
         let (place, other) = (place.index(list.len()), other.index(list.len()));
-        if let Some(body) = body {
-            // The last part is as long as the body has it.
-            let [first, second, _] = list[place].0;
-            let rest = (body.len() as u64).saturating_sub(first.saturating_add(second));
-            let is_animation = file.magic.starts_with(b"carom glb");
-            list[place].0[2] = if is_animation { rest } else { list[place].0[2] };
-            list[place].1 = body;
+        if let Some((which, part)) = part {
+            let mut parts = all[place].clone();
+            parts[which] = part;
+            if is_animation {
+                let lengths: Vec<u64> = parts.iter().map(|part| part.len() as u64).collect();
+                list[place].0.copy_from_slice(&lengths);
+            }
+            list[place].1 = parts.concat();
         } else {
             list.swap(place, other);
         }
         if let Some((which, word)) = word {
             list[place].0[which] = word;
         }
-        file.to_bytes().unwrap_or_default()
+        Records { magic, list }.to_bytes().unwrap_or_default()
     })
 }
 

@@ -17,6 +17,9 @@ use crate::glb;
 /// Writes the animation of the whole frames of an unfinished one; `None` for a file that is none.
 pub(super) fn compose(source: &mut File, target: File) -> io::Result<Option<Recovered>> {
     let Some((places, extent)) = frames::scan(source)? else { return Ok(None) };
+    if places.is_empty() {
+        return Err(io::Error::new(io::ErrorKind::InvalidData, "it has no whole frame"));
+    }
     let mut run = Run::default();
     places.iter().try_for_each(|place| run.read(source, place))?;
     let recovered = Recovered {

@@ -35,6 +35,9 @@ pub(super) fn begin(file: &mut File) -> io::Result<()> {
 }
 
 /// Appends a frame with these arrays and rows; it is with the operating system thereafter.
+///
+/// # Errors
+/// If the disk is full or gone, and for numbers that are not finite.
 pub(super) fn append(
     file: &mut File,
     chunk: &mut Vec<u8>,
@@ -43,6 +46,11 @@ pub(super) fn append(
     rows: &[u8],
 ) -> io::Result<()> {
     let json = serde_json::to_vec(frame)?;
+    // What is infinite has no form in JSON.
+    if frame.added.is_some() && serde_json::from_slice::<Frame>(&json).is_err() {
+        let text = "a number of this scene is too large for an animation";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, text));
+    }
     let parts = [&json[..], arrays, rows];
     let mut record = RecordWriter::begin(chunk, file, parts.map(|part| part.len() as u64));
     parts.into_iter().try_for_each(|part| record.push(part))?;

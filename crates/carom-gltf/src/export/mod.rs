@@ -48,9 +48,9 @@ pub enum ExportError {
 /// none after it is gone. Nodes begin as the world does, in 64 bits; keys have 32 bits.
 ///
 /// The file gets its name once it is complete. Until then its frames are in `NAME.0.unfinished` beside it (1, 2, ... where
-/// another one is left), 28 bytes for each ball, collider and frame: each is with the operating system when it is written, and
-/// [`recover_animation`] makes the animation of what a killed process leaves. In memory are some 3 kB for each ball; at the
-/// end 64 MiB of rows at a time and 60 bytes for each frame, too.
+/// another one is left), some 100 bytes for each and 28 for each ball and collider in it. A frame is with the operating
+/// system when it is written, and [`recover_animation`] makes the animation of what a killed process leaves. In memory are
+/// some 3 kB for each ball; at the end 64 MiB of rows at a time and 60 bytes for each frame, too.
 pub struct Animation {
     unfinished: Unfinished,
     palette: Palette,
@@ -62,6 +62,10 @@ pub struct Animation {
     colliders: Tracks,
     /// Of the last frame \[s\].
     time: Option<f32>,
+    /// Frames in the unfinished file.
+    frames: u64,
+    /// What the complete file may take \[byte\].
+    most_bytes: u64,
     /// Whether spheres turn; known from the start on.
     has_spin: bool,
     /// Whether a frame was written in part: then nothing comes after it.
@@ -93,6 +97,8 @@ impl Animation {
             balls: Tracks::default(),
             colliders: Tracks::default(),
             time: None,
+            frames: 0,
+            most_bytes: u32::MAX.into(),
             has_spin: world.has_spin(),
             broken: false,
             chunk: Vec::new(),
@@ -114,9 +120,6 @@ impl Animation {
             let text = "times of its keys have 32 bits, in which these frames fall together: write fewer (--every)";
             return Err(io::Error::new(io::ErrorKind::InvalidInput, text));
         }
-        if self.bytes_with(world) > u64::from(u32::MAX) {
-            return Err(glb::too_large());
-        }
         if self.broken {
             return Err(io::Error::other("the frame before was written in part"));
         }
@@ -125,23 +128,32 @@ impl Animation {
         let mut rows = Vec::new();
         let colliders = self.push_colliders(world, scene, &mut rows);
         let balls = self.push_balls(world, scene.is_some(), &mut rows);
+        if self.bytes() > self.most_bytes {
+            return Err(glb::too_large());
+        }
         let (added, arrays) = self.marks.advance(&self.nodes, &self.arrays).unzip();
         let frame = Frame { time: world.time(), balls, colliders, added };
         let arrays = arrays.unwrap_or_default();
         frames::append(self.unfinished.file(), &mut self.chunk, &frame, &arrays, &rows)?;
         self.time = Some(time);
+        self.frames += 1;
         self.broken = false;
         Ok(())
     }
 
-    /// What the complete file takes at most with one more frame \[byte\].
-    fn bytes_with(&self, world: &World) -> u64 {
-        // What a ball takes in the JSON, generously.
+    /// What the complete file takes at most, with the frame that is being added \[byte\].
+    fn bytes(&self) -> u64 {
+        // What a node takes in the JSON, with its channels, generously.
         const NODE: u64 = 1500;
-        let json = NODE * (self.balls.tracks().len() + world.spheres().len()) as u64;
-        let keys = self.balls.bytes() + self.colliders.bytes();
-        let frame = 28 * world.spheres().len() as u64;
-        json + keys + frame + self.arrays.bytes.len() as u64
+        const TIME: u64 = 4;
+        let json = NODE * self.nodes.document.nodes.len() as u64;
+        let keys = self.balls.bytes() + self.colliders.bytes() + TIME * (self.frames + 1);
+        json + keys + self.arrays.bytes.len() as u64
+    }
+
+    /// Its unfinished file, which says all that it knows of the run, and how many frames are in that.
+    fn into_unfinished(self) -> (Unfinished, u64) {
+        (self.unfinished, self.frames)
     }
 
     /// Adds the rows of colliders; those that are there at the start are in the looks of the scene.
@@ -196,16 +208,48 @@ impl Format for Animation {
     }
 
     fn finish(self: Box<Self>) -> io::Result<()> {
-        // What it knows of the run is in the unfinished file, too.
-        let Self { unfinished, .. } = *self;
-        unfinished.complete(compose).map(drop)
+        let (unfinished, frames) = self.into_unfinished();
+        let close = |source: &mut _, target| {
+            Ok(compose(source, target)?.filter(|composed| composed.frames == frames))
+        };
+        unfinished.complete(close).map(drop)
     }
 }
 
 /// Makes the animation `target` of what a killed run left in `unfinished`, and removes that.
 ///
 /// # Errors
-/// [`RecoveryError`]; then `unfinished` and `target` are as they were before.
+/// [`RecoveryError`]; then `unfinished` and `target` are as they were before, but where the complete file is there and
+/// only `unfinished` cannot be removed.
 pub fn recover_animation(unfinished: &Path, target: &Path) -> Result<Recovered, RecoveryError> {
     recover_by(unfinished, target, compose)
+}
+
+#[cfg(test)]
+mod tests {
+    use carom_scene::Library;
+
+    use super::*;
+
+    #[test]
+    fn a_recording_ends_before_the_frame_for_which_the_file_has_no_room() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.glb");
+        let (scene, _) = Library::new().find("simtest3", &[]).unwrap();
+        let mut world = scene.world().unwrap();
+        let mut animation = Animation::create(&path, &scene, &world).unwrap();
+        animation.most_bytes = 40_000;
+        let error = loop {
+            world.step(scene.simulation.frame_time).unwrap();
+            if let Err(error) = animation.write(&world) {
+                break error;
+            }
+        };
+        assert_eq!(error.kind(), io::ErrorKind::FileTooLarge);
+        assert!(animation.write(&world).is_err(), "nothing comes after it");
+        assert!(animation.frames > 10, "{}", animation.frames);
+        Box::new(animation).finish().unwrap();
+        let length = std::fs::metadata(&path).unwrap().len();
+        assert!((10_000..40_000).contains(&length), "{length}");
+    }
 }

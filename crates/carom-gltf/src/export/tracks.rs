@@ -103,7 +103,7 @@ pub(super) struct Came {
     scale: [f64; 3],
 }
 
-/// What a frame changes of who is there, and how large they are; numbers of bodies ascend.
+/// Which bodies come, go or change their size in a frame; their numbers ascend.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(super) struct Changes {

@@ -18,6 +18,7 @@ use zip::write::SimpleFileOptions;
 use super::failing_once::FailingOnce;
 use super::format::Format;
 use super::npz_journal::{Column, Extent, Head, Journal, JournalWriter};
+use super::records;
 use super::recovered::Recovered;
 use crate::unfinished::Unfinished;
 
@@ -26,22 +27,30 @@ use crate::unfinished::Unfinished;
 pub(super) struct Npz {
     unfinished: Unfinished,
     journal: JournalWriter,
+    /// In the journal.
+    frames: u64,
 }
 
 impl Npz {
     pub fn create(path: &Path) -> io::Result<Self> {
         let (unfinished, journal) = Unfinished::begin(path, JournalWriter::begin)?;
-        Ok(Self { unfinished, journal })
+        Ok(Self { unfinished, journal, frames: 0 })
     }
 }
 
 impl Format for Npz {
     fn write(&mut self, world: &World) -> io::Result<()> {
-        self.journal.write(world, self.unfinished.file())
+        self.journal.write(world, self.unfinished.file())?;
+        self.frames += 1;
+        Ok(())
     }
 
     fn finish(self: Box<Self>) -> io::Result<()> {
-        self.unfinished.complete(close).map(drop)
+        let Self { unfinished, frames, .. } = *self;
+        let close = |source: &mut _, target| {
+            Ok(close(source, target)?.filter(|closed| closed.frames == frames))
+        };
+        unfinished.complete(close).map(drop)
     }
 }
 
@@ -49,8 +58,9 @@ impl Format for Npz {
 pub(super) fn close(source: &mut File, target: File) -> io::Result<Option<Recovered>> {
     let Some(mut journal) = Journal::open(source)? else { return Ok(None) };
     archive(&mut journal, target)?;
-    let Extent { frames, last, rest, is_damaged, .. } = journal.extent;
-    Ok(Some(Recovered { frames, last, left_out: rest, is_damaged }))
+    let Extent { whole, last, .. } = journal.extent;
+    let records::Extent { records: frames, rest: left_out, is_damaged, .. } = whole;
+    Ok(Some(Recovered { frames, last, left_out, is_damaged }))
 }
 
 fn archive(journal: &mut Journal, file: impl Write + Seek) -> io::Result<()> {
@@ -77,7 +87,7 @@ fn write_archive(journal: &mut Journal, file: impl Write + Seek) -> io::Result<(
     }
     column(&mut zip, journal, "ball", Column::Ball, i64::from_le_bytes)?;
     frame_starts(&mut zip, journal)?;
-    let frames = journal.extent.frames;
+    let frames = journal.extent.whole.records;
     per_frame(&mut zip, journal, "time", frames, |head| (head.time, 1))?;
     let known = bodies(journal)?;
     append_all(&mut zip, "id", known.keys().map(|&id| id as i64))?;
@@ -154,7 +164,7 @@ fn per_frame<W: Write + Seek>(
 
 /// Appends the first row of each frame, and the number of rows.
 fn frame_starts<W: Write + Seek>(zip: &mut Zip<W>, journal: &mut Journal) -> io::Result<()> {
-    let mut array = begin(zip, "frame_start", &[journal.extent.frames + 1])?;
+    let mut array = begin(zip, "frame_start", &[journal.extent.whole.records + 1])?;
     let mut row = 0_i64;
     array.push(&row)?;
     journal.frames(|head, _| {

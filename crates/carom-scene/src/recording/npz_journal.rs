@@ -172,18 +172,12 @@ impl Head {
 /// What is whole of a journal.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Extent {
-    pub frames: u64,
+    pub whole: records::Extent,
     /// Spheres of all frames together.
     pub rows: u64,
     pub has_rotation: bool,
     /// Time of the last frame \[s\].
     pub last: Option<f64>,
-    /// Bytes up to the end of the last whole frame.
-    end: u64,
-    /// Bytes after that.
-    pub rest: u64,
-    /// Whether what comes then is no frame that was cut short, but something else.
-    pub is_damaged: bool,
 }
 
 /// Reads a journal, as often as is wanted.
@@ -209,9 +203,8 @@ impl<'a> Journal<'a> {
             extent.rows += head.count;
             extent.last = Some(head.time);
         };
-        let Some(found) = records::scan(file, MAGIC, length, each)? else { return Ok(None) };
-        let records::Extent { records: frames, end, rest, is_damaged } = found;
-        Ok(Some(Self { file, extent: Extent { frames, end, rest, is_damaged, ..extent } }))
+        let whole = records::scan(file, MAGIC, length, each)?;
+        Ok(whole.map(|whole| Self { file, extent: Extent { whole, ..extent } }))
     }
 
     /// Gives every whole frame to `each`, with what reads a column of it.
@@ -221,7 +214,7 @@ impl<'a> Journal<'a> {
     ) -> io::Result<()> {
         let mut position = self.file.seek(SeekFrom::Start(MAGIC.len() as u64))?;
         let mut reader = BufReader::with_capacity(CHUNK, &mut *self.file);
-        while position < self.extent.end {
+        while position < self.extent.whole.end {
             let mut head = [0; HEAD as usize];
             reader.read_exact(&mut head)?;
             let changed = || io::Error::new(io::ErrorKind::InvalidData, "the journal has changed");

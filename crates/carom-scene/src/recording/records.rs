@@ -27,7 +27,7 @@ pub struct RecordWriter<'a, W> {
     chunk: &'a mut Vec<u8>,
     out: &'a mut W,
     sum: Xxh3,
-    /// So much of the chunk is in the sum, or is not to be.
+    /// Bytes at the beginning of the chunk that are not to be added to the sum: those of the head.
     summed: usize,
 }
 
@@ -52,13 +52,17 @@ impl<'a, W: Write> RecordWriter<'a, W> {
     /// # Errors
     /// If the disk is full or gone.
     pub fn push(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.chunk.extend(bytes);
-        if self.chunk.len() >= CHUNK {
+        if self.chunk.len() + bytes.len() > CHUNK {
             self.sum.update(&self.chunk[self.summed..]);
             self.out.write_all(self.chunk)?;
             self.chunk.clear();
             self.summed = 0;
         }
+        if bytes.len() > CHUNK {
+            self.sum.update(bytes);
+            return self.out.write_all(bytes);
+        }
+        self.chunk.extend(bytes);
         Ok(())
     }
 

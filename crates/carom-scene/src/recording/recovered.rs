@@ -66,7 +66,8 @@ pub enum RecoveryError {
 /// damaged. `close` reads the one and writes the other; it has `None` to say where the first is of another kind.
 ///
 /// # Errors
-/// [`RecoveryError`]; then `unfinished` and `target` are as they were before.
+/// [`RecoveryError`]; then `unfinished` and `target` are as they were before, but where the complete file is there and
+/// only `unfinished` cannot be removed.
 pub fn recover_by(
     unfinished: &Path,
     target: &Path,
@@ -77,6 +78,10 @@ pub fn recover_by(
     let closed = file.close(|source, target| close(source, target)?.ok_or(NotMade::Foreign));
     let recovered = closed.map_err(|error| match error {
         NotMade::Foreign => RecoveryError::Foreign { path: unfinished.to_owned() },
+        // What is said there makes no sense.
+        NotMade::Unwritable(source) if source.kind() == io::ErrorKind::InvalidData => {
+            unreadable(source)
+        }
         NotMade::Unwritable(source) => {
             RecoveryError::Unwritable { path: target.to_owned(), source }
         }

@@ -11,7 +11,8 @@ use crate::unfinished::lock;
 /// Makes the NPZ file `target` of what a killed run left in `unfinished`, and removes that.
 ///
 /// # Errors
-/// [`RecoveryError`]; then `unfinished` and `target` are as they were before.
+/// [`RecoveryError`]; then `unfinished` and `target` are as they were before, but where the complete file is there and
+/// only `unfinished` cannot be removed.
 pub fn recover(unfinished: &Path, target: &Path) -> Result<Recovered, RecoveryError> {
     recover_by(unfinished, target, npz::close)
 }

@@ -151,7 +151,7 @@ fn no_longer_finite(sphere: SphereId, quantity: &'static str, time: f64) -> Erro
     Error::NonFiniteState { sphere, quantity, time, stable_frame: None }
 }
 
-/// Refuses what a step of this length \[s\] would, before it moves anything.
+/// Refuses what a step of this length \[s\] would whatever forces act.
 ///
 /// # Errors
 /// [`Error::Invalid`] if a periodic box is too small for the spheres, if there are too many of them, or if springs

@@ -19,7 +19,7 @@ use crate::state::State;
 use crate::validate;
 use crate::work::{StopRequest, Work};
 
-/// Refuses what a step by `dt` \[s\] would refuse before it moves anything.
+/// Refuses what a step by `dt` \[s\] would refuse whatever forces act.
 ///
 /// # Errors
 /// [`Error::Invalid`]

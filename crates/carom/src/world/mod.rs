@@ -72,7 +72,8 @@ impl World {
         Ok(report)
     }
 
-    /// Whether a step by `dt` \[s\] would be refused before anything moves: [`Self::step`] checks so, too.
+    /// Checks what [`Self::step`] by `dt` \[s\] checks first: the length of the step, emitters, and under the rule `exact`
+    /// the periodic box, the number of spheres and how stiff springs are. Forces are not asked for.
     ///
     /// # Errors
     /// [`Error::Invalid`], as [`Self::step`], or if springs are too stiff for the rule `exact`.
