@@ -91,7 +91,9 @@ def test_every_kind_of_part_survives_text() -> None:
 
 
 @pytest.mark.parametrize("mark", ["\x1b", "\x7f", "\n", "\u0085"])
-@pytest.mark.parametrize("field", ["name", "title", "origin", "colliders[0].name", "emitters[0].name"])
+@pytest.mark.parametrize(
+    "field", ["name", "title", "origin", "colliders[0].name", "emitters[0].name"]
+)
 def test_names_have_no_control_characters(field: str, mark: str) -> None:
     owner, _, attribute = field.rpartition(".")
     text = {attribute: f"tap{mark}"}
