@@ -6,6 +6,7 @@ import re
 import sys
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -96,7 +97,7 @@ def test_every_kind_of_part_survives_text() -> None:
 )
 def test_names_have_no_control_characters(field: str, mark: str) -> None:
     owner, _, attribute = field.rpartition(".")
-    text = {attribute: f"tap{mark}"}
+    text: dict[str, Any] = {attribute: f"tap{mark}"}
     if not owner:
         scene = carom.Scene(**{"name": "taps", **text})
     elif owner.startswith("colliders"):
