@@ -105,6 +105,9 @@ impl Observer {
 
     fn look_for_overlaps(&mut self, world: &World) {
         let overlaps = world.overlaps(0.0);
+        if overlaps.is_empty() {
+            return;
+        }
         let deepest = overlaps.iter().map(|overlap| overlap.depth).fold(0.0, f64::max);
         let smallest = world.spheres().radii().iter().copied().fold(f64::INFINITY, f64::min);
         let is_new = |id| world.report().emitted.binary_search(id).is_ok();
@@ -114,10 +117,8 @@ impl Observer {
             }
             BodyPair::Collider { .. } => false,
         });
-        if deepest > 0.0 {
-            self.largest_overlap = self.largest_overlap.max(deepest);
-            self.largest_relative_overlap = self.largest_relative_overlap.max(deepest / smallest);
-        }
+        self.largest_overlap = self.largest_overlap.max(deepest);
+        self.largest_relative_overlap = self.largest_relative_overlap.max(deepest / smallest);
     }
 }
 

@@ -176,27 +176,6 @@ impl Unfinished {
         closed
     }
 
-    /// [`Self::close`]s it, and removes it. `close` has `None` to say where its frames cannot be read.
-    ///
-    /// # Errors
-    /// If `close` or the disk fails; then it stays, and the error says where.
-    pub fn complete<T>(
-        mut self,
-        close: impl FnOnce(&mut File, File) -> io::Result<Option<T>>,
-    ) -> io::Result<T> {
-        let changed = || io::Error::new(io::ErrorKind::InvalidData, "its frames have changed");
-        let closed = self.close(|source, target| close(source, target)?.ok_or_else(changed));
-        match (closed, self.place()) {
-            (Ok(closed), _) => self.remove().map(|()| closed),
-            (Err(error), Some(place)) => {
-                let place = place.display();
-                let kept = format!("{error}; its frames are in {place}, for `carom recover`");
-                Err(io::Error::new(error.kind(), kept))
-            }
-            (Err(error), None) => Err(error),
-        }
-    }
-
     /// Removes it.
     ///
     /// # Errors

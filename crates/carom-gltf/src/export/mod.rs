@@ -15,7 +15,7 @@ use std::io;
 use std::path::Path;
 
 use carom::World;
-use carom_scene::recording::{Format, Recovered, RecoveryError, recover_by};
+use carom_scene::recording::{Format, Recovered, RecoveryError, complete, recover_by};
 use carom_scene::scene::Scene;
 use carom_scene::unfinished::Unfinished;
 use carom_scene::{Palette, SceneError};
@@ -209,10 +209,7 @@ impl Format for Animation {
 
     fn finish(self: Box<Self>) -> io::Result<()> {
         let (unfinished, frames) = self.into_unfinished();
-        let close = |source: &mut _, target| {
-            Ok(compose(source, target)?.filter(|composed| composed.frames == frames))
-        };
-        unfinished.complete(close).map(drop)
+        complete(unfinished, frames, compose)
     }
 }
 

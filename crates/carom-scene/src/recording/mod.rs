@@ -31,7 +31,7 @@ pub use format::Format;
 pub use impacts::ImpactTable;
 pub use ledger::LedgerTable;
 pub use playback::Playback;
-pub use recovered::{Recovered, RecoveryError, recover_by};
+pub use recovered::{Recovered, RecoveryError, complete, recover_by};
 pub use recovery::{recover, recover_table};
 pub use replay::{LineProblem, Replay, ReplayBall, ReplayError, ReplayFrame};
 

@@ -19,7 +19,7 @@ use super::failing_once::FailingOnce;
 use super::format::Format;
 use super::npz_journal::{Column, Extent, Head, Journal, JournalWriter};
 use super::records;
-use super::recovered::Recovered;
+use super::recovered::{Recovered, complete};
 use crate::unfinished::Unfinished;
 
 /// An NPZ file holds one array after the other, frames come one after the other: they go to a
@@ -47,10 +47,7 @@ impl Format for Npz {
 
     fn finish(self: Box<Self>) -> io::Result<()> {
         let Self { unfinished, frames, .. } = *self;
-        let close = |source: &mut _, target| {
-            Ok(close(source, target)?.filter(|closed| closed.frames == frames))
-        };
-        unfinished.complete(close).map(drop)
+        complete(unfinished, frames, close)
     }
 }
 

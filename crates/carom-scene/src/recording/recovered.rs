@@ -92,6 +92,31 @@ pub fn recover_by(
     Ok(recovered)
 }
 
+/// Makes the complete file of an unfinished one in which so many frames were written, and removes that. `close` is as
+/// that of [`recover_by`].
+///
+/// # Errors
+/// If `close` or the disk fails, or it found other frames; then the unfinished file stays, and the error says where.
+pub fn complete(
+    mut unfinished: Unfinished,
+    frames: u64,
+    close: impl FnOnce(&mut File, File) -> io::Result<Option<Recovered>>,
+) -> io::Result<()> {
+    let changed = || io::Error::new(io::ErrorKind::InvalidData, "its frames have changed");
+    let closed = unfinished.close(|source, target| {
+        close(source, target)?.filter(|it| it.frames == frames).ok_or_else(changed)
+    });
+    match (closed, unfinished.place()) {
+        (Ok(_), _) => unfinished.remove(),
+        (Err(error), Some(place)) => {
+            let place = place.display();
+            let kept = format!("{error}; its frames are in {place}, for `carom recover`");
+            Err(io::Error::new(error.kind(), kept))
+        }
+        (Err(error), None) => Err(error),
+    }
+}
+
 /// Why a complete file is not made.
 enum NotMade {
     /// The unfinished one is of another kind.
