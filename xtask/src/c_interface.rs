@@ -4,7 +4,10 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::shell::{Outcome, cargo, cargo_with, finish, output, root, succeeds, target_folder};
+use crate::checks::programs;
+use crate::shell::{
+    CI, Outcome, cargo, cargo_with, ci_folder, finish, output, root, succeeds, target_folder,
+};
 use crate::{native_hashes, setup};
 
 /// Makes the libraries for programs, and says where they are.
@@ -23,12 +26,14 @@ pub fn write_header() -> Outcome {
 
 /// Runs the tests of the C interface, then its programs.
 pub fn test() -> Outcome {
-    cargo(&["test", "--quiet", "--package", "carom-c"])?;
+    cargo(&["test", "--quiet", "--profile", CI, "--package", "carom-c"])?;
     run_programs(&["--package", "carom-c"])
 }
 
 /// Runs the programs with the library that the tests of all crates have left.
 pub fn test_built() -> Outcome {
+    setup::graphics()?;
+    programs::build()?;
     run_programs(&["--workspace"])
 }
 
@@ -74,7 +79,7 @@ impl Programs {
         let folder = target_folder().join("c");
         fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
         // Tests link against the library, which lies there then.
-        let libraries = target_folder().join("debug/deps");
+        let libraries = ci_folder().join("deps");
         Ok(Self { folder, libraries, sources: root().join("crates/carom-c") })
     }
 
@@ -140,7 +145,8 @@ impl Programs {
         let mut words = VALGRIND.split_whitespace();
         let mut command = Command::new(words.next().unwrap_or_default());
         finish("valgrind", command.args(words).arg(self.folder.join("every_function")))?;
-        let test = [&["test", "--quiet"], packages, &["--test", "misuse"]].concat();
+        let test = ["test", "--quiet", "--profile", CI];
+        let test = [&test[..], packages, &["--test", "misuse"]].concat();
         let about = output("rustc", &["-vV"]).unwrap_or_default();
         let target = about.lines().find_map(|line| line.strip_prefix("host: "));
         let target = target.ok_or("rustc does not say what it compiles for")?;

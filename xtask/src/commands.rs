@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 
 use crate::documents;
 use crate::markdown::{Block, Markdown};
-use crate::shell::{Outcome, cargo, succeeds, target_folder};
+use crate::shell::{CI, Outcome, cargo, ci_folder, succeeds, target_folder};
 
 /// Documents whose commands run.
 const DOCUMENTS: [&str; 6] = [
@@ -45,8 +45,9 @@ enum Step {
 
 /// Builds the program without pictures, and runs the commands that it has.
 pub fn check_plain() -> Outcome {
-    cargo(&["build", "--package", "carom-cli", "--no-default-features", "--quiet"])?;
-    check(&Programs { plain: target_folder().join("debug"), drawing: None })
+    let plain = ["--package", "carom-cli", "--no-default-features"];
+    cargo(&[&["build", "--profile", CI, "--quiet"], &plain[..]].concat())?;
+    check(&Programs { plain: ci_folder(), drawing: None })
 }
 
 /// Runs the commands of all documents.

@@ -1,29 +1,20 @@
 //! The main job, shown: scenes run, drawn and filmed, and the window where there is a display.
 
-use std::path::PathBuf;
-use std::process::Command;
-
-use carom_scene::Library;
+use serde_json::Value;
 
 use crate::setup;
-use crate::shell::{Outcome, cargo, finish, target_folder};
+use crate::shell::{CI, Outcome, cargo, finish, output, program};
 
-/// The profile of the command that runs scenes first: the one that this program is built with, so
-/// that half of it is there already. It runs every scene in a second.
-const QUICK: &str = "quick";
-
-/// Runs every built-in scene and prints its table, makes a picture and a film in `out/`, and opens
+/// Runs every built-in scene and prints its table, makes pictures and a film in `out/`, and opens
 /// the window.
 pub fn demo() -> Outcome {
     // Scenes need no graphics: their tables come first, while nothing else is built or installed.
-    let plain = ["--package", "carom-cli", "--no-default-features"];
-    cargo(&[&["build", "--profile", QUICK], &plain[..]].concat())?;
-    for entry in Library::new().entries().map_err(|error| error.to_string())? {
-        carom(QUICK, &["run", &entry.name])?;
+    build(&["--no-default-features", "--features", "rayon"])?;
+    for scene in scenes()? {
+        carom(&["run", &scene])?;
     }
     setup::graphics()?;
-    cargo(&["build", "--release", "--package", "carom-cli"])?;
-    let carom = |arguments: &[&str]| carom("release", arguments);
+    build(&[])?;
     carom(&["picture", "simtest1", "--at", "5", "--out", "out/simtest1.png", "-f"])?;
     carom(&["picture", "tutorial3", "--at", "2.5", "--out", "out/tutorial3.png", "-f"])?;
     carom(&["record", "simtest1", "--seconds", "6", "--out", "out/simtest1.mp4", "-f"])?;
@@ -39,9 +30,20 @@ pub fn demo() -> Outcome {
     Ok(())
 }
 
-/// Runs the command that was built with a profile.
-fn carom(profile: &str, arguments: &[&str]) -> Outcome {
-    let name = format!("carom{}", std::env::consts::EXE_SUFFIX);
-    let program: PathBuf = [target_folder(), profile.into(), name.into()].iter().collect();
-    finish("carom", Command::new(program).args(arguments))
+/// Builds the command with these features.
+fn build(features: &[&str]) -> Outcome {
+    cargo(&[&["build", "--profile", CI, "--package", "carom-cli"], features].concat())
+}
+
+/// Runs the command.
+fn carom(arguments: &[&str]) -> Outcome {
+    finish("carom", program("carom").args(arguments))
+}
+
+/// The names of the built-in scenes, in the order of the chooser.
+fn scenes() -> Outcome<Vec<String>> {
+    let listed = output(program("carom").get_program(), &["scenes", "--json"]);
+    let listed = listed.and_then(|text| serde_json::from_str::<Vec<Value>>(&text).ok());
+    let listed = listed.ok_or("carom scenes --json lists no scenes")?;
+    Ok(listed.iter().filter_map(|scene| scene["name"].as_str()).map(str::to_owned).collect())
 }

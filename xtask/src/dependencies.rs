@@ -1,11 +1,9 @@
 //! What Carom is built of: every crate comes from the registry, under a licence that lets anyone use it.
 
-use std::process::Command;
-
 use serde_json::Value;
 use spdx::{Expression, ParseMode};
 
-use crate::shell::{Outcome, cargo_program, root};
+use crate::shell::{Outcome, metadata};
 
 /// Licences under which anyone may use, change and pass on what is built of a crate.
 const LICENCES: [&str; 13] = [
@@ -47,18 +45,8 @@ pub fn check() -> Outcome {
 
 /// Every crate of the lock file, as cargo describes it.
 fn packages() -> Outcome<Vec<Value>> {
-    let mut command = Command::new(cargo_program());
-    command.args(["metadata", "--format-version", "1", "--locked"]).current_dir(root());
-    let output = command.output().map_err(|error| format!("cargo metadata: {error}"))?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-    }
-    let described: Value = serde_json::from_slice(&output.stdout)
-        .map_err(|error| format!("cargo metadata: {error}"))?;
-    described["packages"]
-        .as_array()
-        .cloned()
-        .ok_or_else(|| "cargo metadata lists no packages".into())
+    let packages = metadata(&[])?["packages"].as_array().cloned();
+    packages.ok_or_else(|| "cargo metadata lists no packages".into())
 }
 
 /// Whether a licence, in the words of SPDX, leaves a choice that is free.

@@ -49,8 +49,12 @@ pub fn check() -> Outcome {
 
 /// A document of the repository.
 pub fn read(file: &str) -> Outcome<Markdown> {
-    let text = fs::read_to_string(root().join(file)).map_err(|error| format!("{file}: {error}"))?;
-    Ok(Markdown::parse(&text))
+    Ok(Markdown::parse(&text(file)?))
+}
+
+/// The text of a document of the repository.
+pub fn text(file: &str) -> Outcome<String> {
+    fs::read_to_string(root().join(file)).map_err(|error| format!("{file}: {error}"))
 }
 
 fn at(file: &str, spot: &Spot, fault: &str) -> String {
@@ -68,7 +72,7 @@ fn own_code(file: &str, document: &Markdown) -> Outcome<Vec<Spot>> {
     if file != "docs/glossary.md" {
         return Ok(document.code.clone());
     }
-    let text = fs::read_to_string(root().join(file)).map_err(|error| format!("{file}: {error}"))?;
+    let text = text(file)?;
     let lines: Vec<&str> = text.lines().map(without_last_cell).collect();
     Ok(Markdown::parse(&lines.join("\n")).code)
 }

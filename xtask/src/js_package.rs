@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::shell::{Outcome, cargo, finish, root, target_folder};
-use crate::wasm_toolchain::{TARGET, WasmToolchain};
+use crate::wasm::{self, Purpose};
 use crate::web::test_files;
 use crate::web_tools::{folder, npm_packages, wasm_bindgen};
 use crate::{native_hashes, setup};
@@ -20,12 +20,10 @@ const FILES: [(&str, &str); 5] = [
 ];
 
 /// Puts the package together, and packs it as the registry of npm takes it. Returns the archive.
-pub fn build() -> Outcome<PathBuf> {
+pub fn build(purpose: Purpose) -> Outcome<PathBuf> {
     setup::page()?;
     check_version()?;
-    // For speed: unlike the page, the package is small whatever the compiler does.
-    WasmToolchain::find()?.cargo(&["build", "--package", "carom-js", "--release"])?;
-    let module = target_folder().join(TARGET).join("release/carom_js.wasm");
+    let module = wasm::build("carom-js", purpose)?;
     let package = anew("js-package/package")?;
     for (from, to) in FILES {
         copy(&root().join(from), &package.join(to))?;
@@ -36,7 +34,7 @@ pub fn build() -> Outcome<PathBuf> {
 
 /// Makes the package, and tests what a user of the archive gets, in Node.js.
 pub fn test() -> Outcome {
-    let archive = build()?;
+    let archive = build(Purpose::Test)?;
     npm_packages()?;
     let user = anew("js-package/user")?;
     write(&user.join("package.json"), "{ \"private\": true, \"type\": \"module\" }\n")?;
@@ -53,7 +51,7 @@ pub fn test() -> Outcome {
 
 /// Measures the package in Node.js against the native engine, frame by frame.
 pub fn bench() -> Outcome {
-    build()?;
+    build(Purpose::Use)?;
     cargo(&["build", "--release", "--package", "carom-js", "--example", "frame_times"])?;
     let native = target_folder().join("release/examples/frame_times");
     let package = target_folder().join("js-package/package/src/index.node.js");

@@ -4,6 +4,7 @@
 
 mod architecture;
 mod c_interface;
+mod checks;
 mod circles;
 mod commands;
 mod demo;
@@ -11,6 +12,7 @@ mod dependencies;
 mod documents;
 mod imports;
 mod js_package;
+mod long_tests;
 mod markdown;
 mod miri;
 mod native_hashes;
@@ -21,7 +23,6 @@ mod shell;
 mod sizes;
 mod sources;
 mod stages;
-mod test;
 mod wasm;
 mod wasm_toolchain;
 mod web;
@@ -30,13 +31,16 @@ mod words;
 
 use std::process::ExitCode;
 
+use wasm::Purpose;
+
 const USAGE: &str = "\
 Usage: cargo xtask COMMAND
 
   demo      set up, run every built-in scene, make pictures and a film in out/, open the window
   test      set up, then every check: format, clippy, tests, documents, schema, the JavaScript
             package in Node.js, the Python package, programs in C, C++ and C#, the page in a browser; `test --full` adds
-            the tests of the physics that take minutes
+            the tests that take minutes; `test --part NAME` runs one part, by itself; `test --changed [COMMIT]`
+            runs the parts that the changes since a commit can reach, by default the last one of origin
   web       make the page in web/dist and the JavaScript package; `web --serve [PORT]` makes the
             page and serves it on this machine, `web --out DIR` puts it into a folder for a server of
             static files, `web --sizes` says what takes its space, `web --test`
@@ -67,33 +71,36 @@ fn main() -> ExitCode {
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let result = match arguments[..] {
         ["demo"] => demo::demo(),
-        ["test"] => test::test(),
+        ["test"] => checks::all(),
         ["test", "--full"] => {
-            test::test().and_then(|()| test::long_tests()).and_then(|()| test::kills())
+            checks::all().and_then(|()| long_tests::run()).and_then(|()| long_tests::kills())
         }
-        ["web"] => web::build().and_then(|()| js_package::build()).map(drop),
+        ["test", "--part", part] => checks::part(part),
+        ["test", "--changed"] => checks::changed(None),
+        ["test", "--changed", base] => checks::changed(Some(base)),
+        ["web"] => web::build().and_then(|()| js_package::build(Purpose::Use)).map(drop),
         ["web", "--serve"] => web::serve(web::PORT),
         ["web", "--serve", port] => web::serve(port),
         ["web", "--out", folder] => web::publish(folder.as_ref()),
         ["web", "--sizes"] => web::sizes(),
         ["web", "--test"] => web::test(),
-        ["web", "--package"] => js_package::build().map(drop),
+        ["web", "--package"] => js_package::build(Purpose::Use).map(drop),
         ["web", "--test-package"] => js_package::test(),
         ["python"] => python::build().map(drop),
         ["python", "--test"] => python::test(),
         ["c"] => c_interface::build(),
         ["c", "--test"] => c_interface::test(),
         ["header"] => c_interface::write_header(),
-        ["notebook"] => web::build_for_notebooks(),
-        ["lint"] => test::lint(),
+        ["notebook"] => web::build_for_notebooks(Purpose::Use),
+        ["lint"] => checks::lint(),
         ["documents"] => commands::check_plain(),
         ["schema"] => schema::write(),
-        ["soak"] => test::soak("24"),
-        ["soak", "--hours", hours] => test::soak(hours),
-        ["soak", "--again"] => test::soak_again(),
-        ["fuzz", ref options @ ..] => test::fuzz(options),
+        ["soak"] => long_tests::soak("24"),
+        ["soak", "--hours", hours] => long_tests::soak(hours),
+        ["soak", "--again"] => long_tests::soak_again(),
+        ["fuzz", ref options @ ..] => long_tests::fuzz(options),
         ["miri"] => miri::test(),
-        ["kills"] => test::kills(),
+        ["kills"] => long_tests::kills(),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "web"] => js_package::bench(),
         ["bench", "pictures"] => {

@@ -4,13 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::shell::{Outcome, finish, root, target_folder};
+use crate::shell::{CI, Outcome, finish, root, target_folder};
+use crate::wasm::Purpose;
 use crate::{native_hashes, setup, web};
 
 /// Builds the wheel, and says where it is.
 pub fn build() -> Outcome<PathBuf> {
     let environment = Environment::new("python/build")?;
-    let wheel = wheel(&environment)?;
+    let wheel = wheel(&environment, Purpose::Use)?;
     eprintln!("\n{}", wheel.display());
     Ok(wheel)
 }
@@ -21,7 +22,7 @@ pub fn test() -> Outcome {
     // Notebooks are shown in it.
     setup::browser()?;
     let environment = Environment::new("python/test")?;
-    let wheel = wheel(&environment)?;
+    let wheel = wheel(&environment, Purpose::Test)?;
     environment.pip(&["install", "--requirement", REQUIREMENTS])?;
     environment.pip(&["install", "--no-deps", &wheel.to_string_lossy()])?;
     let hashes = environment.folder.join("native_hashes.json");
@@ -36,6 +37,7 @@ pub fn test() -> Outcome {
         "-m",
         "pytest",
         "-q",
+        "--durations=30",
         "-p",
         "no:cacheprovider",
         &tests.to_string_lossy(),
@@ -71,11 +73,17 @@ pub fn test() -> Outcome {
 const REQUIREMENTS: &str = "python/requirements-test.txt";
 
 /// Builds the wheel as `pip install .` does, with the viewer for notebooks. Returns the file.
-fn wheel(environment: &Environment) -> Outcome<PathBuf> {
-    web::build_for_notebooks()?;
+fn wheel(environment: &Environment, purpose: Purpose) -> Outcome<PathBuf> {
+    web::build_for_notebooks(purpose)?;
     let wheels = environment.folder.join("wheels");
     let folder = wheels.to_string_lossy();
-    environment.pip(&["wheel", ".", "--no-deps", "--wheel-dir", &folder])?;
+    let profile = match purpose {
+        Purpose::Use => "release",
+        Purpose::Test => CI,
+    };
+    let options = format!("--profile {profile}");
+    let build = ["wheel", ".", "--no-deps", "--wheel-dir", &folder];
+    environment.pip_with(&build, &[("MATURIN_PEP517_ARGS", &options)])?;
     let entries = fs::read_dir(&wheels).map_err(|error| said(&wheels, error))?;
     let mut files = entries.filter_map(|entry| Some(entry.ok()?.path()));
     files
@@ -107,7 +115,13 @@ impl Environment {
     /// Installs or builds with the versions that [`REQUIREMENTS`] names, in the root of the
     /// repository.
     fn pip(&self, arguments: &[&str]) -> Outcome {
+        self.pip_with(arguments, &[])
+    }
+
+    /// Does the same with these variables of the environment.
+    fn pip_with(&self, arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
         let mut command = self.command();
+        command.envs(variables.iter().copied());
         command.args(["-m", "pip", "--quiet", "--disable-pip-version-check"]).args(arguments);
         command.env("PIP_CONSTRAINT", root().join(REQUIREMENTS));
         finish("pip", command.env("CARGO_TARGET_DIR", target_folder()).current_dir(root()))

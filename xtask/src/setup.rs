@@ -15,6 +15,7 @@ pub fn toolchain() -> Outcome {
 }
 
 /// Something outside of Rust: how to tell that it is there, and the Debian packages that bring it.
+#[derive(Clone, Copy)]
 struct Need {
     is_met: fn() -> bool,
     packages: &'static [&'static str],
@@ -110,6 +111,11 @@ pub fn python() -> Outcome {
 /// Installs what the programs of the C interface are compiled and run with.
 pub fn c_interface() -> Outcome {
     install(C_INTERFACE)
+}
+
+/// Installs what all of it takes, at once.
+pub fn everything() -> Outcome {
+    install(&[GRAPHICS, FILM_TESTS, PAGE, BROWSER, PYTHON, C_INTERFACE].concat())
 }
 
 /// Installs Debian's compiler for browsers.

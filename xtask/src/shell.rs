@@ -4,6 +4,8 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use serde_json::Value;
+
 /// What went wrong, for people.
 pub type Outcome<T = ()> = Result<T, String>;
 
@@ -21,6 +23,19 @@ pub fn target_folder() -> PathBuf {
     }
 }
 
+/// The profile of what is built to be tried.
+pub const CI: &str = "ci";
+
+/// Where programs lie that are built to be tried.
+pub fn ci_folder() -> PathBuf {
+    target_folder().join(CI)
+}
+
+/// A program that was built to be tried.
+pub fn program(name: &str) -> Command {
+    Command::new(ci_folder().join(format!("{name}{}", std::env::consts::EXE_SUFFIX)))
+}
+
 /// The cargo that runs this.
 pub fn cargo_program() -> OsString {
     std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
@@ -36,6 +51,32 @@ pub fn cargo_with(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
     let mut command = Command::new(cargo_program());
     command.args(arguments).envs(variables.iter().copied());
     finish("cargo", &mut command)
+}
+
+/// Runs `cargo` with these arguments, and says so. Returns what it prints, but for errors.
+pub fn cargo_output(arguments: &[&str]) -> Outcome<String> {
+    let line = format!("cargo {}", arguments.join(" "));
+    eprintln!("\n== {line}");
+    let mut command = Command::new(cargo_program());
+    command.args(arguments).current_dir(root()).stderr(Stdio::inherit());
+    let output = command.output().map_err(|error| format!("{line}: {error}"))?;
+    if output.status.success() {
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    } else {
+        Err(format!("{line} failed"))
+    }
+}
+
+/// What cargo says of the packages that it knows.
+pub fn metadata(arguments: &[&str]) -> Outcome<Value> {
+    let mut command = Command::new(cargo_program());
+    command.args(["metadata", "--format-version", "1", "--locked"]).args(arguments);
+    let output = command.current_dir(root()).output();
+    let output = output.map_err(|error| format!("cargo metadata: {error}"))?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+    }
+    serde_json::from_slice(&output.stdout).map_err(|error| format!("cargo metadata: {error}"))
 }
 
 /// Whether a program runs and succeeds; says nothing.

@@ -5,11 +5,34 @@ use std::path::PathBuf;
 use crate::shell::{Outcome, target_folder};
 use crate::wasm_toolchain::{TARGET, WasmToolchain};
 
-/// Builds a package for browsers, as small as may be. Returns the module.
-pub fn build(package: &str) -> Outcome<PathBuf> {
-    const PROFILE: &str = "web";
+/// What a module is built for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// For users: small where it is fetched whole, otherwise fast.
+    Use,
+    /// For tests: built in a fifth of the time.
+    Test,
+}
+
+/// Every package that is built for browsers.
+const PACKAGES: [&str; 2] = ["carom-web", "carom-js"];
+
+/// Builds a package for browsers. Returns the module.
+pub fn build(package: &str, purpose: Purpose) -> Outcome<PathBuf> {
     let toolchain = WasmToolchain::find()?;
-    toolchain.cargo(&["build", "--package", package, "--profile", PROFILE])?;
+    let profile = match (purpose, package) {
+        (Purpose::Test, _) => "ci-web",
+        // Unlike the page, the package is small whatever the compiler does.
+        (Purpose::Use, "carom-js") => "release",
+        (Purpose::Use, _) => "web",
+    };
+    // For tests all at once, so that what they share is built once.
+    let packages = match purpose {
+        Purpose::Test => &PACKAGES[..],
+        Purpose::Use => &[package],
+    };
+    let packages: Vec<&str> = packages.iter().flat_map(|it| ["--package", it]).collect();
+    toolchain.cargo(&[&["build", "--quiet", "--profile", profile], &packages[..]].concat())?;
     let file = format!("{}.wasm", package.replace('-', "_"));
-    Ok(target_folder().join(TARGET).join(PROFILE).join(file))
+    Ok(target_folder().join(TARGET).join(profile).join(file))
 }

@@ -4,9 +4,11 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::shell::{Outcome, cargo, finish, target_folder};
+use crate::checks::programs;
+use crate::setup;
+use crate::shell::{Outcome, ci_folder, finish, target_folder};
+use crate::wasm::{self, Purpose};
 use crate::web_tools::{folder, node, npm_packages, wasm_bindgen};
-use crate::{setup, wasm};
 
 /// The default port of the page's server.
 pub const PORT: &str = "8042";
@@ -16,22 +18,28 @@ const BUDGET: u64 = 4_000_000;
 
 /// Makes the page in `web/dist`, and says how large it is.
 pub fn build() -> Outcome {
-    build_module()?;
+    build_module(Purpose::Use)?;
     node(&["bundle.js", "module", "dist"], &[])?;
     check_size(&folder().join("dist"))
 }
 
+/// Makes a page in `web/dist` that works as that of [`build`] does, and is large.
+pub fn build_for_tests() -> Outcome {
+    build_module(Purpose::Test)?;
+    node(&["bundle.js", "module", "dist", "--quick"], &[])
+}
+
 /// Puts the interface for notebooks into the Python package, whose wheel takes it along.
-pub fn build_for_notebooks() -> Outcome {
-    build_module()?;
+pub fn build_for_notebooks(purpose: Purpose) -> Outcome {
+    build_module(purpose)?;
     node(&["notebook.js", "module", "../python/carom/notebook/built"], &[])
 }
 
 /// Makes the module in `web/module`.
-fn build_module() -> Outcome {
+fn build_module(purpose: Purpose) -> Outcome {
     setup::page()?;
     npm_packages()?;
-    let module = wasm::build("carom-web")?;
+    let module = wasm::build("carom-web", purpose)?;
     bind(&module, &folder().join("module"), &["--remove-name-section"])
 }
 
@@ -62,7 +70,7 @@ pub fn publish(out: &Path) -> Outcome {
 /// Says what takes the space in the module.
 pub fn sizes() -> Outcome {
     npm_packages()?;
-    let module = wasm::build("carom-web")?;
+    let module = wasm::build("carom-web", Purpose::Use)?;
     let named = target_folder().join("web-named");
     bind(&module, &named, &[])?;
     node(&["sizes.js", &named.join("carom_web_bg.wasm").to_string_lossy()], &[])
@@ -70,7 +78,7 @@ pub fn sizes() -> Outcome {
 
 /// Makes the page, and tests it in a browser.
 pub fn test() -> Outcome {
-    build()?;
+    build_for_tests()?;
     setup::browser()?;
     let prettier = "node_modules/prettier/bin/prettier.cjs";
     let of_notebooks = "../python/carom/notebook/*.{js,css}";
@@ -78,8 +86,8 @@ pub fn test() -> Outcome {
     node(&[prettier, "--check", "--config", "package.json", ".", of_notebooks], &[])?;
     node(&["node_modules/typescript/bin/tsc", "--project", "."], &[])?;
     // What a run gives outside of browsers.
-    cargo(&["build", "--release", "--package", "carom-cli", "--no-default-features", "--quiet"])?;
-    let carom = target_folder().join("release/carom");
+    programs::build_command()?;
+    let carom = ci_folder().join("carom");
     let carom = carom.to_string_lossy();
     // One file after another: frame times are measured, and a browser uses all there is.
     let files = test_files(&folder())?;
