@@ -32,7 +32,6 @@ pub fn test() -> Outcome {
 
 /// Runs the programs with the library that the tests of all crates have left.
 pub fn test_built() -> Outcome {
-    setup::graphics()?;
     programs::build()?;
     run_programs(&["--workspace"])
 }

@@ -127,7 +127,6 @@ fn clippy() -> Outcome {
 
 /// Everything that tests run, and the builds with fewer features that some readers begin with.
 fn builds() -> Outcome {
-    setup::graphics()?;
     programs::build()?;
     let check = |arguments: &[&str]| {
         cargo(&[&["check", "--profile", CI, "--quiet", "--package"], arguments].concat())
@@ -141,7 +140,6 @@ fn builds() -> Outcome {
 }
 
 fn tests() -> Outcome {
-    setup::graphics()?;
     setup::film_tests()?;
     let chosen = env::var(PACKAGES).ok();
     let is_chosen = |program: &Program| {

@@ -9,6 +9,7 @@ use std::thread;
 
 use serde_json::Value;
 
+use crate::setup;
 use crate::shell::{CI, Outcome, cargo, cargo_output};
 
 /// A program made of tests.
@@ -29,6 +30,7 @@ const SLOWEST: usize = 30;
 
 /// Builds every test program of the workspace, and every program that tests run.
 pub fn build() -> Outcome<Vec<Program>> {
+    setup::graphics()?;
     let arguments = ["test", "--workspace", "--no-run", "--profile", CI, "--quiet"];
     let format = ["--message-format", "json-render-diagnostics"];
     let output = cargo_output(&[&arguments[..], &format].concat())?;
@@ -130,6 +132,7 @@ pub fn named(programs: &[Program], package: &str, name: &str) -> Outcome<Vec<Pro
 
 /// Builds the command `carom`, out of the same crates as [`build`].
 pub fn build_command() -> Outcome {
+    setup::graphics()?;
     cargo(&["build", "--workspace", "--bin", "carom", "--profile", CI, "--quiet"])
 }
 
