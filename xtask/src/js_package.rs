@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::files::copy;
 use crate::shell::{Outcome, cargo, finish, root, target_folder};
 use crate::wasm::{self, Purpose};
 use crate::web::test_files;
@@ -97,19 +98,6 @@ fn anew(name: &str) -> Outcome<PathBuf> {
     }
     fs::create_dir_all(&folder).map_err(|error| said(&folder, error))?;
     Ok(folder)
-}
-
-/// Copies a file, or a folder with all that is in it.
-fn copy(from: &Path, to: &Path) -> Outcome {
-    if !from.is_dir() {
-        return fs::copy(from, to).map(drop).map_err(|error| said(from, error));
-    }
-    fs::create_dir_all(to).map_err(|error| said(to, error))?;
-    for entry in fs::read_dir(from).map_err(|error| said(from, error))? {
-        let entry = entry.map_err(|error| said(from, error))?;
-        copy(&entry.path(), &to.join(entry.file_name()))?;
-    }
-    Ok(())
 }
 
 fn write(file: &Path, text: &str) -> Outcome {

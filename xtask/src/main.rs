@@ -10,6 +10,7 @@ mod commands;
 mod demo;
 mod dependencies;
 mod documents;
+mod files;
 mod imports;
 mod js_package;
 mod long_tests;

@@ -4,14 +4,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::shell::{CI, Outcome, finish, root, target_folder};
+use crate::files::copy;
+use crate::shell::{CI, Outcome, cargo, ci_folder, finish, root, target_folder};
 use crate::wasm::Purpose;
 use crate::{native_hashes, setup, web};
 
 /// Builds the wheel, and says where it is.
 pub fn build() -> Outcome<PathBuf> {
     let environment = Environment::new("python/build")?;
-    let wheel = wheel(&environment, Purpose::Use)?;
+    let wheel = wheel(&environment)?;
     eprintln!("\n{}", wheel.display());
     Ok(wheel)
 }
@@ -22,8 +23,8 @@ pub fn test() -> Outcome {
     // Notebooks are shown in it.
     setup::browser()?;
     let environment = Environment::new("python/test")?;
-    let wheel = wheel(&environment, Purpose::Test)?;
     environment.pip(&["install", "--requirement", REQUIREMENTS])?;
+    let wheel = wheel_for_tests(&environment)?;
     environment.pip(&["install", "--no-deps", &wheel.to_string_lossy()])?;
     let hashes = environment.folder.join("native_hashes.json");
     fs::write(&hashes, native_hashes::json()?).map_err(|error| said(&hashes, error))?;
@@ -73,22 +74,43 @@ pub fn test() -> Outcome {
 const REQUIREMENTS: &str = "python/requirements-test.txt";
 
 /// Builds the wheel as `pip install .` does, with the viewer for notebooks. Returns the file.
-fn wheel(environment: &Environment, purpose: Purpose) -> Outcome<PathBuf> {
-    web::build_for_notebooks(purpose)?;
+fn wheel(environment: &Environment) -> Outcome<PathBuf> {
+    web::build_for_notebooks(Purpose::Use)?;
     let wheels = environment.folder.join("wheels");
     let folder = wheels.to_string_lossy();
-    let profile = match purpose {
-        Purpose::Use => "release",
-        Purpose::Test => CI,
-    };
-    let options = format!("--profile {profile}");
-    let build = ["wheel", ".", "--no-deps", "--wheel-dir", &folder];
-    environment.pip_with(&build, &[("MATURIN_PEP517_ARGS", &options)])?;
-    let entries = fs::read_dir(&wheels).map_err(|error| said(&wheels, error))?;
+    environment.pip(&["wheel", ".", "--no-deps", "--wheel-dir", &folder])?;
+    wheel_in(&wheels)
+}
+
+/// Packs a wheel with the library that is built for tests together with all other crates: by itself
+/// it would be compiled with other features of what these crates use, and they with it.
+fn wheel_for_tests(environment: &Environment) -> Outcome<PathBuf> {
+    web::build_for_notebooks(Purpose::Test)?;
+    cargo(&["build", "--workspace", "--lib", "--profile", CI, "--quiet"])?;
+    let unpacked = environment.folder.join("unpacked");
+    fs::create_dir_all(&unpacked).map_err(|error| said(&unpacked, error))?;
+    let mut describe = environment.command();
+    describe.args(["-m", "maturin", "pep517", "write-dist-info", "--metadata-directory"]);
+    finish("maturin", describe.arg(&unpacked).current_dir(root()))?;
+    copy(&root().join("python/carom"), &unpacked.join("carom"))?;
+    let [prefix, suffix] = [std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX];
+    let library = ci_folder().join(format!("{prefix}_carom{suffix}"));
+    let module = if cfg!(windows) { "_carom.pyd" } else { "_carom.abi3.so" };
+    copy(&library, &unpacked.join("carom").join(module))?;
+    let wheels = environment.folder.join("wheels");
+    fs::create_dir_all(&wheels).map_err(|error| said(&wheels, error))?;
+    let [from, to] = [&unpacked, &wheels].map(|folder| folder.to_string_lossy());
+    environment.python(&["-m", "wheel", "pack", &from, "--dest-dir", &to])?;
+    wheel_in(&wheels)
+}
+
+/// The wheel in a folder.
+fn wheel_in(folder: &Path) -> Outcome<PathBuf> {
+    let entries = fs::read_dir(folder).map_err(|error| said(folder, error))?;
     let mut files = entries.filter_map(|entry| Some(entry.ok()?.path()));
     files
         .find(|file| file.extension().is_some_and(|extension| extension == "whl"))
-        .ok_or_else(|| format!("{folder} holds no wheel"))
+        .ok_or_else(|| format!("{} holds no wheel", folder.display()))
 }
 
 /// An environment of Python's own, with nothing in it at first.
@@ -115,13 +137,7 @@ impl Environment {
     /// Installs or builds with the versions that [`REQUIREMENTS`] names, in the root of the
     /// repository.
     fn pip(&self, arguments: &[&str]) -> Outcome {
-        self.pip_with(arguments, &[])
-    }
-
-    /// Does the same with these variables of the environment.
-    fn pip_with(&self, arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
         let mut command = self.command();
-        command.envs(variables.iter().copied());
         command.args(["-m", "pip", "--quiet", "--disable-pip-version-check"]).args(arguments);
         command.env("PIP_CONSTRAINT", root().join(REQUIREMENTS));
         finish("pip", command.env("CARGO_TARGET_DIR", target_folder()).current_dir(root()))
