@@ -50,7 +50,7 @@ Usage: cargo xtask COMMAND
   lint      the checks that need no build: format, words, links and names in documents, modules that
             use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
-  schema    write scenes/scene.schema.json anew from the scene types
+  schema    write crates/carom-scene/scenes/scene.schema.json anew from the scene types
   soak      a day of simulated time of several scenes: pinned states, hour by hour, and flat memory
             (a quarter of an hour; `soak --hours H` for another time; after a whole day `soak --again`: every
             hour of it once more, side by side)
