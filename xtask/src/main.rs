@@ -15,6 +15,7 @@ mod markdown;
 mod miri;
 mod native_hashes;
 mod python;
+mod release;
 mod schema;
 mod setup;
 mod shell;
@@ -51,6 +52,10 @@ Usage: cargo xtask COMMAND
             use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
   schema    write crates/carom-scene/scenes/scene.schema.json anew from the scene types
+  release   `release --dry-run` makes and checks all that a release publishes, in
+            target/release-files, and publishes nothing (many minutes; `--part NAME` makes one part of it,
+            `--full` builds once more from every package); `release --ready TAG` says what is left to be done
+            before
   soak      a day of simulated time of several scenes: pinned states, hour by hour, and flat memory
             (a quarter of an hour; `soak --hours H` for another time; after a whole day `soak --again`: every
             hour of it once more, side by side)
@@ -94,6 +99,8 @@ fn main() -> ExitCode {
         ["fuzz", ref options @ ..] => test::fuzz(options),
         ["miri"] => miri::test(),
         ["kills"] => test::kills(),
+        ["release", "--dry-run", ref options @ ..] => release::dry_run(options),
+        ["release", "--ready", tag] => release::check_readiness(tag),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "web"] => js_package::bench(),
         ["bench", "pictures"] => {

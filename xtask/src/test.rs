@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use crate::commands::{self, Programs};
 use crate::shell::{Outcome, cargo, cargo_with, target_folder};
 use crate::{
-    architecture, c_interface, circles, dependencies, documents, js_package, python, setup, sizes,
-    stages, web, words,
+    architecture, c_interface, circles, dependencies, documents, js_package, python, release,
+    setup, sizes, stages, web, words,
 };
 
 /// A part of the checks, for which one time is printed.
@@ -112,7 +112,8 @@ pub fn lint() -> Outcome {
     circles::check()?;
     sizes::check()?;
     stages::check()?;
-    documents::check()
+    documents::check()?;
+    release::check()
 }
 
 fn set_up() -> Outcome {
