@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::member::{Member, all, built_from, in_order_of_publishing};
 use super::{archive, files};
+use crate::setup;
 use crate::shell::{Outcome, cargo, target_folder};
 
 /// What crates.io takes at most \[bytes\].
@@ -32,6 +33,9 @@ pub fn make(verifies_all: bool) -> Outcome {
     let members = all()?;
     let order = in_order_of_publishing(&members)?;
     let draws = |it: &Member| built_from(&members, &it.name).iter().any(|it| it.name == RENDERER);
+    if verifies_all {
+        setup::graphics()?;
+    }
     package(&order, &["--no-verify"])?;
     let verified: Vec<&Member> =
         order.iter().copied().filter(|it| verifies_all || !draws(it)).collect();

@@ -19,49 +19,58 @@ mod versions;
 mod wheel;
 
 use crate::shell::Outcome;
+use crate::web;
 
 /// A part of a release, which can be made alone.
 struct Part {
     name: &'static str,
-    make: fn(Extent) -> Outcome,
+    make: fn(Options) -> Outcome,
 }
 
-/// How much of what is made is built once more from it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Extent {
-    /// What draws is packed, and not compiled once more.
-    Usual,
-    /// Every crate is compiled from its package, and the wheel from the source distribution.
-    Full,
+/// How the parts are made.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+struct Options {
+    /// Compiles every crate from its package, and the wheel from the source distribution; without, what draws is packed
+    /// and not compiled once more.
+    is_full: bool,
+    /// Takes the viewer for notebooks that lies in the Python package: another machine made it.
+    keeps_viewer: bool,
 }
 
-impl Extent {
-    fn is_full(self) -> bool {
-        self == Self::Full
+impl Options {
+    /// Puts the viewer for notebooks into the Python package, unless it is there, before that is built.
+    fn with_viewer(self, make: impl FnOnce() -> Outcome) -> Outcome {
+        if !self.keeps_viewer {
+            web::build_for_notebooks()?;
+        }
+        make()
     }
 }
 
 /// All parts, those first that fail fastest.
 const PARTS: [Part; 7] = [
-    Part { name: "crates", make: |extent| crates::make(extent.is_full()) },
+    Part { name: "crates", make: |options| crates::make(options.is_full) },
     Part { name: "c", make: |_| c_library::make() },
     Part { name: "command", make: |_| command_line::make() },
     Part { name: "npm", make: |_| javascript::make_package() },
     Part { name: "page", make: |_| javascript::make_page() },
-    Part { name: "sdist", make: |extent| source_distribution::make(extent.is_full()) },
-    Part { name: "wheel", make: |_| wheel::make() },
+    Part {
+        name: "sdist",
+        make: |options| options.with_viewer(|| source_distribution::make(options.is_full)),
+    },
+    Part { name: "wheel", make: |options| options.with_viewer(wheel::make) },
 ];
 
-/// Makes the parts that `options` name, all without, and prints the table of the archives.
-pub fn dry_run(options: &[&str]) -> Outcome {
-    let (parts, extent) = chosen(options)?;
+/// Makes the parts that `words` of the command line name, all without, and prints the table of the archives.
+pub fn dry_run(words: &[&str]) -> Outcome {
+    let (parts, options) = chosen(words)?;
     check()?;
     if parts.len() == PARTS.len() {
         files::clear()?;
     }
     for part in parts {
         eprintln!("\n== release: {}", part.name);
-        (part.make)(extent)?;
+        (part.make)(options)?;
     }
     files::write_checksums()?;
     table::print()
@@ -82,21 +91,22 @@ pub fn check_readiness(tag: &str) -> Outcome {
     if open.is_empty() { Ok(()) } else { Err(format!("before a release:\n{}", open.join("\n"))) }
 }
 
-/// The parts and the extent that options name.
-fn chosen(options: &[&str]) -> Outcome<(Vec<&'static Part>, Extent)> {
-    let (mut parts, mut extent) = (Vec::new(), Extent::Usual);
-    let mut options = options.iter();
-    while let Some(option) = options.next() {
-        match *option {
-            "--full" => extent = Extent::Full,
-            "--part" => parts.push(part(options.next().copied().unwrap_or_default())?),
+/// The parts that words of the command line name, and how they are made.
+fn chosen(words: &[&str]) -> Outcome<(Vec<&'static Part>, Options)> {
+    let (mut parts, mut options) = (Vec::new(), Options::default());
+    let mut words = words.iter();
+    while let Some(word) = words.next() {
+        match *word {
+            "--full" => options.is_full = true,
+            "--keep-viewer" => options.keeps_viewer = true,
+            "--part" => parts.push(part(words.next().copied().unwrap_or_default())?),
             other => return Err(format!("release --dry-run does not know {other:?}")),
         }
     }
     if parts.is_empty() {
         parts = PARTS.iter().collect();
     }
-    Ok((parts, extent))
+    Ok((parts, options))
 }
 
 /// The part of a name.
@@ -109,13 +119,13 @@ fn part(name: &str) -> Outcome<&'static Part> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Extent, PARTS, chosen};
+    use super::{Options, PARTS, chosen};
 
     #[test]
     fn options_name_parts_and_all_are_made_without() {
-        let (parts, extent) = chosen(&["--part", "npm", "--full", "--part", "c"]).unwrap();
+        let (parts, options) = chosen(&["--part", "npm", "--full", "--part", "c"]).unwrap();
         assert_eq!(parts.iter().map(|part| part.name).collect::<Vec<_>>(), ["npm", "c"]);
-        assert_eq!(extent, Extent::Full);
+        assert_eq!(options, Options { is_full: true, keeps_viewer: false });
         assert_eq!(chosen(&[]).unwrap().0.len(), PARTS.len());
         for wrong in [&["--part"][..], &["--part", "wheels"], &["--dry"]] {
             assert!(chosen(wrong).is_err(), "{wrong:?}");

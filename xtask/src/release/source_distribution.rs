@@ -1,13 +1,12 @@
 //! The source distribution of the Python package.
 
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use super::member::{Member, all, built_from};
 use super::{archive, files};
 use crate::python::Environment;
 use crate::shell::{Outcome, cargo_program, root};
-use crate::web;
 
 /// The crate that the Python package is built from.
 const ENGINE: &str = "carom-py";
@@ -25,10 +24,8 @@ const HELD: [&str; 8] = [
 /// What cargo adds to a package of a crate.
 const ADDED: [&str; 3] = [".cargo_vcs_info.json", "Cargo.lock", "Cargo.toml.orig"];
 
-/// Makes it, with the viewer for notebooks, and checks that it holds what it is built from; builds a wheel of it where
-/// `builds` says so.
+/// Makes it, and checks that it holds what it is built from; builds a wheel of it where `builds` says so.
 pub fn make(builds: bool) -> Outcome {
-    web::build_for_notebooks()?;
     let environment = Environment::new("python/release")?;
     environment.pip(&["install", "maturin"])?;
     let folder = files::staging("sdist")?;
@@ -52,6 +49,7 @@ fn check(file: &Path) -> Outcome {
     if !names.iter().any(|name| name.contains("/notebook/built/")) {
         return Err(format!("{} has no viewer for notebooks", file.display()));
     }
+    resolve(&archive::unpack(file)?)?;
     for member in built_from(&all()?, ENGINE) {
         let folder = member.folder.strip_prefix(root()).unwrap_or(&member.folder);
         let folder = folder.to_string_lossy().replace('\\', "/");
@@ -60,6 +58,14 @@ fn check(file: &Path) -> Outcome {
         archive::demand(file, &wanted)?;
     }
     Ok(())
+}
+
+/// Has cargo read every manifest of what was unpacked, and find all that they name.
+fn resolve(folder: &Path) -> Outcome {
+    let mut command = Command::new(cargo_program());
+    command.args(["metadata", "--format-version", "1", "--quiet", "--manifest-path"]);
+    command.arg(folder.join("crates").join(ENGINE).join("Cargo.toml"));
+    files::run_in(folder, "cargo", command.stdout(Stdio::null()))
 }
 
 /// The files of a crate that its package holds.

@@ -3,8 +3,7 @@
 use super::files;
 use super::versions::VERSION;
 use crate::python::Environment;
-use crate::shell::{Outcome, root};
-use crate::web;
+use crate::shell::{Outcome, root, target_folder};
 
 /// What the name of every wheel says: which versions of Python take it.
 const VERSIONS_OF_PYTHON: &str = "-cp310-abi3-";
@@ -13,18 +12,17 @@ const PROGRAM: &str = "import importlib.metadata, carom; \
                        carom.load('simtest1').run(seconds=1); \
                        print(importlib.metadata.version('carom'))";
 
-/// Makes the wheel, with the viewer for notebooks, and uses it in a clean environment.
+/// Makes the wheel, and uses it in a clean environment.
 ///
 /// On Linux, maturin refuses libraries that not every distribution has, and names the oldest C library that the wheel takes
 /// (`manylinux_2_35`: glibc 2.35).
 pub fn make() -> Outcome {
-    web::build_for_notebooks()?;
     let environment = Environment::new("python/release")?;
     environment.pip(&["install", "maturin"])?;
     let folder = files::staging("wheel")?;
     let mut maturin = environment.command();
     maturin.args(["-m", "maturin", "build", "--profile", "dist", "--locked", "--out"]).arg(&folder);
-    maturin.env("CARGO_TARGET_DIR", crate::shell::target_folder());
+    maturin.env("CARGO_TARGET_DIR", target_folder());
     files::run_in(&root(), "maturin", &mut maturin)?;
     let wheel = files::publish(&files::only_file(&folder)?)?;
     let name = wheel.file_name().unwrap_or_default().to_string_lossy().into_owned();
