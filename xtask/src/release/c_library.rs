@@ -7,13 +7,13 @@ use super::archive::{Archive, demand, host, unpack};
 use super::versions::VERSION;
 use super::{files, notices};
 use crate::shell::{Outcome, cargo, finish, root, target_folder};
+use crate::sources::read;
 
 /// What stands in the archive as it stands in the repository: from where, to where.
-const FILES: [(&str, &str); 7] = [
+const FILES: [(&str, &str); 6] = [
     ("crates/carom-c/include/carom.h", "include/carom.h"),
     ("crates/carom-c/csharp/CaromWorld.cs", "csharp/CaromWorld.cs"),
     ("crates/carom-c/examples", "examples"),
-    ("docs/c.md", "c.md"),
     ("CHANGELOG.md", "CHANGELOG.md"),
     ("LICENSE-APACHE", "LICENSE-APACHE"),
     ("LICENSE-MIT", "LICENSE-MIT"),
@@ -44,6 +44,8 @@ pub fn make() -> Outcome {
     for (from, to) in FILES {
         archive.add(&root().join(from), to)?;
     }
+    let guide = read(&root().join("docs/c.md"))?;
+    files::write(&archive.place("c.md"), for_archive(&guide))?;
     files::write(&archive.place(notices::FILE), notices::of("carom-c")?)?;
     let file = archive.pack()?;
     demand(&file, &["include/carom.h", "csharp/CaromWorld.cs", "c.md", "LICENSE-MIT"])?;
@@ -52,6 +54,30 @@ pub fn make() -> Outcome {
         return Ok(());
     }
     try_out(&unpack(&file)?)
+}
+
+/// The guide with links to what is in the archive; of others, the text alone.
+fn for_archive(guide: &str) -> String {
+    let guide = guide.replace("](../crates/carom-c/", "](");
+    let mut text = String::new();
+    let mut rest = guide.as_str();
+    while let Some((before, after)) = rest.split_once("](") {
+        let target = after.split(')').next().unwrap_or(after);
+        let is_elsewhere = target.contains(".md") && !target.contains("://");
+        match before.rfind('[').filter(|_| is_elsewhere) {
+            Some(start) => {
+                text += &before[..start];
+                text += &before[start + 1..];
+                rest = after.get(target.len() + 1..).unwrap_or_default();
+            }
+            None => {
+                text += before;
+                text += "](";
+                rest = after;
+            }
+        }
+    }
+    text + rest
 }
 
 /// Compiles the smallest program with the shared and with the static library, and runs both.
@@ -66,4 +92,17 @@ fn try_out(folder: &Path) -> Outcome {
         files::run_in(folder, name, &mut Command::new(folder.join(name)))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::for_archive;
+
+    #[test]
+    fn links_of_the_guide_lead_into_the_archive_or_are_text() {
+        let guide =
+            "[a](../crates/carom-c/include/a.h), [b `c`](d/e.md#f) and [g](https://h/i.md).";
+        let changed = "[a](include/a.h), b `c` and [g](https://h/i.md).";
+        assert_eq!(for_archive(guide), changed);
+    }
 }

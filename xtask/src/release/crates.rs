@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::member::{Member, all, built_from, in_order_of_publishing};
 use super::{archive, files};
 use crate::setup;
-use crate::shell::{Outcome, cargo, target_folder};
+use crate::shell::{Outcome, cargo_with, target_folder};
 
 /// What crates.io takes at most \[bytes\].
 const LARGEST: u64 = 10 * 1024 * 1024;
@@ -59,7 +59,8 @@ fn package(members: &[&Member], options: &[&str]) -> Outcome {
     for member in members {
         arguments.extend(["--package", &member.name]);
     }
-    cargo(&arguments)
+    // What is compiled here is thrown away.
+    cargo_with(&arguments, &[("CARGO_PROFILE_DEV_DEBUG", "false")])
 }
 
 /// What a crate does not say of itself.
