@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::shell::{Outcome, cargo, cargo_with, finish, output, root, succeeds, target_folder};
+use crate::shell::{Outcome, cargo, cargo_with, finish, host, root, succeeds, target_folder};
 use crate::{native_hashes, setup};
 
 /// Makes the libraries for programs, and says where they are.
@@ -141,10 +141,7 @@ impl Programs {
         let mut command = Command::new(words.next().unwrap_or_default());
         finish("valgrind", command.args(words).arg(self.folder.join("every_function")))?;
         let test = [&["test", "--quiet"], packages, &["--test", "misuse"]].concat();
-        let about = output("rustc", &["-vV"]).unwrap_or_default();
-        let target = about.lines().find_map(|line| line.strip_prefix("host: "));
-        let target = target.ok_or("rustc does not say what it compiles for")?;
-        let target = target.to_uppercase().replace('-', "_");
+        let target = host()?.to_uppercase().replace('-', "_");
         cargo_with(&test, &[(&format!("CARGO_TARGET_{target}_RUNNER"), VALGRIND)])
     }
 

@@ -14,6 +14,7 @@ mod js_package;
 mod markdown;
 mod miri;
 mod native_hashes;
+mod notices;
 mod python;
 mod release;
 mod schema;

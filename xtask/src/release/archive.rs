@@ -82,10 +82,3 @@ pub fn unpack(file: &Path) -> Outcome<PathBuf> {
     let first = names_in(file)?.into_iter().next().unwrap_or_default();
     Ok(folder.join(first.split('/').next().unwrap_or_default()))
 }
-
-/// What this machine is to compilers, as in `x86_64-unknown-linux-gnu`.
-pub fn host() -> Outcome<String> {
-    let about = output("rustc", &["-vV"]).unwrap_or_default();
-    let host = about.lines().find_map(|line| line.strip_prefix("host: "));
-    host.map(str::to_owned).ok_or_else(|| "rustc does not say what it compiles for".to_owned())
-}

@@ -3,10 +3,11 @@
 use std::path::Path;
 use std::process::Command;
 
-use super::archive::{Archive, demand, host, unpack};
+use super::archive::{Archive, demand, unpack};
+use super::files;
 use super::versions::VERSION;
-use super::{files, notices};
-use crate::shell::{Outcome, cargo, finish, root, target_folder};
+use crate::notices;
+use crate::shell::{Outcome, cargo, finish, host, root, target_folder};
 use crate::sources::read;
 
 /// What stands in the archive as it stands in the repository: from where, to where.
@@ -46,7 +47,7 @@ pub fn make() -> Outcome {
     }
     let guide = read(&root().join("docs/c.md"))?;
     files::write(&archive.place("c.md"), for_archive(&guide))?;
-    files::write(&archive.place(notices::FILE), notices::of("carom-c")?)?;
+    files::write(&archive.place(notices::FILE), notices::of("carom-c", &host()?)?)?;
     let file = archive.pack()?;
     demand(&file, &["include/carom.h", "csharp/CaromWorld.cs", "c.md", "LICENSE-MIT"])?;
     if cfg!(windows) {

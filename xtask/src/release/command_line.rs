@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::process::Command;
 
-use super::archive::{Archive, demand, host, unpack};
+use super::archive::{Archive, demand, unpack};
+use super::files;
 use super::versions::VERSION;
-use super::{files, notices};
-use crate::setup;
-use crate::shell::{Outcome, cargo, finish, root, target_folder};
+use crate::shell::{Outcome, cargo, finish, host, root, target_folder};
+use crate::{notices, setup};
 
 /// What stands in the archive as it stands in the repository: from where, to where.
 const FILES: [(&str, &str); 4] = [
@@ -41,7 +41,7 @@ pub fn make() -> Outcome {
         files::write(&archive.place("completions").join(file), script)?;
     }
     finish("carom", Command::new(&built).arg("man").arg(archive.place("man")))?;
-    files::write(&archive.place(notices::FILE), notices::of("carom-cli")?)?;
+    files::write(&archive.place(notices::FILE), notices::of("carom-cli", &host()?)?)?;
     let file = archive.pack()?;
     demand(&file, &[&program, "completions/carom.bash", "man/carom.1", "LICENSE-MIT"])?;
     try_out(&unpack(&file)?, &program)

@@ -6,8 +6,9 @@ use super::archive::{Archive, demand, unpack};
 use super::files;
 use super::versions::VERSION;
 use crate::shell::{Outcome, root};
+use crate::wasm_toolchain::TARGET;
 use crate::web_tools::folder;
-use crate::{js_package, web};
+use crate::{js_package, notices, web};
 
 /// Loads the package that was unpacked, and steps a world.
 const PROGRAM: &str = "import { World } from './src/index.node.js'; \
@@ -19,7 +20,7 @@ pub fn make_package() -> Outcome {
     let file = files::publish(&js_package::build()?)?;
     let wanted = ["package.json", "README.md", "LICENSE-MIT", "src/engine_bg.wasm"];
     demand(&file, &wanted)?;
-    demand(&file, &["LICENSE-APACHE", "src/index.js", "src/index.node.js", "src/index.d.ts"])?;
+    demand(&file, &[notices::FILE, "src/index.js", "src/index.node.js", "src/index.d.ts"])?;
     let package = unpack(&file)?;
     let mut node = Command::new("node");
     files::run_in(&package, "node", node.args(["--input-type=module", "--eval", PROGRAM]))
@@ -33,5 +34,6 @@ pub fn make_page() -> Outcome {
     for licence in ["LICENSE-APACHE", "LICENSE-MIT"] {
         archive.add(&root().join(licence), licence)?;
     }
+    files::write(&archive.place(notices::FILE), notices::of("carom-web", TARGET)?)?;
     demand(&archive.pack()?, &["page/index.html", "LICENSE-MIT"])
 }

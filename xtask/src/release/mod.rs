@@ -11,7 +11,6 @@ mod files;
 mod javascript;
 mod links;
 mod member;
-mod notices;
 mod readiness;
 mod source_distribution;
 mod table;

@@ -2,8 +2,9 @@
 
 use super::files;
 use super::versions::VERSION;
+use crate::notices;
 use crate::python::Environment;
-use crate::shell::{Outcome, root, target_folder};
+use crate::shell::{Outcome, host, root, target_folder};
 
 /// What the name of every wheel says: which versions of Python take it.
 const VERSIONS_OF_PYTHON: &str = "-cp310-abi3-";
@@ -19,6 +20,8 @@ const PROGRAM: &str = "import importlib.metadata, carom; \
 pub fn make() -> Outcome {
     let environment = Environment::new("python/release")?;
     environment.pip(&["install", "maturin"])?;
+    let notices = notices::of("carom-py", &host()?)?;
+    files::write(&root().join("python/carom").join(notices::FILE), notices)?;
     let folder = files::staging("wheel")?;
     let mut maturin = environment.command();
     maturin.args(["-m", "maturin", "build", "--profile", "dist", "--locked", "--out"]).arg(&folder);

@@ -7,7 +7,6 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::archive::host;
 use crate::shell::{Outcome, cargo_program, root};
 
 /// The name of the file in archives.
@@ -17,9 +16,9 @@ pub const FILE: &str = "THIRD-PARTY-NOTICES.txt";
 const BEGINNINGS: [&str; 7] =
     ["LICENSE", "LICENCE", "COPYING", "COPYRIGHT", "NOTICE", "UNLICENSE", "OFL"];
 
-/// What a crate of the workspace is built of here, with the text of each licence.
-pub fn of(member: &str) -> Outcome<String> {
-    let described = metadata(&host()?)?;
+/// What a crate of the workspace is built of for a target, with the text of each licence.
+pub fn of(member: &str, target: &str) -> Outcome<String> {
+    let described = metadata(target)?;
     let used = used_by(member, &described);
     let packages = described["packages"].as_array().into_iter().flatten();
     let mut list = String::new();
