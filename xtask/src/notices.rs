@@ -13,10 +13,11 @@ use crate::shell::{Outcome, cargo_program, root};
 pub const FILE: &str = "THIRD-PARTY-NOTICES.txt";
 
 /// How names of files with licences begin, in capitals.
-const BEGINNINGS: [&str; 7] =
-    ["LICENSE", "LICENCE", "COPYING", "COPYRIGHT", "NOTICE", "UNLICENSE", "OFL"];
+const BEGINNINGS: [&str; 8] =
+    ["LICENSE", "LICENCE", "COPYING", "COPYRIGHT", "NOTICE", "UNLICENSE", "OFL", "UFL"];
 
-/// What a crate of the workspace is built of for a target, with the text of each licence.
+/// What a crate of the workspace is built of for a target, with the text of each licence. Features that other members
+/// ask for count as well: it may list more than there is, never less.
 pub fn of(member: &str, target: &str) -> Outcome<String> {
     let described = metadata(target)?;
     let used = used_by(member, &described);
@@ -99,4 +100,19 @@ fn licences_in(folder: Option<&Path>) -> Vec<PathBuf> {
 
 fn text(value: &Value) -> &str {
     value.as_str().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of;
+    use crate::shell::host;
+
+    #[test]
+    fn what_is_compiled_in_is_listed_and_what_tests_use_is_not() {
+        let notices = of("carom-c", &host().unwrap()).unwrap();
+        let lists = |name: &str| notices.lines().any(|line| line.starts_with(&format!("{name} ")));
+        assert!(lists("glam") && lists("libm") && lists("toml"), "{notices}");
+        assert!(!lists("cbindgen") && !lists("carom"), "{notices}");
+        assert!(notices.contains("Permission is hereby granted"), "{notices}");
+    }
 }
