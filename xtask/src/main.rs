@@ -55,8 +55,8 @@ Usage: cargo xtask COMMAND
   schema    write crates/carom-scene/scenes/scene.schema.json anew from the scene types
   release   `release --dry-run` makes and checks all that a release publishes, in
             target/release-files, and publishes nothing (many minutes; `--part NAME` makes one part of it,
-            `--full` builds once more from every package); `release --ready TAG` says what is left to be done
-            before
+            `--full` builds once more from every package, `--keep-viewer` takes the viewer for notebooks that
+            is there); `release --ready TAG` says what is left to be done before
   soak      a day of simulated time of several scenes: pinned states, hour by hour, and flat memory
             (a quarter of an hour; `soak --hours H` for another time; after a whole day `soak --again`: every
             hour of it once more, side by side)
