@@ -18,7 +18,7 @@ import { build } from "esbuild";
 const PAGE = fileURLToPath(new URL("page/", import.meta.url));
 
 /** The scenes that come with Carom. */
-const SCENES = fileURLToPath(new URL("../scenes/", import.meta.url));
+const SCENES = fileURLToPath(new URL("../crates/carom-scene/scenes/", import.meta.url));
 
 /** What other sites show beside a link to the page. */
 const PICTURE = fileURLToPath(new URL("../docs/pictures/tutorial4.png", import.meta.url));

@@ -8,7 +8,9 @@ import { after, before, test } from "node:test";
 
 import { Desk } from "./viewer.js";
 
-const SCENE = fileURLToPath(new URL("../../scenes/simtest3.toml", import.meta.url));
+const SCENE = fileURLToPath(
+  new URL("../../crates/carom-scene/scenes/simtest3.toml", import.meta.url),
+);
 
 /** @type {Desk} */
 let desk;

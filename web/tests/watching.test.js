@@ -8,7 +8,7 @@ import { after, before, test } from "node:test";
 import { difference, read } from "./pixels.js";
 import { Desk } from "./viewer.js";
 
-const SCENES = fileURLToPath(new URL("../../scenes/", import.meta.url));
+const SCENES = fileURLToPath(new URL("../../crates/carom-scene/scenes/", import.meta.url));
 
 /** The middle of the page, where scenes are shown. */
 const MIDDLE = { left: 0.3, top: 0.1, right: 0.7, bottom: 0.9 };

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::checks::programs;
 use crate::shell::{
-    CI, Outcome, cargo, cargo_with, ci_folder, finish, output, root, succeeds, target_folder,
+    CI, Outcome, cargo, cargo_with, ci_folder, finish, host, root, succeeds, target_folder,
 };
 use crate::{native_hashes, setup};
 
@@ -146,10 +146,7 @@ impl Programs {
         finish("valgrind", command.args(words).arg(self.folder.join("every_function")))?;
         let test = ["test", "--quiet", "--profile", CI];
         let test = [&test[..], packages, &["--test", "misuse"]].concat();
-        let about = output("rustc", &["-vV"]).unwrap_or_default();
-        let target = about.lines().find_map(|line| line.strip_prefix("host: "));
-        let target = target.ok_or("rustc does not say what it compiles for")?;
-        let target = target.to_uppercase().replace('-', "_");
+        let target = host()?.to_uppercase().replace('-', "_");
         cargo_with(&test, &[(&format!("CARGO_TARGET_{target}_RUNNER"), VALGRIND)])
     }
 

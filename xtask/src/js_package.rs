@@ -7,9 +7,10 @@ use std::process::Command;
 use crate::files::copy;
 use crate::shell::{Outcome, cargo, finish, root, target_folder};
 use crate::wasm::{self, Purpose};
+use crate::wasm_toolchain::TARGET;
 use crate::web::test_files;
 use crate::web_tools::{folder, npm_packages, wasm_bindgen};
-use crate::{native_hashes, setup};
+use crate::{native_hashes, notices, setup};
 
 /// What stands in the package as it stands in the repository: from where, to where.
 const FILES: [(&str, &str); 5] = [
@@ -29,6 +30,7 @@ pub fn build(purpose: Purpose) -> Outcome<PathBuf> {
     for (from, to) in FILES {
         copy(&root().join(from), &package.join(to))?;
     }
+    write(&package.join(notices::FILE), &notices::of("carom-js", TARGET)?)?;
     bind(&module, &package.join("src"))?;
     pack(&package)
 }

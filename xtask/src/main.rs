@@ -17,7 +17,9 @@ mod long_tests;
 mod markdown;
 mod miri;
 mod native_hashes;
+mod notices;
 mod python;
+mod release;
 mod schema;
 mod setup;
 mod shell;
@@ -55,7 +57,11 @@ Usage: cargo xtask COMMAND
   lint      the checks that need no build: format, words, links and names in documents, modules that
             use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
-  schema    write scenes/scene.schema.json anew from the scene types
+  schema    write crates/carom-scene/scenes/scene.schema.json anew from the scene types
+  release   `release --dry-run` makes and checks all that a release publishes, in
+            target/release-files, and publishes nothing (many minutes; `--part NAME` makes one part of it,
+            `--full` builds once more from every package, `--keep-viewer` takes the viewer for notebooks that
+            is there); `release --ready TAG` says what is left to be done before
   soak      a day of simulated time of several scenes: pinned states, hour by hour, and flat memory
             (a quarter of an hour; `soak --hours H` for another time; after a whole day `soak --again`: every
             hour of it once more, side by side)
@@ -102,6 +108,8 @@ fn main() -> ExitCode {
         ["fuzz", ref options @ ..] => long_tests::fuzz(options),
         ["miri"] => miri::test(),
         ["kills"] => long_tests::kills(),
+        ["release", "--dry-run", ref options @ ..] => release::dry_run(options),
+        ["release", "--ready", tag] => release::check_readiness(tag),
         ["bench"] => shell::cargo(&["bench", "--package", "carom"]),
         ["bench", "web"] => js_package::bench(),
         ["bench", "pictures"] => {

@@ -114,13 +114,13 @@ fn wheel_in(folder: &Path) -> Outcome<PathBuf> {
 }
 
 /// An environment of Python's own, with nothing in it at first.
-struct Environment {
+pub struct Environment {
     folder: PathBuf,
 }
 
 impl Environment {
     /// Makes it anew, in a folder among what is built.
-    fn new(name: &str) -> Outcome<Self> {
+    pub fn new(name: &str) -> Outcome<Self> {
         setup::python()?;
         // The package draws.
         setup::graphics()?;
@@ -136,7 +136,7 @@ impl Environment {
 
     /// Installs or builds with the versions that [`REQUIREMENTS`] names, in the root of the
     /// repository.
-    fn pip(&self, arguments: &[&str]) -> Outcome {
+    pub fn pip(&self, arguments: &[&str]) -> Outcome {
         let mut command = self.command();
         command.args(["-m", "pip", "--quiet", "--disable-pip-version-check"]).args(arguments);
         command.env("PIP_CONSTRAINT", root().join(REQUIREMENTS));
@@ -151,7 +151,18 @@ impl Environment {
         finish("python", &mut command)
     }
 
-    fn command(&self) -> Command {
+    /// What a program prints that runs where nothing of the repository is found by accident.
+    pub fn printed(&self, arguments: &[&str]) -> Outcome<String> {
+        let output = self.command().args(arguments).current_dir(&self.folder).output();
+        let output = output.map_err(|error| format!("python: {error}"))?;
+        if !output.status.success() {
+            return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+        }
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    }
+
+    /// Its Python, without arguments.
+    pub fn command(&self) -> Command {
         let scripts = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
         Command::new(self.folder.join("environment").join(scripts))
     }

@@ -36,6 +36,13 @@ pub fn program(name: &str) -> Command {
     Command::new(ci_folder().join(format!("{name}{}", std::env::consts::EXE_SUFFIX)))
 }
 
+/// What this machine is to compilers, as in `x86_64-unknown-linux-gnu`.
+pub fn host() -> Outcome<String> {
+    let about = output("rustc", &["-vV"]).unwrap_or_default();
+    let host = about.lines().find_map(|line| line.strip_prefix("host: "));
+    host.map(str::to_owned).ok_or_else(|| "rustc does not say what it compiles for".to_owned())
+}
+
 /// The cargo that runs this.
 pub fn cargo_program() -> OsString {
     std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())

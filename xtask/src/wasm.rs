@@ -23,7 +23,7 @@ pub fn build(package: &str, purpose: Purpose) -> Outcome<PathBuf> {
     let profile = match (purpose, package) {
         (Purpose::Test, _) => "ci-web",
         // Unlike the page, the package is small whatever the compiler does.
-        (Purpose::Use, "carom-js") => "release",
+        (Purpose::Use, "carom-js") => "dist",
         (Purpose::Use, _) => "web",
     };
     // For tests all at once, so that what they share is built once.

@@ -12,3 +12,8 @@ mod cells;
 mod pairs;
 
 pub use pairs::{Pair, pair_histogram, pairs_within};
+
+/// The program of the README, compiled and run as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

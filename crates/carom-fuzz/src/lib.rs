@@ -21,3 +21,9 @@ pub use fault::Fault;
 pub use memory::MOST_BYTES;
 pub use target::{Answer, PATIENCE, Target};
 pub use targets::TARGETS;
+
+/// The programs of the README of the repository, compiled and run as documentation tests: here, for a published crate holds
+/// its own files only.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

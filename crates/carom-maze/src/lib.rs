@@ -59,3 +59,8 @@ pub use progress::Progress;
 pub use random::{MOST_CELLS_PER_SIDE, random_text};
 pub use text_problem::TextProblem;
 pub use tilt::{Steering, Tilt};
+
+/// The program of the README, compiled and run as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,11 +1,11 @@
-//! The scenes that are part of Carom: the files of `scenes/`, embedded, in the order in which they are
+//! The scenes that are part of Carom: the files of the folder `scenes/`, embedded, in the order in which they are
 //! listed.
 
 macro_rules! embed {
     ($($file:literal),* $(,)?) => {
         /// Name and text of each built-in scene file.
         pub const FILES: &[(&str, &str)] =
-            &[$(($file, include_str!(concat!("../../../scenes/", $file)))),*];
+            &[$(($file, include_str!(concat!("../scenes/", $file)))),*];
     };
 }
 

@@ -67,3 +67,8 @@ pub use parameters::Parameter;
 pub use scene::Scene;
 pub use schema::json_schema;
 pub use text::SceneText;
+
+/// The program of the README, compiled and run as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

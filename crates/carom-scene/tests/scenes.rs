@@ -21,13 +21,13 @@ fn run(scene: &Scene, seconds: f64, mut watch: impl FnMut(&World)) -> World {
     world
 }
 
-fn repository() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+fn folder() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
 #[test]
 fn every_file_in_the_folder_is_built_in() {
-    let files = std::fs::read_dir(repository().join("scenes")).unwrap();
+    let files = std::fs::read_dir(folder().join("scenes")).unwrap();
     let files: BTreeSet<String> = files
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .filter(|name| name.ends_with(".toml"))
@@ -164,7 +164,7 @@ fn in_tutorial_4_a_hundred_spheres_scatter_from_the_fixed_one() {
 
 #[test]
 fn the_committed_schema_is_current() {
-    let path = repository().join("scenes/scene.schema.json");
+    let path = folder().join("scenes/scene.schema.json");
     if std::env::var_os("CAROM_WRITE_SCHEMA").is_some() {
         std::fs::write(&path, json_schema()).unwrap();
     }

@@ -88,11 +88,6 @@ pub use work::StopRequest;
 pub use world::World;
 pub use world::snapshot::Snapshot;
 
-/// The programs of the README, compiled and run as documentation tests.
-#[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
-struct Readme;
-
 /// The program of the README that this crate is published with.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

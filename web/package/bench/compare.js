@@ -14,7 +14,10 @@ const TURNS = 5;
 const RUNS = 4;
 
 const folder = import.meta.dirname;
-const [rain, tutorial4] = [`${folder}/rain.toml`, `${folder}/../../../scenes/tutorial4.toml`];
+const [rain, tutorial4] = [
+  `${folder}/rain.toml`,
+  `${folder}/../../../crates/carom-scene/scenes/tutorial4.toml`,
+];
 const LOADS = [
   ["1,000 spheres, `exact`", rain, { "simulation.rule": "exact" }],
   ["1,000 spheres, `bisect`", rain, { "simulation.rule": "bisect" }],

@@ -7,8 +7,6 @@ use crate::shell::{Outcome, metadata, output};
 
 /// Files that every package is built with, or checked by.
 const OF_ALL: [&str; 4] = ["Cargo.toml", "Cargo.lock", ".cargo/", "xtask/"];
-/// Folders whose files a package holds, though they lie outside of it.
-const HELD: [(&str, &str); 2] = [("scenes/", "carom-scene"), ("mazes/", "carom-maze")];
 
 /// Files that have changed, and packages that this can reach.
 #[derive(Debug)]
@@ -76,9 +74,6 @@ impl Changes {
 
 /// The package that holds a file.
 fn package(file: &str) -> Option<String> {
-    if let Some((_, package)) = HELD.iter().find(|(folder, _)| file.starts_with(folder)) {
-        return Some((*package).to_owned());
-    }
     let mut folders = file.strip_prefix("crates/")?.split('/');
     folders.next().map(str::to_owned)
 }
@@ -123,7 +118,7 @@ mod tests {
         let physics = changes(&["crates/carom/src/lib.rs"]);
         assert!(physics.reach(&view) && !physics.reach(&pairs));
         assert_eq!(physics.packages().as_deref(), Some("carom,carom-scene,carom-view"));
-        assert!(changes(&["scenes/a.toml"]).reach(&view));
+        assert!(changes(&["crates/carom-scene/scenes/a.toml"]).reach(&view));
         assert!(changes(&["web/serve.js"]).reach(&view));
         assert!(!changes(&["docs/a.md"]).reach(&view));
         assert!(changes(&["docs/a.md"]).reach(&part(Reads::Everything)));

@@ -8,8 +8,8 @@ use crate::commands::{self, Programs};
 use crate::shell::{CI, Outcome, cargo, cargo_with, ci_folder, finish, program};
 use crate::wasm_toolchain::WasmToolchain;
 use crate::{
-    architecture, c_interface, circles, dependencies, documents, js_package, python, setup, sizes,
-    stages, wasm, web, words,
+    architecture, c_interface, circles, dependencies, documents, js_package, python, release,
+    setup, sizes, stages, wasm, web, words,
 };
 
 /// Names the packages whose tests run, with commas between them; where it is not set, all do.
@@ -85,7 +85,7 @@ pub const PARTS: [Part; 15] = [
 /// Any package.
 const RUST: Reads = Reads::Some {
     packages: &["carom", "carom-analysis", "carom-c", "carom-fuzz", "carom-js", "carom-py"],
-    paths: &["crates/", "scenes/", "mazes/", "docs/"],
+    paths: &["crates/", "docs/"],
 };
 const PHYSICS: &[&str] = &["carom", "carom-scene"];
 
@@ -106,7 +106,8 @@ pub fn lint() -> Outcome {
     circles::check()?;
     sizes::check()?;
     stages::check()?;
-    documents::check()
+    documents::check()?;
+    release::check()
 }
 
 /// The module of the page and that of the JavaScript package.

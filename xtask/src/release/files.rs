@@ -1,0 +1,113 @@
+//! The folder of what a release publishes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::shell::{Outcome, finish, succeeds, target_folder};
+
+/// The name of the file of checksums.
+pub const CHECKSUMS: &str = "SHA256SUMS";
+
+/// Programs that print checksums as `sha256sum -c` reads them, with their arguments: GNU's, then those of macOS.
+const PROGRAMS: [&[&str]; 2] = [&["sha256sum"], &["shasum", "--algorithm", "256"]];
+
+/// Where archives are left.
+pub fn folder() -> Outcome<PathBuf> {
+    made(target_folder().join("release-files"))
+}
+
+/// An empty folder to put an archive together in.
+pub fn staging(name: &str) -> Outcome<PathBuf> {
+    let folder = target_folder().join("release-staging").join(name);
+    remove(&folder)?;
+    made(folder)
+}
+
+/// Removes the archives of before.
+pub fn clear() -> Outcome {
+    remove(&target_folder().join("release-files"))
+}
+
+/// Copies a file, or a folder with all that is in it; what is on the way to it is made.
+pub fn copy(from: &Path, to: &Path) -> Outcome {
+    if !from.is_dir() {
+        made(to.parent().unwrap_or(to).to_owned())?;
+        return fs::copy(from, to).map(drop).map_err(|error| said(from, &error));
+    }
+    made(to.to_owned())?;
+    for entry in fs::read_dir(from).map_err(|error| said(from, &error))? {
+        let entry = entry.map_err(|error| said(from, &error))?;
+        copy(&entry.path(), &to.join(entry.file_name()))?;
+    }
+    Ok(())
+}
+
+/// Puts a file that others made among those of the release.
+pub fn publish(file: &Path) -> Outcome<PathBuf> {
+    let place = folder()?.join(file.file_name().unwrap_or_default());
+    copy(file, &place)?;
+    Ok(place)
+}
+
+/// The names of the archives, sorted.
+pub fn names() -> Outcome<Vec<String>> {
+    let folder = folder()?;
+    let entries = fs::read_dir(&folder).map_err(|error| said(&folder, &error))?;
+    let names = entries.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));
+    let names: Result<Vec<String>, std::io::Error> = names.collect();
+    let mut names = names.map_err(|error| said(&folder, &error))?;
+    names.retain(|name| name != CHECKSUMS);
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// Writes the checksums of all archives.
+pub fn write_checksums() -> Outcome {
+    let program = PROGRAMS.iter().find(|program| succeeds(program[0], &["--version"]));
+    let program = program.ok_or("there is neither sha256sum nor shasum")?;
+    let mut command = Command::new(program[0]);
+    command.args(&program[1..]).args(names()?).current_dir(folder()?);
+    let output = command.output().map_err(|error| format!("{}: {error}", program[0]))?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+    }
+    write(&folder()?.join(CHECKSUMS), &output.stdout)
+}
+
+/// The only file of a folder.
+pub fn only_file(folder: &Path) -> Outcome<PathBuf> {
+    let entries = fs::read_dir(folder).map_err(|error| said(folder, &error))?;
+    let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    match (files.pop(), files.len()) {
+        (Some(file), 0) => Ok(file),
+        _ => Err(format!("{} should hold one file", folder.display())),
+    }
+}
+
+/// Runs a program in a folder.
+pub fn run_in(folder: &Path, name: &str, command: &mut Command) -> Outcome {
+    finish(name, command.current_dir(folder))
+}
+
+/// Writes a file.
+pub fn write(file: &Path, content: impl AsRef<[u8]>) -> Outcome {
+    made(file.parent().unwrap_or(file).to_owned())?;
+    fs::write(file, content).map_err(|error| said(file, &error))
+}
+
+fn made(folder: PathBuf) -> Outcome<PathBuf> {
+    fs::create_dir_all(&folder).map_err(|error| said(&folder, &error))?;
+    Ok(folder)
+}
+
+fn remove(folder: &Path) -> Outcome {
+    if folder.exists() {
+        fs::remove_dir_all(folder).map_err(|error| said(folder, &error))?;
+    }
+    Ok(())
+}
+
+fn said(path: &Path, error: &std::io::Error) -> String {
+    format!("{}: {error}", path.display())
+}

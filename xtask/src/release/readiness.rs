@@ -1,0 +1,61 @@
+//! What has to be done before a release is published, and not before it is tried.
+
+use std::fs;
+
+use super::member;
+use super::versions::{VERSION, is_in_changelog};
+use crate::shell::{Outcome, root};
+
+/// An address that leads nowhere ends so.
+const RESERVED: &str = ".example";
+/// Files that users read away from the repository, and that name its address.
+const NAME_THE_ADDRESS: [&str; 3] = ["CITATION.cff", "pyproject.toml", "web/package/package.json"];
+
+/// What is left to be done. `tag` is the name of the release in Git, where it has one.
+pub fn open_points(tag: Option<&str>) -> Outcome<Vec<String>> {
+    let mut open = Vec::new();
+    if let Some(tag) = tag.filter(|tag| *tag != format!("v{VERSION}")) {
+        open.push(format!("  the tag is {tag}, and the version {VERSION}"));
+    }
+    let address = address()?;
+    if host(&address).ends_with(RESERVED) {
+        open.push(format!("  `repository` of Cargo.toml is {address}, which leads nowhere"));
+    } else {
+        for file in NAME_THE_ADDRESS {
+            if !read(file)?.contains(&address) {
+                open.push(format!("  {file} does not name {address}"));
+            }
+        }
+    }
+    if !is_in_changelog(&read("CHANGELOG.md")?, VERSION) {
+        open.push(format!("  CHANGELOG.md has no heading `## {VERSION}`"));
+    }
+    Ok(open)
+}
+
+/// The address of the repository.
+fn address() -> Outcome<String> {
+    let engine = member::all()?.into_iter().find(|it| it.name == "carom");
+    let address = engine.and_then(|it| Some(it.described["repository"].as_str()?.to_owned()));
+    address.ok_or_else(|| "the crate carom names no repository".to_owned())
+}
+
+fn host(address: &str) -> &str {
+    let rest = address.split_once("://").map_or(address, |(_, rest)| rest);
+    rest.split('/').next().unwrap_or(rest)
+}
+
+fn read(file: &str) -> Outcome<String> {
+    fs::read_to_string(root().join(file)).map_err(|error| format!("{file}: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{RESERVED, host};
+
+    #[test]
+    fn addresses_that_are_reserved_are_known_by_their_host() {
+        assert!(host("https://carom.example/carom").ends_with(RESERVED));
+        assert!(!host("https://github.com/x/y.example").ends_with(RESERVED));
+    }
+}
