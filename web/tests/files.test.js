@@ -6,6 +6,7 @@ import { readFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
 
+import { keepDownload } from "./browser.js";
 import { Desk } from "./viewer.js";
 
 const SCENE = fileURLToPath(new URL("../../scenes/simtest3.toml", import.meta.url));
@@ -77,7 +78,7 @@ test("numbers of a figure are downloaded", async () => {
   await viewer.page.keyboard.press("g");
   const download = viewer.page.waitForEvent("download");
   await viewer.click("Save the numbers of Energy");
-  const table = await readFile(await (await download).path(), "utf8");
+  const table = await readFile(await keepDownload(await download, "numbers.csv"), "utf8");
   assert.ok(table.startsWith('"time, s","kinetic, J","potential, J","total, J"\n0,'), table);
   await viewer.close();
 });
@@ -100,8 +101,7 @@ test("a film is saved, and plays", async () => {
   await viewer.until(({ watching }) => watching.time > begun.time + 2);
   const file = await viewer.download(() => viewer.page.keyboard.press("r"));
   assert.match(file.suggestedFilename(), /^simtest1.*\.(mp4|webm)$/);
-  const path = fileURLToPath(new URL("../test-results/film.mp4", import.meta.url));
-  await file.saveAs(path);
+  const path = await keepDownload(file, "film");
   const asked = "stream=width,height,nb_read_frames,duration";
   const args = ["-v", "error", "-count_frames", "-show_entries", asked, "-of", "json", path];
   const [stream] = JSON.parse(execFileSync("ffprobe", args, { encoding: "utf8" })).streams;

@@ -5,6 +5,7 @@ import { readFile, readdir } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
 
+import { keepDownload } from "./browser.js";
 import { difference, read } from "./pixels.js";
 import { Desk } from "./viewer.js";
 
@@ -78,10 +79,7 @@ test("a picture is saved as a PNG with the time on it", async () => {
     await viewer.until(({ watching }) => watching.frame === frame);
     const file = await viewer.download(() => viewer.page.keyboard.press("Space"));
     assert.match(file.suggestedFilename(), /^simtest1.*\.png$/);
-    pictures.push(read(await readFile(await file.path())));
-    await file.saveAs(
-      fileURLToPath(new URL(`../test-results/saved-${frame}.png`, import.meta.url)),
-    );
+    pictures.push(read(await readFile(await keepDownload(file, `saved-${frame}.png`))));
   }
   const [first, second] = pictures;
   for (const { width, height } of pictures) {
