@@ -30,7 +30,7 @@ export async function* withSlowest(events) {
 }
 
 /**
- * Whether this is the first line of the summary, or a later one.
+ * Whether this is the first line of the summary.
  *
  * @param {import("node:test/reporters").TestEvent} event
  */
