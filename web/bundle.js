@@ -1,4 +1,6 @@
-// Puts the page together: `node bundle.js MODULE_FOLDER OUT_FOLDER`.
+// Puts the page together: `node bundle.js MODULE_FOLDER OUT_FOLDER [--quick]`.
+//
+// `--quick` compresses in a moment, and less: for tests, which ask for what the page does.
 //
 // MODULE_FOLDER is what `wasm-bindgen --target web` made. In OUT_FOLDER every file but index.html
 // and worker.js bears a hash of its content in its name, so that browsers may keep it and never mix
@@ -27,10 +29,27 @@ const PICTURE = fileURLToPath(new URL("../docs/pictures/tutorial4.png", import.m
 export const BROWSERS = ["chrome96", "firefox102", "safari15.4"];
 
 /**
+ * How well files are compressed.
+ *
+ * @typedef {object} Levels
+ * @property {number} gzip
+ * @property {number} brotli
+ */
+
+/** For the page that is published. @type {Levels} */
+const BEST = { gzip: constants.Z_BEST_COMPRESSION, brotli: constants.BROTLI_MAX_QUALITY };
+
+/** For tests. @type {Levels} */
+const QUICK = { gzip: constants.Z_BEST_SPEED, brotli: constants.BROTLI_MIN_QUALITY };
+
+/**
+ * Puts the page together.
+ *
  * @param {string} moduleFolder
  * @param {string} out
+ * @param {{ quick?: boolean }} [options] whether to compress in a moment, and less
  */
-export async function bundle(moduleFolder, out) {
+export async function bundle(moduleFolder, out, { quick = false } = {}) {
   await rm(out, { recursive: true, force: true });
   await mkdir(out, { recursive: true });
   const names = await bundleScripts(resolve(moduleFolder), out);
@@ -58,7 +77,7 @@ export async function bundle(moduleFolder, out) {
   html = html.replace('"picture.png"', JSON.stringify(whole(picture)));
   await writeFile(join(out, "index.html"), html);
   await bundleWorker(files, html, out);
-  await compressAll(out);
+  await compressAll(out, quick ? QUICK : BEST);
 }
 
 /**
@@ -156,18 +175,25 @@ async function writeHashed(out, name, content) {
   return hashed;
 }
 
-/** @param {string} out */
-async function compressAll(out) {
+/**
+ * Puts what gzip and Brotli make of each file beside it.
+ *
+ * @param {string} out
+ * @param {Levels} levels
+ */
+async function compressAll(out, { gzip, brotli }) {
   // A picture is compressed already.
   const names = (await readdir(out)).filter((name) => extname(name) !== ".png");
   for (const name of names) {
     const path = join(out, name);
     const content = await readFile(path);
-    await writeFile(`${path}.gz`, gzipSync(content, { level: constants.Z_BEST_COMPRESSION }));
-    await writeFile(`${path}.br`, brotliCompressSync(content));
+    await writeFile(`${path}.gz`, gzipSync(content, { level: gzip }));
+    const params = { [constants.BROTLI_PARAM_QUALITY]: brotli };
+    await writeFile(`${path}.br`, brotliCompressSync(content, { params }));
   }
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-  await bundle(process.argv[2], process.argv[3]);
+  const [moduleFolder, out, option] = process.argv.slice(2);
+  await bundle(moduleFolder, out, { quick: option === "--quick" });
 }

@@ -5,10 +5,16 @@ import { fileURLToPath } from "node:url";
 
 import { chromium } from "playwright-core";
 
-/** Pictures that tests leave, to be looked at after a change of the page. */
+/** Pictures and films that tests leave, to be looked at after a change of the page. */
 const RESULTS = fileURLToPath(new URL("../test-results/", import.meta.url));
 
-/** What a browser would request from the network by itself. */
+/** A name of this machine that browsers do not take for it. */
+export const STRANGE_NAME = "carom.test";
+
+/** For the address of a browser that several files of tests share. */
+const SHARED = "CAROM_BROWSER";
+
+/** What keeps a browser from requests to the network of its own. */
 const QUIET = [
   "--disable-background-networking",
   "--disable-component-update",
@@ -32,19 +38,52 @@ export const GRAPHICS = {
   none: ["--disable-gpu", "--disable-software-rasterizer", "--disable-3d-apis"],
 };
 
+/** Of the browser that is shared: what most tests draw with. */
+const SHARED_GRAPHICS = "webgl2";
+
 /**
+ * Returns a browser: the one that is shared, where there is one with these graphics, or a new one.
+ *
  * @param {keyof typeof GRAPHICS} graphics
- * @param {string[]} [more] switches
  */
-export function launch(graphics, more = []) {
-  return chromium.launch({
+export function launch(graphics) {
+  const shared = process.env[SHARED];
+  if (graphics === SHARED_GRAPHICS && shared) {
+    return chromium.connect(shared);
+  }
+  return chromium.launch(options(graphics));
+}
+
+/** Starts a browser that this process and those that it starts share until it is closed. */
+export async function share() {
+  const server = await chromium.launchServer(options(SHARED_GRAPHICS));
+  process.env[SHARED] = server.wsEndpoint();
+  return server;
+}
+
+/** @param {keyof typeof GRAPHICS} graphics */
+function options(graphics) {
+  return {
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: [...QUIET, ...GRAPHICS[graphics], ...more],
+    args: [...QUIET, ...GRAPHICS[graphics], `--host-resolver-rules=MAP ${STRANGE_NAME} 127.0.0.1`],
     // A busy machine takes its time.
     timeout: 120_000,
     // Without it Chromium starts for root under no circumstances.
     chromiumSandbox: process.getuid?.() !== 0,
-  });
+  };
+}
+
+/**
+ * Keeps a file that a page gives; a browser that is shared tells no place of its own.
+ *
+ * @param {import("playwright-core").Download} download
+ * @param {string} name
+ * @returns {Promise<string>} the path
+ */
+export async function keepDownload(download, name) {
+  const path = `${RESULTS}${name}`;
+  await download.saveAs(path);
+  return path;
 }
 
 /**

@@ -1,7 +1,7 @@
 // The files that the page is put together of.
 
 import assert from "node:assert/strict";
-import { mkdtemp, readFile, readdir, rm, writeFile } from "node:fs/promises";
+import { mkdtemp, readFile, readdir, rm, stat, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, beforeEach, test } from "node:test";
@@ -21,13 +21,20 @@ after(() => rm(folder, { recursive: true }));
 
 beforeEach(() => void delete process.env.CAROM_PAGE);
 
-/** Puts the page together, and reads what there is. */
-async function bundled() {
+/** Puts the page together, quickly unless said otherwise, and reads what there is. */
+async function bundled({ quick = true } = {}) {
   const out = join(folder, "dist");
-  await bundle(folder, out);
+  await bundle(folder, out, { quick });
   const names = await readdir(out);
   const read = (/** @type {string} */ name) => readFile(join(out, name), "utf8");
-  return { names, html: await read("index.html"), worker: await read("worker.js") };
+  const compressed = names.filter((name) => /\.(gz|br)$/.test(name));
+  const sizes = await Promise.all(
+    compressed.map(
+      async (name) => /** @type {const} */ ([name, (await stat(join(out, name))).size]),
+    ),
+  );
+  const [html, worker] = [await read("index.html"), await read("worker.js")];
+  return { names, html, worker, sizes: new Map(sizes) };
 }
 
 test("the picture for other sites has a whole address where one is known", async () => {
@@ -60,5 +67,16 @@ test("the worker keeps every file but itself and the picture", async () => {
   assert.ok(files.length > 4, `${files}`);
   for (const name of files) {
     assert.ok(worker.includes(`"${name}"`), name);
+  }
+});
+
+test("a page made quickly is the same but for how well it is compressed", async () => {
+  const [quick, best] = [await bundled(), await bundled({ quick: false })];
+  assert.deepEqual(quick.names, best.names);
+  assert.deepEqual([quick.html, quick.worker], [best.html, best.worker]);
+  const style = best.names.find((name) => /^style-\w{8}\.css$/.test(name));
+  for (const ending of [".gz", ".br"]) {
+    const [large, small] = [quick, best].map(({ sizes }) => sizes.get(`${style}${ending}`) ?? NaN);
+    assert.ok(small < large, `${small} and ${large} bytes in ${ending}`);
   }
 });

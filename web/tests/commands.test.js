@@ -18,7 +18,7 @@ after(() => desk?.clear());
 let carom;
 
 test("a script plays, pauses, goes elsewhere and follows a ball", async () => {
-  const viewer = await desk.open("#scene=simtest1&t=0");
+  const viewer = await desk.show("#scene=simtest1&t=0");
   await viewer.until(({ watching }) => watching?.scene === "simtest1");
   await viewer.page.evaluate(() => carom.play());
   await viewer.until(({ watching }) => watching.playing && watching.time > 0.5);
@@ -35,7 +35,7 @@ test("a script plays, pauses, goes elsewhere and follows a ball", async () => {
 });
 
 test("a script edits the scene, reads it, and hears what is no edit", async () => {
-  const viewer = await desk.open("#scene=simtest1&t=0");
+  const viewer = await desk.show("#scene=simtest1&t=0");
   const before = await viewer.until(({ watching }) => watching?.scene === "simtest1");
   await viewer.page.evaluate(() => carom.edit("change = { all-collider-restitutions = 0.25 }"));
   const after = await viewer.until((status) => status.version !== before.version);

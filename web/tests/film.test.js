@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { after, before, test } from "node:test";
 
-import { complaints } from "./browser.js";
+import { complaints, keepDownload } from "./browser.js";
 import { StandIn } from "./stood_in.js";
 
 /** @type {StandIn} */
@@ -64,7 +64,7 @@ async function film(page, film) {
     /** @type {any} */ (globalThis).carom.services.trouble(),
   );
   assert.equal(trouble, null);
-  return file.path();
+  return keepDownload(file, "square");
 }
 
 /** @param {string} path */
@@ -198,6 +198,6 @@ test("frames that come faster than they are encoded end the film before memory d
   });
   assert.match(said, /^The film ends early/);
   assert.ok(frames < 100, `after ${frames} frames`);
-  assert.equal(probe(await (await download).path()).times.length, frames);
+  assert.equal(probe(await keepDownload(await download, "early")).times.length, frames);
   await page.close();
 });

@@ -5,6 +5,9 @@ import { after, before, test } from "node:test";
 
 import { Desk } from "./viewer.js";
 
+/** A window that is drawn in no time, so that keys are felt at once. */
+const SMALL = { width: 720, height: 500 };
+
 /** @type {Desk} */
 let desk;
 
@@ -15,7 +18,7 @@ before(async () => {
 after(() => desk?.clear());
 
 test("arrow keys take the ball to the first collectible", async () => {
-  const viewer = await desk.open("#scene=maze");
+  const viewer = await desk.open("#scene=maze", { viewport: SMALL });
   await viewer.until(({ maze }) => maze?.collected === 0);
   await viewer.keepPicture("maze-start");
   // Each way ends at a wall or in an open place: slow pictures do no harm.
@@ -31,7 +34,7 @@ test("arrow keys take the ball to the first collectible", async () => {
 });
 
 test("a game goes on where it was when the page is loaded again", async () => {
-  const viewer = await desk.open("#scene=maze");
+  const viewer = await desk.open("#scene=maze", { viewport: SMALL });
   await viewer.until(({ maze }) => maze?.collected === 0);
   await viewer.hold("ArrowLeft", ({ maze }) => maze.ball[0] < -0.7);
   const { maze: before } = await viewer.status();

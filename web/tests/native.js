@@ -1,6 +1,7 @@
 // The command `carom`, which says what a run gives outside of browsers.
 
-import { execFileSync } from "node:child_process";
+import { execFile, execFileSync } from "node:child_process";
+import { promisify } from "node:util";
 
 /** What `cargo xtask web --test` has built; or the one on the path. */
 const COMMAND = process.env.CAROM ?? "carom";
@@ -14,11 +15,12 @@ export function carom(...args) {
 }
 
 /**
- * Runs a scene or link.
+ * Runs a scene or link, beside what the browser does meanwhile.
  *
  * @param {string[]} args
- * @returns {string} the hash of the state at the end
+ * @returns {Promise<string>} the hash of the state at the end
  */
-export function stateHash(...args) {
-  return JSON.parse(carom("run", ...args, "--json")).state_hash;
+export async function stateHash(...args) {
+  const { stdout } = await promisify(execFile)(COMMAND, ["run", ...args, "--json"]);
+  return JSON.parse(stdout).state_hash;
 }

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
-import { complaints, launch } from "./browser.js";
+import { STRANGE_NAME, complaints } from "./browser.js";
 import { passOn } from "./passing_on.js";
 import { StandIn } from "./stood_in.js";
 import { Desk, PATIENCE } from "./viewer.js";
@@ -119,13 +119,12 @@ test("what another page of the same site keeps stays", async (context) => {
 });
 
 test("where a browser keeps no pages, the page does without", async (context) => {
-  const name = "carom.test";
-  const browser = await launch("webgl2", [`--host-resolver-rules=MAP ${name} 127.0.0.1`]);
-  context.after(() => browser.close());
-  const page = await browser.newPage();
+  const browsing = await standIn.browser.newContext();
+  context.after(() => browsing.close());
+  const page = await browsing.newPage();
   const heard = complaints(page);
   // Neither https nor this machine, by its name.
-  await page.goto(standIn.site.url.replace("127.0.0.1", name));
+  await page.goto(standIn.site.url.replace("127.0.0.1", STRANGE_NAME));
   await isShown(page);
   assert.equal(await page.evaluate(() => isSecureContext), false);
   assert.deepEqual(heard, []);

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 
-import { complaints, keepPicture, launch } from "./browser.js";
+import { complaints, keepDownload, keepPicture, launch } from "./browser.js";
 import { StandIn } from "./stood_in.js";
 
 /** @type {StandIn} */
@@ -230,7 +230,10 @@ describe("the page, for the module,", () => {
     const download = await waiting;
     assert.equal(download.suggestedFilename(), "mine.toml");
     const { readFile } = await import("node:fs/promises");
-    assert.equal(await readFile(await download.path(), "utf8"), 'name = "mine"\n');
+    assert.equal(
+      await readFile(await keepDownload(download, "mine.toml"), "utf8"),
+      'name = "mine"\n',
+    );
     await close();
   });
 
@@ -265,8 +268,12 @@ describe("the page, for the module,", () => {
     const said = await page.evaluate(async () => {
       const { services } = /** @type {any} */ (globalThis).carom;
       services.useTilt(true);
-      await new Promise((resolve) => setTimeout(resolve, 1500));
-      return [services.offersTilt(), services.trouble(), services.trouble()];
+      let trouble = null;
+      while (trouble === null) {
+        await new Promise((resolve) => setTimeout(resolve, 20));
+        trouble = services.trouble();
+      }
+      return [services.offersTilt(), trouble, services.trouble()];
     });
     assert.deepEqual(said, [false, "This device does not tell how it is held.", null]);
     await close();

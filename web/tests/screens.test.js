@@ -8,7 +8,7 @@ import { Desk } from "./viewer.js";
 
 const PHONE = {
   viewport: { width: 390, height: 844 },
-  deviceScaleFactor: 2,
+  deviceScaleFactor: 1,
   hasTouch: true,
   isMobile: true,
 };
@@ -50,13 +50,15 @@ async function fingers(viewer) {
 }
 
 test("the picture fills a window that changes", async () => {
-  const viewer = await desk.watch("simtest3");
+  const viewer = await desk.watch("simtest3", { deviceScaleFactor: 1 });
   for (const [width, height] of [
     [900, 500],
     [1400, 900],
   ]) {
     await viewer.page.setViewportSize({ width, height });
-    await viewer.pause(300);
+    const isWide = (/** @type {number} */ width) =>
+      document.querySelector("canvas")?.width === width;
+    await viewer.page.waitForFunction(isWide, width);
     await viewer.redraw();
     assert.deepEqual(await pixels(viewer), [width, height]);
     await viewer.keepPicture(`window-${width}`);

@@ -46,7 +46,7 @@ async function serveStandIn() {
   // Another version of the page every time: no two modules are the same.
   const renew = async () => {
     await writeFile(join(folder, "carom_web_bg.wasm"), emptyModule(SIZE));
-    await bundle(folder, dist);
+    await bundle(folder, dist, { quick: true });
   };
   await renew();
   const server = await serve(dist, 0);

@@ -9,6 +9,12 @@ import { complaints, keepPicture, launch } from "./browser.js";
 /** The page as `cargo xtask web` made it. */
 const DIST = process.env.CAROM_DIST ?? fileURLToPath(new URL("../dist/", import.meta.url));
 
+/**
+ * Pixels of the canvas to one of CSS: few, since they are drawn in software. With $CAROM_FINE pictures
+ * that tests leave are as fine as on a screen.
+ */
+export const COARSE = process.env.CAROM_FINE ? 1 : 0.5;
+
 /** How long the slowest machine may take for an action [ms]: it draws in software. */
 export const PATIENCE = 60_000;
 
@@ -32,6 +38,10 @@ export class Desk {
   constructor(browser, server) {
     this.browser = browser;
     this.server = server;
+    /** The page that [`show`] has opened last. @type {Viewer | null} */
+    this.shared = null;
+    /** What that was opened with, as text. */
+    this.sharedOptions = "";
   }
 
   /** @param {Parameters<typeof launch>[0]} graphics */
@@ -45,16 +55,19 @@ export class Desk {
   }
 
   /**
-   * Opens the page and waits until the interface is there.
+   * Opens the page anew and waits until the interface is there.
    *
    * @param {string} [fragment] of the address, with `#`
    * @param {import("playwright-core").BrowserContextOptions} [options]
    */
   async open(fragment = "", options = {}) {
-    // A test that failed has left its page, and it would go on drawing.
-    await Promise.all(this.browser.contexts().map((context) => context.close()));
+    await this.closeLeftovers();
     const viewport = { width: 1280, height: 800 };
-    const context = await this.browser.newContext({ viewport, ...options });
+    const context = await this.browser.newContext({
+      viewport,
+      deviceScaleFactor: COARSE,
+      ...options,
+    });
     const page = await context.newPage();
     page.setDefaultTimeout(PATIENCE);
     const viewer = new Viewer(page);
@@ -65,20 +78,63 @@ export class Desk {
     return viewer;
   }
 
+  /** Closes all pages but the one that is shared: a test that failed has left its own drawing. */
+  async closeLeftovers() {
+    if (!this.shared?.isLeft) {
+      this.shared = null;
+    }
+    const shared = this.shared?.page.context();
+    const others = this.browser.contexts().filter((context) => context !== shared);
+    await Promise.all(others.map((context) => context.close()));
+  }
+
   /**
-   * Opens the page and chooses a scene, as a user does.
+   * Shows a scene of a link, or the chooser without one, in a page that tests share one after
+   * another: for what does not depend on how a page starts. Its panels, and dialogs but the chooser,
+   * are as they were left.
+   *
+   * @param {string} [fragment] of the address, with `#`
+   * @param {import("playwright-core").BrowserContextOptions} [options]
+   */
+  async show(fragment = "", options = {}) {
+    await this.closeLeftovers();
+    const asked = JSON.stringify(options);
+    if (this.shared !== null && this.sharedOptions === asked) {
+      await this.shared.goOn(fragment);
+      return this.shared;
+    }
+    const before = this.shared;
+    this.shared = null;
+    await before?.page.context().close();
+    const viewer = await this.open(fragment, options);
+    viewer.isShared = true;
+    [this.shared, this.sharedOptions] = [viewer, asked];
+    return viewer;
+  }
+
+  /**
+   * Watches a scene from its beginning, in the page that tests share.
    *
    * @param {string} scene
    * @param {import("playwright-core").BrowserContextOptions} [options]
    */
   async watch(scene, options) {
-    const viewer = await this.open("", options);
-    await viewer.page.keyboard.type(scene);
-    while ((await viewer.widget(scene, "Button")).value !== "true") {
-      // The choice follows the letters with the next picture.
-    }
-    await viewer.page.keyboard.press("Enter");
+    const viewer = await this.show(`#scene=${scene}`, options);
     await viewer.until((status) => status.watching?.scene === scene);
+    await viewer.redraw();
+    return viewer;
+  }
+
+  /**
+   * Chooses a scene, as a user does, in the page that tests share.
+   *
+   * @param {string} scene
+   */
+  async choose(scene) {
+    const viewer = await this.show();
+    await viewer.type(scene);
+    await viewer.page.keyboard.press("Enter");
+    await viewer.until(({ watching, choosing }) => watching?.scene === scene && !choosing);
     // Keys belong to the chooser's text until the next picture.
     await viewer.page.waitForFunction(() => document.activeElement?.id === "carom");
     return viewer;
@@ -91,12 +147,43 @@ export class Viewer {
   constructor(page) {
     this.page = page;
     this.complaints = complaints(page);
+    /** Whether other tests go on with the page. */
+    this.isShared = false;
+    /** Whether a test has left the page to others. */
+    this.isLeft = false;
   }
 
-  /** Closes the page; it must not have complained. */
+  /** Leaves the page, and closes it unless it is shared; it must not have complained. */
   async close() {
     assert.deepEqual(this.complaints, []);
-    await this.page.context().close();
+    if (this.isShared) {
+      await this.page.evaluate(() => /** @type {any} */ (globalThis).carom.pause());
+      this.isLeft = true;
+    } else {
+      await this.page.context().close();
+    }
+  }
+
+  /**
+   * Goes on with the page where another test has left it.
+   *
+   * @param {string} fragment of the address, with `#`; empty for the chooser
+   */
+  async goOn(fragment) {
+    this.isLeft = false;
+    if (fragment === "") {
+      // Another scene takes away messages, and a chooser that is open.
+      await this.goOn("#scene=simtest1");
+      await this.redraw();
+      await this.page.keyboard.press("Enter");
+      await this.until(({ choosing }) => choosing);
+      return this.redraw();
+    }
+    // At once, and not only where the address is another than before.
+    await this.page.evaluate((fragment) => {
+      history.replaceState(null, "", fragment);
+      /** @type {any} */ (globalThis).carom.openFragment(fragment.slice(1));
+    }, fragment);
   }
 
   /** @param {number} time [ms] */
@@ -180,6 +267,18 @@ export class Viewer {
     const isSeen = window && left > 0 && left < window.width && top > 0 && top < window.height;
     assert.ok(isSeen, `${label} lies at (${left}, ${top}), outside of the window`);
     return [left, top];
+  }
+
+  /**
+   * Types the name of a scene into the chooser, until it is the one that Enter takes.
+   *
+   * @param {string} scene
+   */
+  async type(scene) {
+    await this.page.keyboard.type(scene);
+    while ((await this.widget(scene, "Button")).value !== "true") {
+      // The choice follows the letters with the next picture.
+    }
   }
 
   /**

@@ -89,12 +89,7 @@ pub fn test() -> Outcome {
     programs::build_command()?;
     let carom = ci_folder().join("carom");
     let carom = carom.to_string_lossy();
-    // One file after another: frame times are measured, and a browser uses all there is.
-    let files = test_files(&folder())?;
-    let files = files.iter().map(String::as_str);
-    let arguments: Vec<&str> =
-        ["--test", "--test-concurrency=1"].into_iter().chain(files).collect();
-    node(&arguments, &[("CAROM", &carom)])
+    node(&["tests/run.js"], &[("CAROM", &carom)])
 }
 
 /// The files in `tests/` of a folder that hold tests, by name: not every version of Node.js finds

@@ -1,0 +1,53 @@
+// Which tests took longest.
+
+/** How many are listed. */
+const MOST = 30;
+
+/** @typedef {{ name: string, seconds: number }} Timed */
+
+/**
+ * Passes on what a run of tests tells, and puts the tests that took longest before its summary.
+ *
+ * @param {AsyncIterable<import("node:test/reporters").TestEvent>} events
+ */
+export async function* withSlowest(events) {
+  /** @type {Timed[]} */
+  const tests = [];
+  let isListed = false;
+  for await (const event of events) {
+    if (event.type === "test:pass" || event.type === "test:fail") {
+      const { name, details } = event.data;
+      if (details.type !== "suite") {
+        tests.push({ name, seconds: details.duration_ms / 1000 });
+      }
+    }
+    if (isSummary(event) && !isListed) {
+      isListed = true;
+      yield* slowest(tests).map(told);
+    }
+    yield event;
+  }
+}
+
+/**
+ * Whether this is the first line of the summary.
+ *
+ * @param {import("node:test/reporters").TestEvent} event
+ */
+function isSummary(event) {
+  return event.type === "test:diagnostic" && /^tests \d+$/.test(event.data.message);
+}
+
+/** @param {Timed[]} tests */
+function slowest(tests) {
+  return tests.sort((a, b) => b.seconds - a.seconds).slice(0, MOST);
+}
+
+/**
+ * @param {Timed} test
+ * @returns {import("node:test/reporters").TestEvent} a line of its own in every report
+ */
+function told({ name, seconds }) {
+  const message = `${seconds.toFixed(1).padStart(6)} s  ${name}`;
+  return /** @type {any} */ ({ type: "test:diagnostic", data: { nesting: 0, message } });
+}
