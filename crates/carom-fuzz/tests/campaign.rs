@@ -3,7 +3,7 @@
 
 use carom_fuzz::{Campaign, TARGETS};
 
-/// Cases of the seed 2, where the whole campaign has those of the seed 1.
+/// Cases of the seed 2, where the whole campaign has those of the seed 1; of each target as many as take some seconds.
 #[track_caller]
 fn holds(name: &str, count: u64) {
     let target = TARGETS.iter().find(|it| it.name == name).unwrap();
@@ -18,7 +18,7 @@ fn holds(name: &str, count: u64) {
 
 #[test]
 fn scene_files_with_mistakes_are_read_or_refused() {
-    holds("scenes", 1500);
+    holds("scenes", 500);
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn links_with_mistakes_are_opened_or_refused() {
 
 #[test]
 fn recordings_with_mistakes_are_played_or_refused() {
-    holds("recordings", 1000);
+    holds("recordings", 600);
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn unfinished_files_with_mistakes_are_recovered_or_refused() {
 
 #[test]
 fn mazes_with_mistakes_are_read_or_refused() {
-    holds("mazes", 500);
+    holds("mazes", 250);
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! How finishes take light, measured in the pixels of pictures.
 
+use std::cell::RefCell;
+
 use carom::{DQuat, DVec3, Pose, Shape, Sides};
 use carom_render::{Ball, Camera, Drawing, Offscreen, Pattern, Picture, Quality};
 use carom_scene::Coat;
@@ -21,10 +23,20 @@ fn pictures(balls: &[Ball]) -> [Picture; 2] {
     [Quality::DRAFT, Quality::FINE].map(|quality| drawn(&drawing, quality))
 }
 
+thread_local! {
+    /// One of each quality for all pictures of a test: to begin with a driver takes longer than a picture.
+    static OFFSCREENS: RefCell<Vec<(Quality, Offscreen)>> = const { RefCell::new(Vec::new()) };
+}
+
 fn drawn(drawing: &Drawing, quality: Quality) -> Picture {
-    let mut offscreen = Offscreen::new(SIZE, quality).expect("a graphics driver");
     let camera = Camera::looking_at(DVec3::Z * 3.0, DVec3::ZERO, 0.6);
-    offscreen.draw(drawing, &camera).expect("a picture")
+    OFFSCREENS.with_borrow_mut(|all| {
+        if all.iter().all(|it| it.0 != quality) {
+            all.push((quality, Offscreen::new(SIZE, quality).expect("a graphics driver")));
+        }
+        let (_, offscreen) = all.iter_mut().find(|it| it.0 == quality).expect("it is there");
+        offscreen.draw(drawing, &camera).expect("a picture")
+    })
 }
 
 fn middle(picture: &Picture) -> [u8; 3] {

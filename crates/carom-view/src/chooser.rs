@@ -48,6 +48,14 @@ struct Card {
     thumbnail: Thumbnail,
 }
 
+impl Card {
+    /// Whether it has a thumbnail of the scene of another card.
+    fn shows_same(&self, other: &Self) -> bool {
+        let [own, others] = [self, other].map(|card| card.entry.scene.as_ref().ok());
+        matches!(self.thumbnail, Thumbnail::Drawn(_)) && own.is_some() && own == others
+    }
+}
+
 enum Thumbnail {
     Missing,
     Drawn(Box<Canvas>),
@@ -65,7 +73,8 @@ const LATEST: f64 = 3.0;
 const MOST_WORK: f64 = 40_000.0;
 
 impl Chooser {
-    /// Opens the dialog with all scenes there are now, first those of files opened lately.
+    /// Opens the dialog with all scenes there are now, first those of files opened lately. Thumbnails of scenes that are as
+    /// they were stay.
     ///
     /// # Errors
     /// If a folder of scenes has become unreadable; the list is as before then.
@@ -92,7 +101,14 @@ impl Chooser {
         };
         let recent = recent.iter().filter(|path| path.is_file()).map(of_file);
         let all = library.entries()?.into_iter().map(|entry| card(entry, false));
-        self.cards = recent.chain(all).collect();
+        let mut before = std::mem::take(&mut self.cards);
+        let with_thumbnail = |mut card: Card| {
+            if let Some(old) = before.iter_mut().find(|old| old.shows_same(&card)) {
+                card.thumbnail = std::mem::replace(&mut old.thumbnail, Thumbnail::Missing);
+            }
+            card
+        };
+        self.cards = recent.chain(all).map(with_thumbnail).collect();
         Ok(())
     }
 

@@ -277,10 +277,17 @@ fn searched(
         // No ball goes half a box in this time.
         let fastest = v.iter().map(|v| v.length()).fold(0.0, f64::max);
         let mut first = (left.min(0.2 * size.min_element() / fastest), None);
+        // From further apart, two do not meet in it.
+        let reach = 1.001 * (diameter + 2.0 * fastest * first.0);
         for i in 0..x.len() {
             for j in 0..i {
                 let w = v[j] - v[i];
-                for r in images.iter().map(|image| folded(x[j] - x[i]) + image) {
+                let nearest = folded(x[j] - x[i]);
+                for image in &images {
+                    let r = nearest + *image;
+                    if r.length_squared() > reach * reach {
+                        continue;
+                    }
                     let (b, c) = (r.dot(w), r.length_squared() - diameter * diameter);
                     let discriminant = b * b - w.length_squared() * c;
                     if b < 0.0 && discriminant >= 0.0 {

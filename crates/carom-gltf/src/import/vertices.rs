@@ -47,21 +47,20 @@ fn of_primitive(
     let Some(position) = primitive.attributes.position else {
         return Ok(Err("its mesh has no vertices"));
     };
-    let vertices = match numbers(file, position, "VEC3", 3)? {
-        Ok(numbers) => numbers,
+    let vertices = match elements::<3>(file, position, "VEC3")? {
+        Ok(vertices) => vertices,
         Err(reason) => return Ok(Err(reason)),
     };
-    let vertices: Vec<DVec3> =
-        vertices.chunks_exact(3).map(|it| DVec3::new(it[0], it[1], it[2])).collect();
-    let corners = match primitive.indices {
-        None => vertices,
+    let corners: Vec<DVec3> = match primitive.indices {
+        None => vertices.all().map(DVec3::from_array).collect(),
         Some(accessor) => {
-            let indices = match numbers(file, accessor, "SCALAR", 1)? {
+            let indices = match elements::<1>(file, accessor, "SCALAR")? {
                 Ok(indices) => indices,
                 Err(reason) => return Ok(Err(reason)),
             };
-            let corner = |index: &f64| vertices.get(*index as usize).copied();
-            let corners: Option<Vec<DVec3>> = indices.iter().map(corner).collect();
+            // Many meshes may share vertices, each with indices of some.
+            let corner = |[index]: [f64; 1]| vertices.get(index as usize).map(DVec3::from_array);
+            let corners: Option<Vec<DVec3>> = indices.all().map(corner).collect();
             corners.ok_or_else(|| Malformed::at(place, "an index is beyond its vertices"))?
         }
     };
@@ -82,13 +81,36 @@ fn assembled(corners: &[DVec3], mode: u32) -> Vec<Triangle> {
     }
 }
 
-/// The numbers of an accessor, `width` for each element.
-fn numbers(
-    file: &File,
+/// What an accessor gives: elements of so many numbers, each read when it is asked for.
+struct Elements<'a, const WIDTH: usize> {
+    bytes: &'a [u8],
+    count: usize,
+    /// From an element to the next one \[bytes\].
+    stride: usize,
+    component: Component,
+}
+
+impl<const WIDTH: usize> Elements<'_, WIDTH> {
+    fn get(&self, index: usize) -> Option<[f64; WIDTH]> {
+        if index >= self.count {
+            return None;
+        }
+        let Component { size, read } = self.component;
+        let element = &self.bytes[index * self.stride..];
+        Some(std::array::from_fn(|i| read(&element[i * size..(i + 1) * size])))
+    }
+
+    fn all(&self) -> impl Iterator<Item = [f64; WIDTH]> {
+        (0..self.count).filter_map(|index| self.get(index))
+    }
+}
+
+/// The elements of an accessor.
+fn elements<'a, const WIDTH: usize>(
+    file: &'a File,
     index: usize,
     kind: &str,
-    width: usize,
-) -> Result<Result<Vec<f64>, &'static str>, Malformed> {
+) -> Result<Result<Elements<'a, WIDTH>, &'static str>, Malformed> {
     let place = format!("accessors[{index}]");
     let at = |problem: &str| Malformed::at(place.clone(), problem);
     let accessor = file.document.accessors.get(index).ok_or_else(|| at("is not there"))?;
@@ -104,7 +126,7 @@ fn numbers(
     let view = file.document.buffer_views.get(view_index);
     let view = view.ok_or_else(|| at("its bufferView is not there"))?;
     let component = component(accessor).ok_or_else(|| at("has an unknown componentType"))?;
-    let size = width * component.size;
+    let size = WIDTH * component.size;
     let stride = view.byte_stride.map_or(Some(size), |it| usize::try_from(it).ok());
     let stride = stride.filter(|it| *it >= size);
     let stride = stride.ok_or_else(|| at("its byteStride is too small"))?;
@@ -129,14 +151,10 @@ fn numbers(
     };
     let count = count.filter(|&it| fits(it).is_some());
     let count = count.ok_or_else(|| at("is beyond its bufferView"))?;
-    if !file.take_numbers(count * width) {
+    if !file.take_numbers(count * WIDTH) {
         return Ok(Err("the meshes of the file have more than 100,000,000 numbers"));
     }
-    let elements = (0..count).flat_map(|i| {
-        let element = &bytes[i * stride..i * stride + size];
-        element.chunks_exact(component.size).map(component.read)
-    });
-    Ok(Ok(elements.collect()))
+    Ok(Ok(Elements { bytes, count, stride, component }))
 }
 
 /// How one number is written.

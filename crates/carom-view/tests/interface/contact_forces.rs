@@ -5,7 +5,7 @@ use carom_view::{Setup, Start};
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 
-use crate::desk::{Desk, desk, go_to, press, scene, setup};
+use crate::desk::{Desk, desk, go_to, press, scene, setup_for_pixels};
 
 /// A column of three balls at rest on the floor, and beside it a ball that pushes two others apart.
 const PRESSING: &str = r#"
@@ -34,7 +34,7 @@ rule = "exact"
 fn watching_balls_that_press() -> Desk {
     let pressing = Scene::from_toml(PRESSING, "pressing").expect("a scene");
     let start = Some(Start::Scene(Box::new(pressing), Source::Registered));
-    let mut desk = desk(Setup { start, ..setup() });
+    let mut desk = desk(Setup { start, ..setup_for_pixels() });
     go_to(&mut desk, 0.5);
     desk
 }

@@ -2,10 +2,11 @@
 //! pictures that were looked at.
 
 use carom_scene::Library;
+use carom_view::Setup;
 use egui::Theme;
 use egui_kittest::SnapshotResults;
 
-use crate::desk::{go_to, watching_at};
+use crate::desk::{desk_of, go_to, setup_for_pictures, start};
 use crate::pictures::{compare, set_theme};
 
 /// In points: as small as a scene can be judged by.
@@ -18,11 +19,49 @@ const SOON: f64 = 1.0;
 /// fiftieth of the width, that leaves one place for another.
 const MOVING: f64 = 5e-4;
 
-#[test]
-fn something_moves_in_view_within_seconds_in_light_and_dark() {
+/// Height of the transport below the picture, where the time counts \[px\].
+const BELOW: u32 = 90;
+
+mod something_moves_in_view_within_seconds_in_light_and_dark {
+    /// In so many parts, each of every sixth scene, so that they are drawn side by side.
+    const PARTS: usize = 6;
+
+    #[test]
+    fn first_part() {
+        super::moves_in_view(0, PARTS);
+    }
+
+    #[test]
+    fn second_part() {
+        super::moves_in_view(1, PARTS);
+    }
+
+    #[test]
+    fn third_part() {
+        super::moves_in_view(2, PARTS);
+    }
+
+    #[test]
+    fn fourth_part() {
+        super::moves_in_view(3, PARTS);
+    }
+
+    #[test]
+    fn fifth_part() {
+        super::moves_in_view(4, PARTS);
+    }
+
+    #[test]
+    fn sixth_part() {
+        super::moves_in_view(5, PARTS);
+    }
+}
+
+fn moves_in_view(first: usize, step: usize) {
     let mut results = SnapshotResults::new();
-    for entry in Library::new().entries().expect("built-in scenes") {
-        let mut desk = watching_at(SIZE, &entry.name);
+    let entries = Library::new().entries().expect("built-in scenes");
+    for entry in entries.iter().skip(first).step_by(step) {
+        let mut desk = desk_of(SIZE, Setup { start: start(&entry.name), ..setup_for_pictures() });
         set_theme(&mut desk, Theme::Light);
         // Not at the start, over which a button to play lies.
         go_to(&mut desk, 0.2);
@@ -42,6 +81,3 @@ fn something_moves_in_view_within_seconds_in_light_and_dark() {
     }
     results.unwrap();
 }
-
-/// Height of the transport below the picture, where the time counts \[px\].
-const BELOW: u32 = 90;

@@ -66,14 +66,15 @@ fn the_way_says_how_far_it_is_and_stops_on_a_click() {
 fn balls_that_have_all_left_can_be_brought_back_into_the_picture() {
     let mut desk = flying();
     assert!(desk.query_by_label(LEFT).is_none());
-    go_to(&mut desk, 100.0);
+    // Its way is a thousand radii long then.
+    go_to(&mut desk, 20.0);
     desk.get_by_label(LEFT);
     // "Fit" is a button of the bar as well.
     press(&mut desk, Key::Num0);
     desk.run_steps(60);
     assert!(desk.query_by_label(LEFT).is_none());
     // It goes on fitting while the ball flies on.
-    go_to(&mut desk, 200.0);
+    go_to(&mut desk, 40.0);
     desk.run_steps(60);
     assert!(desk.query_by_label(LEFT).is_none());
     press(&mut desk, Key::P);
@@ -83,7 +84,7 @@ fn balls_that_have_all_left_can_be_brought_back_into_the_picture() {
     }
     press(&mut desk, Key::P);
     press(&mut desk, Key::Num0);
-    go_to(&mut desk, 300.0);
+    go_to(&mut desk, 60.0);
     desk.run_steps(3);
     desk.get_by_label(LEFT);
 }

@@ -7,8 +7,8 @@ use carom_session::Command;
 use egui::{Key, Theme};
 use egui_kittest::{SnapshotOptions, SnapshotResults};
 
-use crate::desk::{Desk, desk, go_to, press, setup, watching};
-use crate::maze::{SHORT, playing, win};
+use crate::desk::{Desk, desk, go_to, press, setup_for_pictures, watching_on};
+use crate::maze::{SHORT, playing_on, win};
 
 /// Versions of the software driver round differently at edges of shapes, text and shadows: a part
 /// in a thousand of the pixels may differ. What a user would notice - another colour, a panel that
@@ -28,71 +28,76 @@ pub fn set_theme(desk: &mut Desk, theme: Theme) {
     desk.run_steps(2);
 }
 
-#[test]
-fn the_chooser() {
-    let mut results = SnapshotResults::new();
-    for (theme, name) in [(Theme::Light, "chooser_light"), (Theme::Dark, "chooser_dark")] {
-        let mut desk = desk(setup());
-        // The scene behind it stands still, whatever the clock says.
-        desk.state_mut().command(Command::Pause);
-        go_to(&mut desk, 0.0);
-        set_theme(&mut desk, theme);
-        // Thumbnails come one by one.
-        desk.run_steps(24);
-        compare(&mut desk, name, &mut results);
-    }
-    results.unwrap();
-}
+/// A test in each theme.
+macro_rules! in_light_and_dark {
+    ($($name:ident),*) => {$(
+        mod $name {
+            #[test]
+            fn light() {
+                super::$name(egui::Theme::Light);
+            }
 
-#[test]
-fn the_window_with_plots() {
-    let mut results = SnapshotResults::new();
-    for (theme, name) in [(Theme::Light, "window_light"), (Theme::Dark, "window_dark")] {
-        let mut desk = watching("simtest1");
-        set_theme(&mut desk, theme);
-        go_to(&mut desk, 6.0);
-        for key in [Key::G, Key::V, Key::K, Key::L] {
-            press(&mut desk, key);
+            #[test]
+            fn dark() {
+                super::$name(egui::Theme::Dark);
+            }
         }
-        compare(&mut desk, name, &mut results);
-    }
+    )*};
+}
+pub(crate) use in_light_and_dark;
+
+in_light_and_dark!(the_chooser, the_window_with_plots, two_rules, the_maze, the_win_screen);
+
+/// Compares it with the picture of this name and theme.
+fn compare_in(theme: Theme, desk: &mut Desk, name: &str) {
+    let mut results = SnapshotResults::new();
+    let suffix = if theme == Theme::Dark { "dark" } else { "light" };
+    compare(desk, &format!("{name}_{suffix}"), &mut results);
     results.unwrap();
 }
 
-#[test]
-fn two_rules() {
-    let mut results = SnapshotResults::new();
-    for (theme, name) in [(Theme::Light, "two_rules_light"), (Theme::Dark, "two_rules_dark")] {
-        let mut desk = watching("tutorial3");
-        set_theme(&mut desk, theme);
-        for key in [Key::X, Key::I, Key::G] {
-            press(&mut desk, key);
-        }
-        go_to(&mut desk, 3.0);
-        compare(&mut desk, name, &mut results);
-    }
-    results.unwrap();
+fn the_chooser(theme: Theme) {
+    let mut desk = desk(setup_for_pictures());
+    // The scene behind it stands still, whatever the clock says.
+    desk.state_mut().command(Command::Pause);
+    go_to(&mut desk, 0.0);
+    set_theme(&mut desk, theme);
+    // Thumbnails come one by one.
+    desk.run_steps(24);
+    compare_in(theme, &mut desk, "chooser");
 }
 
-#[test]
-fn the_maze() {
-    let mut results = SnapshotResults::new();
-    for (theme, name) in [(Theme::Light, "maze_light"), (Theme::Dark, "maze_dark")] {
-        let mut desk = playing(Maze::course().expect("the course's maze"));
-        set_theme(&mut desk, theme);
-        compare(&mut desk, name, &mut results);
+fn the_window_with_plots(theme: Theme) {
+    let mut desk = watching_on(setup_for_pictures(), "simtest1");
+    set_theme(&mut desk, theme);
+    go_to(&mut desk, 6.0);
+    for key in [Key::G, Key::V, Key::K, Key::L] {
+        press(&mut desk, key);
     }
-    results.unwrap();
+    compare_in(theme, &mut desk, "window");
 }
 
-#[test]
-fn the_win_screen() {
-    let mut results = SnapshotResults::new();
-    for (theme, name) in [(Theme::Light, "won_light"), (Theme::Dark, "won_dark")] {
-        let mut desk = playing(Maze::from_text(SHORT, "short").expect("a maze"));
-        set_theme(&mut desk, theme);
-        win(&mut desk);
-        compare(&mut desk, name, &mut results);
+fn two_rules(theme: Theme) {
+    let mut desk = watching_on(setup_for_pictures(), "tutorial3");
+    set_theme(&mut desk, theme);
+    for key in [Key::X, Key::I, Key::G] {
+        press(&mut desk, key);
     }
-    results.unwrap();
+    go_to(&mut desk, 3.0);
+    compare_in(theme, &mut desk, "two_rules");
+}
+
+fn the_maze(theme: Theme) {
+    let maze = Maze::course().expect("the course's maze");
+    let mut desk = playing_on(setup_for_pictures(), maze);
+    set_theme(&mut desk, theme);
+    compare_in(theme, &mut desk, "maze");
+}
+
+fn the_win_screen(theme: Theme) {
+    let maze = Maze::from_text(SHORT, "short").expect("a maze");
+    let mut desk = playing_on(setup_for_pictures(), maze);
+    set_theme(&mut desk, theme);
+    win(&mut desk);
+    compare_in(theme, &mut desk, "won");
 }

@@ -6,7 +6,7 @@ use egui::{Key, Modifiers, Role, Theme};
 use egui_kittest::SnapshotResults;
 use egui_kittest::kittest::Queryable;
 
-use crate::desk::{Desk, press, scene, watching};
+use crate::desk::{Desk, press, scene, setup_for_pictures, watching, watching_on};
 use crate::pictures::{compare, set_theme};
 
 fn springs(desk: &Desk) -> Vec<Spring> {
@@ -131,7 +131,7 @@ fn a_new_spring_swings_its_ball_and_comes_again_on_a_restart() {
 #[test]
 fn the_inspector_of_springs() {
     let mut results = SnapshotResults::new();
-    let mut desk = watching("cradle-on-threads");
+    let mut desk = watching_on(setup_for_pictures(), "cradle-on-threads");
     set_theme(&mut desk, Theme::Light);
     for section in ["Simulation", "Ball", "Forces"] {
         desk.get_by_label(section).click();
