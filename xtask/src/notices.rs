@@ -3,11 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde_json::Value;
 
-use crate::shell::{Outcome, cargo_program, root};
+use crate::shell::{Outcome, metadata};
 
 /// The name of the file in archives.
 pub const FILE: &str = "THIRD-PARTY-NOTICES.txt";
@@ -19,7 +18,7 @@ const BEGINNINGS: [&str; 8] =
 /// What a crate of the workspace is built of for a target, with the text of each licence. Features that other members
 /// ask for count as well: it may list more than there is, never less.
 pub fn of(member: &str, target: &str) -> Outcome<String> {
-    let described = metadata(target)?;
+    let described = metadata(&["--filter-platform", target])?;
     let used = used_by(member, &described);
     let packages = described["packages"].as_array().into_iter().flatten();
     let mut list = String::new();
@@ -41,18 +40,6 @@ pub fn of(member: &str, target: &str) -> Outcome<String> {
         whole += &format!("\n{rule}\n{}\n{rule}\n\n{licence}\n", names.join(", "));
     }
     Ok(whole)
-}
-
-/// All crates, for one target, as cargo describes them.
-fn metadata(target: &str) -> Outcome<Value> {
-    let mut command = Command::new(cargo_program());
-    command.args(["metadata", "--format-version", "1", "--locked", "--filter-platform", target]);
-    let output = command.current_dir(root()).output();
-    let output = output.map_err(|error| format!("cargo metadata: {error}"))?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-    }
-    serde_json::from_slice(&output.stdout).map_err(|error| format!("cargo metadata: {error}"))
 }
 
 /// The identities of all packages that are compiled into one of the workspace.

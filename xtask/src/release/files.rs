@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::files;
 use crate::shell::{Outcome, finish, succeeds, target_folder};
 
 /// The name of the file of checksums.
@@ -31,16 +32,8 @@ pub fn clear() -> Outcome {
 
 /// Copies a file, or a folder with all that is in it; what is on the way to it is made.
 pub fn copy(from: &Path, to: &Path) -> Outcome {
-    if !from.is_dir() {
-        made(to.parent().unwrap_or(to).to_owned())?;
-        return fs::copy(from, to).map(drop).map_err(|error| said(from, &error));
-    }
-    made(to.to_owned())?;
-    for entry in fs::read_dir(from).map_err(|error| said(from, &error))? {
-        let entry = entry.map_err(|error| said(from, &error))?;
-        copy(&entry.path(), &to.join(entry.file_name()))?;
-    }
-    Ok(())
+    made(to.parent().unwrap_or(to).to_owned())?;
+    files::copy(from, to)
 }
 
 /// Puts a file that others made among those of the release.

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
-use std::process::Command;
 
 use serde_json::Value;
 
-use crate::shell::{Outcome, cargo_program, root};
+use crate::shell::{Outcome, metadata};
 
 /// A crate of the workspace.
 #[derive(Debug, Clone)]
@@ -35,14 +34,7 @@ pub struct Use {
 
 /// All members of the workspace, by name.
 pub fn all() -> Outcome<Vec<Member>> {
-    let mut command = Command::new(cargo_program());
-    command.args(["metadata", "--format-version", "1", "--no-deps"]).current_dir(root());
-    let output = command.output().map_err(|error| format!("cargo metadata: {error}"))?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-    }
-    let described: Value = serde_json::from_slice(&output.stdout)
-        .map_err(|error| format!("cargo metadata: {error}"))?;
+    let described = metadata(&["--no-deps"])?;
     let packages = described["packages"].as_array().ok_or("cargo metadata lists no packages")?;
     let mut members: Vec<Member> = packages.iter().map(member).collect();
     members.sort_by(|a, b| a.name.cmp(&b.name));
