@@ -24,7 +24,7 @@ pub fn counts(log: &str) -> Counts {
         let line = line.trim();
         if let Some(rest) = line.strip_prefix("test result: ") {
             counts.add(listed(rest.split(['.', ';'])));
-        } else if line.contains(" in ") && line.ends_with(['s', ')']) && is_of_pytest(line) {
+        } else if line.contains(" in ") && is_of_pytest(line) {
             let outcomes = line.split(" in ").next().unwrap_or_default();
             counts.add(listed(outcomes.trim_matches(['=', ' ']).split(',')));
         } else if let Some(rest) = line.strip_prefix("ℹ ").or_else(|| line.strip_prefix("# ")) {
