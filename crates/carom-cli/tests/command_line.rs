@@ -326,11 +326,13 @@ fn interrupted_run(file: &Path) -> Output {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // Once something is in the file, the run listens for Ctrl-C; an NPZ file has its numbers only
-    // at the end, but a little patience does for it too.
+    // Once something is in the file, the run listens for Ctrl-C; an NPZ file has its numbers in another one until the
+    // end.
     let began = std::time::Instant::now();
-    let is_written = || std::fs::metadata(file).is_ok_and(|file| file.len() > 200_000);
-    while !is_written() && began.elapsed().as_secs() < 2 {
+    let unfinished = format!("{}.0.unfinished", file.display());
+    let size = |path: &Path| std::fs::metadata(path).map_or(0, |it| it.len());
+    let is_written = || size(file).max(size(Path::new(&unfinished))) > 200_000;
+    while !is_written() && began.elapsed().as_secs() < 10 {
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
     let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
@@ -491,7 +493,12 @@ fn signals_end_a_frame_of_minutes_with_a_summary_and_readable_files() {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        std::thread::sleep(std::time::Duration::from_secs(3));
+        // Its file is there when the frame begins, which then goes on for minutes.
+        let began = std::time::Instant::now();
+        while !file.exists() && began.elapsed().as_secs() < 10 {
+            std::thread::sleep(std::time::Duration::from_millis(20));
+        }
+        std::thread::sleep(std::time::Duration::from_secs(1));
         let killed = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
         assert!(killed.success(), "the frame has ended before {signal}");
         let began = std::time::Instant::now();

@@ -50,7 +50,7 @@ fn the_filter_of_verify_takes_a_topic() {
     let report = json(&["verify", "--filter", "motion"], 0);
     let claims = report["claims"].as_array().unwrap();
     assert!(!claims.is_empty());
-    let other = json(&["verify", "--filter", "impacts"], 0);
+    let other = json(&["verify", "--filter", "forces"], 0);
     assert!(other["claims"].as_array().unwrap().iter().all(|claim| !claims.contains(claim)));
 }
 
