@@ -24,7 +24,7 @@ pub fn counts(log: &str) -> Counts {
         let line = line.trim();
         if let Some(rest) = line.strip_prefix("test result: ") {
             counts.add(listed(rest.split(['.', ';'])));
-        } else if line.contains(" in ") && is_of_pytest(line) {
+        } else if is_of_pytest(line) {
             let outcomes = line.split(" in ").next().unwrap_or_default();
             counts.add(listed(outcomes.trim_matches(['=', ' ']).split(',')));
         } else if let Some(rest) = line.strip_prefix("ℹ ").or_else(|| line.strip_prefix("# ")) {
@@ -38,12 +38,13 @@ pub fn counts(log: &str) -> Counts {
     counts
 }
 
+/// Whether a line is like `938 passed, 4 skipped in 60.21s (0:01:00)`.
 fn is_of_pytest(line: &str) -> bool {
-    let start = line.trim_matches(['=', ' ']);
-    let mut words = start.split_whitespace();
-    let number = words.next().is_some_and(|word| word.parse::<usize>().is_ok());
-    let outcome = words.next().unwrap_or_default().trim_end_matches(',');
-    number && ["passed", "failed", "skipped"].contains(&outcome)
+    let line = line.trim_matches(['=', ' ']);
+    let Some((outcomes, time)) = line.split_once(" in ") else { return false };
+    let seconds = time.split_whitespace().next().and_then(|word| word.strip_suffix('s'));
+    let first = outcomes.split_whitespace().next().unwrap_or_default();
+    first.parse::<usize>().is_ok() && seconds.is_some_and(|it| it.parse::<f64>().is_ok())
 }
 
 /// Adds up phrases such as `12 passed`; leaves out those of other things.
