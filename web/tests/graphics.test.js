@@ -18,7 +18,7 @@ const LOADS = /** @type {const} */ ([
 /** How long pictures are counted [ms]. */
 const COUNTED = 1500;
 
-/** As many pixels as the numbers are told for: few, at which software draws more than a few pictures. */
+/** As many pixels as the numbers are printed for: few, at which software draws more than a few pictures. */
 const SIZE = { width: 640, height: 400 };
 
 /** @param {import("./viewer.js").Viewer} viewer */

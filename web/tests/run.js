@@ -38,7 +38,7 @@ async function test(files, signal) {
 
 const asked = process.argv.slice(2).map((file) => resolve(file));
 const browser = await share();
-// With the browser, as when the process is asked to end, the tests end.
+// With the browser, as on a signal, the tests end.
 const ending = new AbortController();
 // Each file listens to it.
 setMaxListeners(0, ending.signal);

@@ -61,7 +61,9 @@ export class Desk {
    * @param {import("playwright-core").BrowserContextOptions} [options]
    */
   async open(fragment = "", options = {}) {
-    await this.closeLeftovers();
+    // Others would go on drawing: the one that is shared, and that of a test that failed.
+    this.shared = null;
+    await Promise.all(this.browser.contexts().map((context) => context.close()));
     const viewport = { width: 1280, height: 800 };
     const context = await this.browser.newContext({
       viewport,
@@ -78,16 +80,6 @@ export class Desk {
     return viewer;
   }
 
-  /** Closes all pages but the one that is shared: a test that failed has left its own drawing. */
-  async closeLeftovers() {
-    if (!this.shared?.isLeft) {
-      this.shared = null;
-    }
-    const shared = this.shared?.page.context();
-    const others = this.browser.contexts().filter((context) => context !== shared);
-    await Promise.all(others.map((context) => context.close()));
-  }
-
   /**
    * Shows a scene of a link, or the chooser without one, in a page that tests share one after
    * another: for what does not depend on how a page starts. Its panels, and dialogs but the chooser,
@@ -97,15 +89,11 @@ export class Desk {
    * @param {import("playwright-core").BrowserContextOptions} [options]
    */
   async show(fragment = "", options = {}) {
-    await this.closeLeftovers();
     const asked = JSON.stringify(options);
-    if (this.shared !== null && this.sharedOptions === asked) {
+    if (this.shared?.isLeft && this.sharedOptions === asked) {
       await this.shared.goOn(fragment);
       return this.shared;
     }
-    const before = this.shared;
-    this.shared = null;
-    await before?.page.context().close();
     const viewer = await this.open(fragment, options);
     viewer.isShared = true;
     [this.shared, this.sharedOptions] = [viewer, asked];

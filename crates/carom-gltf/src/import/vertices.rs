@@ -81,7 +81,7 @@ fn assembled(corners: &[DVec3], mode: u32) -> Vec<Triangle> {
     }
 }
 
-/// What an accessor gives: elements of so many numbers, each read when it is asked for.
+/// What an accessor gives: elements of so many numbers, each read when an index names it.
 struct Elements<'a, const WIDTH: usize> {
     bytes: &'a [u8],
     count: usize,
