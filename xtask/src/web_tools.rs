@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::shell::{Outcome, cargo, finish, output, root, target_folder};
+use crate::shell::{Outcome, cargo_with, finish, output, root, target_folder};
 
 /// The folder of the page.
 pub fn folder() -> PathBuf {
@@ -23,8 +23,11 @@ pub fn wasm_bindgen() -> Outcome<PathBuf> {
         }
     }
     let root = own.to_string_lossy();
-    // Unlocked, as it comes: what it was locked with is not in every registry.
-    cargo(&["install", "wasm-bindgen-cli", "--version", &version, "--root", &root, "--force"])?;
+    // Unlocked, as it comes: what it was locked with is not in every registry. As it is quickest built:
+    // it runs for seconds.
+    let install = ["install", "wasm-bindgen-cli", "--version", &version, "--root", &root];
+    let quick = [("CARGO_PROFILE_DEV_DEBUG", "false"), ("CARGO_INCREMENTAL", "0")];
+    cargo_with(&[&install[..], &["--force", "--debug"]].concat(), &quick)?;
     Ok(installed)
 }
 
