@@ -1,7 +1,7 @@
 //! What Python gives for one argument; every refusal names it.
 
 use numpy::{PyArrayDyn, PyArrayMethods};
-use pyo3::exceptions::{PyOverflowError, PyTypeError};
+use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyTuple};
 
@@ -19,24 +19,32 @@ pub fn array(name: &str, values: &Bound<'_, PyAny>, shape: &[usize]) -> PyResult
         let message = format!("{name}: must be an array of numbers, not {what}");
         PyTypeError::new_err(message)
     };
-    let Ok(array) = numpy.call_method1("asarray", (values,)) else {
-        return Err(no_numbers("a list of rows of different lengths"));
-    };
+    let py = values.py();
+    let array = numpy.call_method1("asarray", (values,)).map_err(|error| {
+        unless_stopped(py, error, || no_numbers("a list of rows of different lengths"))
+    })?;
     let dtype = array.getattr("dtype")?;
     // Floating-point numbers, integers, and unsigned ones.
     if !["f", "i", "u"].contains(&dtype.getattr("kind")?.extract::<String>()?.as_str()) {
         return Err(no_numbers(&format!("of {dtype}")));
     }
     let own: Vec<usize> = array.getattr("shape")?.extract()?;
-    let Ok(spread) = numpy.call_method1("broadcast_to", (&array, shape.to_vec())) else {
+    let spread = numpy.call_method1("broadcast_to", (&array, shape.to_vec()));
+    let spread = spread.map_err(|error| {
         let (wanted, own) = (written(shape), written(&own));
-        return Err(
+        unless_stopped(py, error, || {
             Failure::value(name, format_args!("must be of shape {wanted}, not {own}")).into()
-        );
-    };
+        })
+    })?;
     let numbers =
         spread.call_method1("astype", ("float64", "C"))?.cast_into::<PyArrayDyn<f64>>()?;
     Ok(numbers.to_vec()?)
+}
+
+/// Returns the error that says what is wrong with an argument, or Ctrl-C, where that came while
+/// NumPy was at work.
+fn unless_stopped(py: Python<'_>, error: PyErr, refusal: impl FnOnce() -> PyErr) -> PyErr {
+    if error.is_instance_of::<PyException>(py) { refusal() } else { error }
 }
 
 /// Reads a number.
