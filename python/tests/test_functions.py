@@ -371,3 +371,13 @@ def test_without_its_functions_a_heap_sleeps_again() -> None:
     world.remove_force(number)
     world.step(frames=120)
     assert world.contact_account.asleep == 2
+
+
+def test_ctrl_c_while_numpy_reads_an_argument_is_no_wrong_argument() -> None:
+    class Stopped:
+        def __array__(self, *_: object, **__: object) -> object:
+            raise KeyboardInterrupt
+
+    world, name = trap(), "applied_forces"
+    with pytest.raises(KeyboardInterrupt):
+        setattr(world, name, Stopped())
