@@ -220,7 +220,7 @@ const SMALL: [&str; 7] = ["--size", "96x54", "--quality", "draft", "--seconds", 
 
 #[cfg(feature = "pictures")]
 mod a_film_is_made_of_the_frames_before_the_write_that_fails_or_can_be {
-    // Side by side: a driver begins anew for each film.
+    // Two tests, which run side by side: each film starts a graphics driver.
     #[test]
     fn with_one_half_of_the_limits() {
         super::a_film_is_made_or_can_be(0);

@@ -55,11 +55,11 @@ fn every_scene_is_found_by_name_and_title_in_any_case() {
 mod every_scene_runs_under_every_rule {
     use super::{BUILT_IN_FILES, Scene};
 
-    /// `bisect` lets the balls of a heap sink into each other, and finds more impacts the deeper they are: a million in
-    /// a second. By so many it has met everything that a heap asks of it.
+    /// Impacts after which a run ends. Under `bisect` the balls of a heap sink into each other, and the deeper they are the
+    /// more impacts it finds: a million in a second. The first 20,000 have gone through all of its code.
     const IMPACTS: usize = 20_000;
 
-    /// Runs every scene for two seconds, or until there were so many impacts.
+    /// Runs every scene for two seconds, or for [`IMPACTS`] impacts.
     fn holds(rule: &str) {
         for (file, text) in BUILT_IN_FILES {
             let rule = format!("simulation.rule={rule}").parse().unwrap();

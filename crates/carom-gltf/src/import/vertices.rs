@@ -81,7 +81,7 @@ fn assembled(corners: &[DVec3], mode: u32) -> Vec<Triangle> {
     }
 }
 
-/// What an accessor gives: elements of so many numbers, each read when an index names it.
+/// Elements of an accessor, `WIDTH` numbers each. An element is decoded when an index names it.
 struct Elements<'a, const WIDTH: usize> {
     bytes: &'a [u8],
     count: usize,
@@ -91,6 +91,7 @@ struct Elements<'a, const WIDTH: usize> {
 }
 
 impl<const WIDTH: usize> Elements<'_, WIDTH> {
+    /// Returns an element, or `None` beyond the last one.
     fn get(&self, index: usize) -> Option<[f64; WIDTH]> {
         if index >= self.count {
             return None;
@@ -100,6 +101,7 @@ impl<const WIDTH: usize> Elements<'_, WIDTH> {
         Some(std::array::from_fn(|i| read(&element[i * size..(i + 1) * size])))
     }
 
+    /// Returns every element, in order.
     fn all(&self) -> impl Iterator<Item = [f64; WIDTH]> {
         (0..self.count).filter_map(|index| self.get(index))
     }

@@ -167,7 +167,7 @@ fn every_text_has_a_contrast_of_four_and_a_half(theme: Theme) {
         (link, "link"),
         (refused, "notice"),
     ];
-    assert_readable(screens, theme, 150);
+    assert_readable(screens, theme, 200);
 }
 
 fn every_text_has_a_contrast_of_four_and_a_half_in_mazes(theme: Theme) {

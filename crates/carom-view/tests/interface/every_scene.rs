@@ -23,7 +23,7 @@ const MOVING: f64 = 5e-4;
 const BELOW: u32 = 90;
 
 mod something_moves_in_view_within_seconds_in_light_and_dark {
-    /// In so many parts, each of every sixth scene, so that they are drawn side by side.
+    /// Number of tests that share the scenes: each draws every sixth one, and they run side by side.
     const PARTS: usize = 6;
 
     #[test]

@@ -1,0 +1,150 @@
+//! The crates of the workspace, as cargo describes them.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use crate::shell::{Outcome, metadata};
+
+/// A crate of the workspace.
+#[derive(Debug, Clone)]
+pub struct Member {
+    pub name: String,
+    pub version: String,
+    /// Where its `Cargo.toml` lies.
+    pub folder: PathBuf,
+    /// Whether registries may have it.
+    pub is_published: bool,
+    /// The other members that it uses.
+    pub uses: Vec<Use>,
+    /// All that cargo says of it.
+    pub described: Value,
+}
+
+/// How a member uses another one.
+#[derive(Debug, Clone)]
+pub struct Use {
+    pub name: String,
+    /// The versions that it takes, as in `^1.0`.
+    pub versions: String,
+    /// Whether tests alone use it.
+    pub is_for_tests: bool,
+}
+
+/// All members of the workspace, by name.
+pub fn all() -> Outcome<Vec<Member>> {
+    let described = metadata(&["--no-deps"])?;
+    let packages = described["packages"].as_array().ok_or("cargo metadata lists no packages")?;
+    let mut members: Vec<Member> = packages.iter().map(member).collect();
+    members.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(members)
+}
+
+/// The members that registries may have, each after all that it uses.
+pub fn in_order_of_publishing(members: &[Member]) -> Outcome<Vec<&Member>> {
+    let mut ahead: Vec<&Member> = members.iter().filter(|it| it.is_published).collect();
+    let mut done: BTreeSet<&str> = BTreeSet::new();
+    let mut order = Vec::new();
+    while !ahead.is_empty() {
+        let is_next = |it: &&Member| it.uses.iter().all(|used| done.contains(used.name.as_str()));
+        let (next, rest): (Vec<_>, Vec<_>) = ahead.into_iter().partition(is_next);
+        if next.is_empty() {
+            let names: Vec<&str> = rest.iter().map(|it| it.name.as_str()).collect();
+            return Err(format!(
+                "{} use each other, or a crate that is not published",
+                names.join(", ")
+            ));
+        }
+        done.extend(next.iter().map(|it| it.name.as_str()));
+        order.extend(next);
+        ahead = rest;
+    }
+    Ok(order)
+}
+
+/// The members that the one of this name is built from, itself among them.
+pub fn built_from<'a>(members: &'a [Member], name: &str) -> Vec<&'a Member> {
+    let mut found: BTreeSet<&str> = BTreeSet::new();
+    let mut ahead = vec![name];
+    while let Some(name) = ahead.pop() {
+        let member = members.iter().find(|it| it.name == name);
+        if let Some(member) = member.filter(|it| found.insert(&it.name)) {
+            let uses = member.uses.iter().filter(|used| !used.is_for_tests);
+            ahead.extend(uses.map(|used| used.name.as_str()));
+        }
+    }
+    members.iter().filter(|it| found.contains(it.name.as_str())).collect()
+}
+
+fn member(package: &Value) -> Member {
+    let manifest = PathBuf::from(text(&package["manifest_path"]));
+    let dependencies = package["dependencies"].as_array().into_iter().flatten();
+    // Those of the workspace have a path.
+    let own = dependencies.filter(|dependency| dependency["path"].is_string());
+    let uses = own.map(|dependency| Use {
+        name: text(&dependency["name"]),
+        versions: text(&dependency["req"]),
+        is_for_tests: dependency["kind"] == "dev",
+    });
+    Member {
+        name: text(&package["name"]),
+        version: text(&package["version"]),
+        folder: manifest.parent().map(PathBuf::from).unwrap_or_default(),
+        // No registry: an empty list. Any: nothing.
+        is_published: package["publish"].is_null(),
+        uses: uses.collect(),
+        described: package.clone(),
+    }
+}
+
+fn text(value: &Value) -> String {
+    value.as_str().unwrap_or_default().to_owned()
+}
+
+/// A crate for tests, which uses others.
+#[cfg(test)]
+pub fn crate_of(name: &str, is_published: bool, uses: &[&str]) -> Member {
+    let used = |name: &&str| Use {
+        name: (*name).to_owned(),
+        versions: "^1.0.0".to_owned(),
+        is_for_tests: false,
+    };
+    Member {
+        name: name.to_owned(),
+        version: "1.0.0".to_owned(),
+        folder: "crates".into(),
+        is_published,
+        uses: uses.iter().map(used).collect(),
+        described: Value::Null,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Member, built_from, crate_of, in_order_of_publishing};
+
+    fn names(members: &[&Member]) -> Vec<String> {
+        members.iter().map(|it| it.name.clone()).collect()
+    }
+
+    #[test]
+    fn each_crate_is_published_after_those_that_it_uses() {
+        let members = [
+            crate_of("a", true, &["b", "c"]),
+            crate_of("b", true, &["c"]),
+            crate_of("c", true, &[]),
+            crate_of("d", false, &["a"]),
+        ];
+        assert_eq!(names(&in_order_of_publishing(&members).unwrap()), ["c", "b", "a"]);
+        assert_eq!(names(&built_from(&members, "b")), ["b", "c"]);
+    }
+
+    #[test]
+    fn crates_in_a_circle_or_on_a_private_one_have_no_order() {
+        let circle = [crate_of("a", true, &["b"]), crate_of("b", true, &["a"])];
+        assert!(in_order_of_publishing(&circle).is_err());
+        let private = [crate_of("a", true, &["b"]), crate_of("b", false, &[])];
+        assert!(in_order_of_publishing(&private).is_err());
+    }
+}
