@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use crate::documents;
 use crate::shell::{Outcome, root};
 
 /// Compares the table of crates with the folders that hold a `Cargo.toml`.
 pub fn check() -> Outcome {
-    let text = read("ARCHITECTURE.md")?;
+    let text = documents::text("ARCHITECTURE.md")?;
     let listed: BTreeSet<String> = text
         .lines()
         .filter_map(|line| line.strip_prefix("| `")?.split_once("` |"))
@@ -27,8 +28,4 @@ pub fn check() -> Outcome {
         return Ok(());
     }
     Err(format!("ARCHITECTURE.md lists the crates {listed:?}, but there are {existing:?}"))
-}
-
-fn read(name: &str) -> Outcome<String> {
-    std::fs::read_to_string(root().join(name)).map_err(|error| format!("{name}: {error}"))
 }

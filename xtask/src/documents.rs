@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
+use crate::files::normal;
 use crate::markdown::{Markdown, Spot};
 use crate::shell::{Outcome, root};
 
@@ -101,15 +102,7 @@ fn fault_of_link(files: &Files, from: &str, link: &Spot) -> Outcome<Option<Strin
 /// A relative path of a document, seen from the root of the repository.
 fn resolved(from: &str, path: &str) -> String {
     let folder = Path::new(from).parent().unwrap_or(Path::new(""));
-    let mut whole = PathBuf::new();
-    for component in folder.join(path).components() {
-        match component {
-            Component::ParentDir => drop(whole.pop()),
-            Component::CurDir => {}
-            other => whole.push(other),
-        }
-    }
-    whole.to_string_lossy().into_owned()
+    normal(&folder.join(path)).to_string_lossy().into_owned()
 }
 
 /// What there is to be named.

@@ -1,20 +1,67 @@
-//! Files and folders, copied.
+//! Files and folders: copied, made anew, found.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 use crate::shell::Outcome;
 
 /// Copies a file, or a folder with all that is in it.
 pub fn copy(from: &Path, to: &Path) -> Outcome {
-    let said = |error: std::io::Error| format!("{}: {error}", from.display());
     if !from.is_dir() {
-        return fs::copy(from, to).map(drop).map_err(said);
+        return fs::copy(from, to).map(drop).map_err(|error| said(from, &error));
     }
-    fs::create_dir_all(to).map_err(said)?;
-    for entry in fs::read_dir(from).map_err(said)? {
-        let entry = entry.map_err(said)?;
+    fs::create_dir_all(to).map_err(|error| said(to, &error))?;
+    for entry in fs::read_dir(from).map_err(|error| said(from, &error))? {
+        let entry = entry.map_err(|error| said(from, &error))?;
         copy(&entry.path(), &to.join(entry.file_name()))?;
     }
     Ok(())
+}
+
+/// Removes a folder with all that is in it, if it is there.
+pub fn remove(folder: &Path) -> Outcome {
+    if folder.exists() {
+        fs::remove_dir_all(folder).map_err(|error| said(folder, &error))?;
+    }
+    Ok(())
+}
+
+/// Makes a folder unless it is there. Returns it.
+pub fn made(folder: PathBuf) -> Outcome<PathBuf> {
+    fs::create_dir_all(&folder).map_err(|error| said(&folder, &error))?;
+    Ok(folder)
+}
+
+/// Makes a folder empty. Returns it.
+pub fn emptied(folder: PathBuf) -> Outcome<PathBuf> {
+    remove(&folder)?;
+    made(folder)
+}
+
+/// The only file of a folder.
+pub fn only_file(folder: &Path) -> Outcome<PathBuf> {
+    let entries = fs::read_dir(folder).map_err(|error| said(folder, &error))?;
+    let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    match (files.pop(), files.len()) {
+        (Some(file), 0) => Ok(file),
+        _ => Err(format!("{} should hold one file", folder.display())),
+    }
+}
+
+/// A path without steps back.
+pub fn normal(path: &Path) -> PathBuf {
+    let mut whole = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::ParentDir => drop(whole.pop()),
+            Component::CurDir => {}
+            other => whole.push(other),
+        }
+    }
+    whole
+}
+
+/// An error of a file or folder, for people.
+pub fn said(path: &Path, error: &std::io::Error) -> String {
+    format!("{}: {error}", path.display())
 }

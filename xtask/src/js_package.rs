@@ -4,11 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::files::copy;
+use crate::files::{copy, emptied, said};
 use crate::shell::{Outcome, cargo, finish, root, target_folder};
 use crate::wasm::{self, Purpose};
 use crate::wasm_toolchain::TARGET;
-use crate::web::test_files;
 use crate::web_tools::{folder, npm_packages, wasm_bindgen};
 use crate::{native_hashes, notices, setup};
 
@@ -66,7 +65,7 @@ pub fn bench() -> Outcome {
 fn check_version() -> Outcome {
     let version = format!("\"version\": \"{}\"", env!("CARGO_PKG_VERSION"));
     let file = folder().join("package/package.json");
-    let text = fs::read_to_string(&file).map_err(|error| said(&file, error))?;
+    let text = fs::read_to_string(&file).map_err(|error| said(&file, &error))?;
     if text.contains(&version) {
         return Ok(());
     }
@@ -94,18 +93,25 @@ fn pack(package: &Path) -> Outcome<PathBuf> {
 
 /// An empty folder among what is built.
 fn anew(name: &str) -> Outcome<PathBuf> {
-    let folder = target_folder().join(name);
-    if folder.exists() {
-        fs::remove_dir_all(&folder).map_err(|error| said(&folder, error))?;
+    emptied(target_folder().join(name))
+}
+
+/// The files in `tests/` of a folder that hold tests, by name: not every version of Node.js finds
+/// them by their folder.
+fn test_files(folder: &Path) -> Outcome<Vec<String>> {
+    let mut names = Vec::new();
+    let entries = fs::read_dir(folder.join("tests")).map_err(|error| error.to_string())?;
+    for entry in entries {
+        let name = entry.map_err(|error| error.to_string())?.file_name();
+        let name = name.to_string_lossy();
+        if name.ends_with(".test.js") {
+            names.push(format!("tests/{name}"));
+        }
     }
-    fs::create_dir_all(&folder).map_err(|error| said(&folder, error))?;
-    Ok(folder)
+    names.sort_unstable();
+    Ok(names)
 }
 
 fn write(file: &Path, text: &str) -> Outcome {
-    fs::write(file, text).map_err(|error| said(file, error))
-}
-
-fn said(path: &Path, error: std::io::Error) -> String {
-    format!("{}: {error}", path.display())
+    fs::write(file, text).map_err(|error| said(file, &error))
 }

@@ -29,7 +29,7 @@ fn hashes_of_releases() -> Outcome {
     cargo(&[&OPTIMISED[..], &["carom-scene", "--test", "scenes"]].concat())
 }
 
-/// Runs scenes for so many hours of simulated time, optimised, and keeps the states after each hour.
+/// Runs scenes for a number of hours of simulated time, optimised, and keeps the state after each hour.
 pub fn soak(hours: &str) -> Outcome {
     if !hours.parse::<u32>().is_ok_and(|hours| hours > 0) {
         return Err(format!("--hours takes a whole number of hours, not {hours:?}"));

@@ -15,6 +15,7 @@ mod imports;
 mod js_package;
 mod long_tests;
 mod markdown;
+mod member;
 mod miri;
 mod native_hashes;
 mod notices;

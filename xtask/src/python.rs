@@ -1,11 +1,12 @@
 //! The Python package `carom`: built, installed as users do it, tested.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
-use crate::files::copy;
-use crate::shell::{CI, Outcome, cargo, ci_folder, finish, root, target_folder};
+use crate::checks::programs;
+use crate::files::{copy, made, only_file, remove, said};
+use crate::shell::{Outcome, ci_folder, finish, printed, root, target_folder};
 use crate::wasm::Purpose;
 use crate::{native_hashes, setup, web};
 
@@ -27,7 +28,7 @@ pub fn test() -> Outcome {
     let wheel = wheel_for_tests(&environment)?;
     environment.pip(&["install", "--no-deps", &wheel.to_string_lossy()])?;
     let hashes = environment.folder.join("native_hashes.json");
-    fs::write(&hashes, native_hashes::json()?).map_err(|error| said(&hashes, error))?;
+    fs::write(&hashes, native_hashes::json()?).map_err(|error| said(&hashes, &error))?;
 
     let folder = root().join("python");
     let folder = folder.to_string_lossy();
@@ -79,16 +80,15 @@ fn wheel(environment: &Environment) -> Outcome<PathBuf> {
     let wheels = environment.folder.join("wheels");
     let folder = wheels.to_string_lossy();
     environment.pip(&["wheel", ".", "--no-deps", "--wheel-dir", &folder])?;
-    wheel_in(&wheels)
+    only_file(&wheels)
 }
 
 /// Packs a wheel with the library that is built for tests together with all other crates: by itself
 /// it would be compiled with other features of what these crates use, and they with it.
 fn wheel_for_tests(environment: &Environment) -> Outcome<PathBuf> {
     web::build_for_notebooks(Purpose::Test)?;
-    cargo(&["build", "--workspace", "--lib", "--profile", CI, "--quiet"])?;
-    let unpacked = environment.folder.join("unpacked");
-    fs::create_dir_all(&unpacked).map_err(|error| said(&unpacked, error))?;
+    programs::build()?;
+    let unpacked = made(environment.folder.join("unpacked"))?;
     let mut describe = environment.command();
     describe.args(["-m", "maturin", "pep517", "write-dist-info", "--metadata-directory"]);
     finish("maturin", describe.arg(&unpacked).current_dir(root()))?;
@@ -97,20 +97,10 @@ fn wheel_for_tests(environment: &Environment) -> Outcome<PathBuf> {
     let library = ci_folder().join(format!("{prefix}_carom{suffix}"));
     let module = if cfg!(windows) { "_carom.pyd" } else { "_carom.abi3.so" };
     copy(&library, &unpacked.join("carom").join(module))?;
-    let wheels = environment.folder.join("wheels");
-    fs::create_dir_all(&wheels).map_err(|error| said(&wheels, error))?;
+    let wheels = made(environment.folder.join("wheels"))?;
     let [from, to] = [&unpacked, &wheels].map(|folder| folder.to_string_lossy());
     environment.python(&["-m", "wheel", "pack", &from, "--dest-dir", &to])?;
-    wheel_in(&wheels)
-}
-
-/// The wheel in a folder.
-fn wheel_in(folder: &Path) -> Outcome<PathBuf> {
-    let entries = fs::read_dir(folder).map_err(|error| said(folder, error))?;
-    let mut files = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    files
-        .find(|file| file.extension().is_some_and(|extension| extension == "whl"))
-        .ok_or_else(|| format!("{} holds no wheel", folder.display()))
+    only_file(&wheels)
 }
 
 /// An environment of Python's own, with nothing in it at first.
@@ -125,9 +115,7 @@ impl Environment {
         // The package draws.
         setup::graphics()?;
         let folder = target_folder().join(name);
-        if folder.exists() {
-            fs::remove_dir_all(&folder).map_err(|error| said(&folder, error))?;
-        }
+        remove(&folder)?;
         let place = folder.join("environment");
         let python = setup::python_program();
         finish(&python, Command::new(&python).args(["-m", "venv"]).arg(place))?;
@@ -153,12 +141,7 @@ impl Environment {
 
     /// What a program prints that runs where nothing of the repository is found by accident.
     pub fn printed(&self, arguments: &[&str]) -> Outcome<String> {
-        let output = self.command().args(arguments).current_dir(&self.folder).output();
-        let output = output.map_err(|error| format!("python: {error}"))?;
-        if !output.status.success() {
-            return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-        }
-        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+        printed("python", self.command().args(arguments).current_dir(&self.folder))
     }
 
     /// Its Python, without arguments.
@@ -166,8 +149,4 @@ impl Environment {
         let scripts = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
         Command::new(self.folder.join("environment").join(scripts))
     }
-}
-
-fn said(path: &Path, error: std::io::Error) -> String {
-    format!("{}: {error}", path.display())
 }

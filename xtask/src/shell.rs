@@ -74,16 +74,28 @@ pub fn cargo_output(arguments: &[&str]) -> Outcome<String> {
     }
 }
 
+/// What a program prints, run in the root of the repository unless it is to run elsewhere; `name` is
+/// what people call it.
+///
+/// # Errors
+/// What it prints as errors, where it fails.
+pub fn printed(name: &str, command: &mut Command) -> Outcome<String> {
+    if command.get_current_dir().is_none() {
+        command.current_dir(root());
+    }
+    let output = command.output().map_err(|error| format!("{name}: {error}"))?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
 /// What cargo says of the packages that it knows.
 pub fn metadata(arguments: &[&str]) -> Outcome<Value> {
     let mut command = Command::new(cargo_program());
     command.args(["metadata", "--format-version", "1", "--locked"]).args(arguments);
-    let output = command.current_dir(root()).output();
-    let output = output.map_err(|error| format!("cargo metadata: {error}"))?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-    }
-    serde_json::from_slice(&output.stdout).map_err(|error| format!("cargo metadata: {error}"))
+    let described = printed("cargo metadata", &mut command)?;
+    serde_json::from_str(&described).map_err(|error| format!("cargo metadata: {error}"))
 }
 
 /// Whether a program runs and succeeds; says nothing.

@@ -1,8 +1,7 @@
 //! Keeps the stages of the rules `exact` and `contact` under one name in code, documents and reports.
 
-use std::fs;
-
-use crate::shell::{Outcome, root};
+use crate::documents;
+use crate::shell::Outcome;
 
 /// Of each rule, the document that describes its stages, and the code that puts them together.
 const RULES: [[&str; 2]; 2] = [
@@ -16,7 +15,8 @@ const REPORT: &str = "crates/carom/src/report.rs";
 pub fn check() -> Outcome {
     let mut known = Vec::new();
     for [document, code] in RULES {
-        let (described, coded) = (stages(&read(document)?), stages(&read(code)?));
+        let (described, coded) =
+            (stages(&documents::text(document)?), stages(&documents::text(code)?));
         if described.is_empty() || described != coded {
             return Err(format!(
                 "{document} has the stages {described:?}, but {code} has {coded:?}"
@@ -24,7 +24,7 @@ pub fn check() -> Outcome {
         }
         known.extend(coded);
     }
-    let report = read(REPORT)?;
+    let report = documents::text(REPORT)?;
     let counted = counted_stages(&report);
     let unknown = counted.iter().find(|stage| !known.contains(stage));
     match unknown {
@@ -66,10 +66,6 @@ fn counted_stages(report: &str) -> Vec<String> {
         }
     }
     stages
-}
-
-fn read(name: &str) -> Outcome<String> {
-    fs::read_to_string(root().join(name)).map_err(|error| format!("{name}: {error}"))
 }
 
 #[cfg(test)]

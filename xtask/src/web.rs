@@ -18,29 +18,31 @@ const BUDGET: u64 = 4_000_000;
 
 /// Makes the page in `web/dist`, and says how large it is.
 pub fn build() -> Outcome {
-    build_module(Purpose::Use)?;
+    build_module(&folder().join("module"), Purpose::Use)?;
     node(&["bundle.js", "module", "dist"], &[])?;
     check_size(&folder().join("dist"))
 }
 
 /// Makes a page in `web/dist` that works as that of [`build`] does, and is large.
 pub fn build_for_tests() -> Outcome {
-    build_module(Purpose::Test)?;
+    build_module(&folder().join("module"), Purpose::Test)?;
     node(&["bundle.js", "module", "dist", "--quick"], &[])
 }
 
 /// Puts the interface for notebooks into the Python package, whose wheel takes it along.
 pub fn build_for_notebooks(purpose: Purpose) -> Outcome {
-    build_module(purpose)?;
-    node(&["notebook.js", "module", "../python/carom/notebook/built"], &[])
+    // Not where the page's lies: both may be made at a time.
+    let module = target_folder().join("notebook-module");
+    build_module(&module, purpose)?;
+    node(&["notebook.js", &module.to_string_lossy(), "../python/carom/notebook/built"], &[])
 }
 
-/// Makes the module in `web/module`.
-fn build_module(purpose: Purpose) -> Outcome {
+/// Makes the module in a folder.
+fn build_module(out: &Path, purpose: Purpose) -> Outcome {
     setup::page()?;
     npm_packages()?;
     let module = wasm::build("carom-web", purpose)?;
-    bind(&module, &folder().join("module"), &["--remove-name-section"])
+    bind(&module, out, &["--remove-name-section"])
 }
 
 /// Makes the page, and serves it on this machine.
@@ -86,26 +88,10 @@ pub fn test() -> Outcome {
     node(&[prettier, "--check", "--config", "package.json", ".", of_notebooks], &[])?;
     node(&["node_modules/typescript/bin/tsc", "--project", "."], &[])?;
     // What a run gives outside of browsers.
-    programs::build_command()?;
+    programs::build()?;
     let carom = ci_folder().join("carom");
     let carom = carom.to_string_lossy();
     node(&["tests/run.js"], &[("CAROM", &carom)])
-}
-
-/// The files in `tests/` of a folder that hold tests, by name: not every version of Node.js finds
-/// them by their folder.
-pub fn test_files(folder: &Path) -> Outcome<Vec<String>> {
-    let mut names = Vec::new();
-    let entries = fs::read_dir(folder.join("tests")).map_err(|error| error.to_string())?;
-    for entry in entries {
-        let name = entry.map_err(|error| error.to_string())?.file_name();
-        let name = name.to_string_lossy();
-        if name.ends_with(".test.js") {
-            names.push(format!("tests/{name}"));
-        }
-    }
-    names.sort_unstable();
-    Ok(names)
 }
 
 /// Has `wasm-bindgen` make a module of JavaScript around one of WebAssembly.

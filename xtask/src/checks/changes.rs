@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::part::{Part, Reads};
-use crate::shell::{Outcome, metadata, output};
+use crate::member::{self, Member};
+use crate::shell::{Outcome, output};
 
 /// Files that every package is built with, or checked by.
 const OF_ALL: [&str; 4] = ["Cargo.toml", "Cargo.lock", ".cargo/", "xtask/"];
@@ -31,20 +32,21 @@ impl Changes {
         let changed = changed.ok_or_else(|| format!("git knows no commit {base}"))?;
         let new = output("git", &["ls-files", "--others", "--exclude-standard"]);
         let files = changed.lines().chain(new.as_deref().unwrap_or_default().lines());
-        Ok(Self::new(files.map(str::to_owned).collect(), &dependencies()?))
+        Ok(Self::new(files.map(str::to_owned).collect(), &member::all()?))
     }
 
-    /// Of files, where each package is named with those that it depends on.
-    fn new(files: Vec<String>, dependencies: &[(String, Vec<String>)]) -> Self {
+    /// Changes of files, and all that members of the workspace make of them.
+    fn new(files: Vec<String>, members: &[Member]) -> Self {
         let starts = |file: &String| OF_ALL.iter().any(|it| file.starts_with(it));
         let is_of_all = files.iter().any(starts);
         let mut packages: BTreeSet<String> = files.iter().filter_map(|it| package(it)).collect();
         loop {
-            let reached = |names: &[String]| names.iter().any(|name| packages.contains(name));
-            let more: Vec<String> = dependencies
+            let is_reached = |it: &&Member| it.uses.iter().any(|it| packages.contains(&it.name));
+            let more: Vec<String> = members
                 .iter()
-                .filter(|(name, needed)| !packages.contains(name) && reached(needed))
-                .map(|(name, _)| name.clone())
+                .filter(|it| !packages.contains(&it.name))
+                .filter(is_reached)
+                .map(|it| it.name.clone())
                 .collect();
             if more.is_empty() {
                 return Self { files, is_of_all, packages };
@@ -78,33 +80,18 @@ fn package(file: &str) -> Option<String> {
     folders.next().map(str::to_owned)
 }
 
-/// Each package of the workspace, and the packages that it depends on.
-fn dependencies() -> Outcome<Vec<(String, Vec<String>)>> {
-    let described = metadata(&["--no-deps"])?;
-    let names = |list: &serde_json::Value| -> Vec<String> {
-        let names = list.as_array().into_iter().flatten().filter_map(|it| it["name"].as_str());
-        names.map(str::to_owned).collect()
-    };
-    let packages = described["packages"].as_array().into_iter().flatten();
-    Ok(packages
-        .filter_map(|it| Some((it["name"].as_str()?.to_owned(), names(&it["dependencies"]))))
-        .collect())
-}
-
 #[cfg(test)]
 mod tests {
     use super::{Changes, Part, Reads};
+    use crate::member::crate_of;
 
     fn changes(files: &[&str]) -> Changes {
-        let row = |name: &str, needed: &[&str]| {
-            (name.to_owned(), needed.iter().map(|it| (*it).to_owned()).collect())
-        };
-        let graph = [
-            row("carom-scene", &["carom", "serde"]),
-            row("carom-view", &["carom-scene"]),
-            row("carom-analysis", &[]),
+        let members = [
+            crate_of("carom-scene", true, &["carom", "serde"]),
+            crate_of("carom-view", true, &["carom-scene"]),
+            crate_of("carom-analysis", true, &[]),
         ];
-        Changes::new(files.iter().map(|it| (*it).to_owned()).collect(), &graph)
+        Changes::new(files.iter().map(|it| (*it).to_owned()).collect(), &members)
     }
 
     fn part(reads: Reads) -> Part {

@@ -9,7 +9,7 @@ use crate::shell::{CI, Outcome, cargo, cargo_with, ci_folder, finish, program};
 use crate::wasm_toolchain::WasmToolchain;
 use crate::{
     architecture, c_interface, circles, dependencies, documents, js_package, python, release,
-    setup, sizes, stages, wasm, web, words,
+    setup, sizes, stages, wasm, web, web_tools, words,
 };
 
 /// Names the packages whose tests run, with commas between them; where it is not set, all do.
@@ -110,10 +110,12 @@ pub fn lint() -> Outcome {
     release::check()
 }
 
-/// The module of the page and that of the JavaScript package.
+/// What the page, the JavaScript package and the viewer for notebooks are put together of.
 fn modules() -> Outcome {
-    js_package::build(wasm::Purpose::Test)?;
-    web::build_for_tests()
+    setup::page()?;
+    wasm::build("carom-web", wasm::Purpose::Test)?;
+    web_tools::wasm_bindgen()?;
+    web_tools::npm_packages()
 }
 
 fn clippy() -> Outcome {
@@ -167,12 +169,12 @@ fn examples() -> Outcome {
 
 /// What the physics is held against.
 fn claims() -> Outcome {
-    programs::build_command()?;
+    programs::build()?;
     finish("carom", program("carom").arg("verify"))
 }
 
 fn commands_of_documents() -> Outcome {
-    programs::build_command()?;
+    programs::build()?;
     commands::check(&Programs { plain: ci_folder(), drawing: Some(ci_folder()) })
 }
 

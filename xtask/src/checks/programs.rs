@@ -10,7 +10,7 @@ use std::thread;
 use serde_json::Value;
 
 use crate::setup;
-use crate::shell::{CI, Outcome, cargo, cargo_output};
+use crate::shell::{CI, Outcome, cargo_output};
 
 /// A program made of tests.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -28,12 +28,15 @@ const AT_A_TIME: usize = 2;
 /// How many of the slowest tests are named.
 const SLOWEST: usize = 30;
 
-/// Builds every test program of the workspace, and every program that tests run.
+/// Builds everything that tests run: the programs of tests, which it returns, examples, the command, the
+/// libraries for C and Python. All at once, since cargo chooses features by what is built together, and
+/// builds anew what has others.
 pub fn build() -> Outcome<Vec<Program>> {
     setup::graphics()?;
-    let arguments = ["test", "--workspace", "--no-run", "--profile", CI, "--quiet"];
+    let arguments = ["build", "--workspace", "--profile", CI, "--quiet"];
+    let targets = ["--lib", "--bins", "--examples", "--tests"];
     let format = ["--message-format", "json-render-diagnostics"];
-    let output = cargo_output(&[&arguments[..], &format].concat())?;
+    let output = cargo_output(&[&arguments[..], &targets, &format].concat())?;
     Ok(output.lines().filter_map(program).collect())
 }
 
@@ -128,12 +131,6 @@ pub fn named(programs: &[Program], package: &str, name: &str) -> Outcome<Vec<Pro
     let is_it = |program: &&Program| program.package == package && program.name == name;
     let found: Vec<Program> = programs.iter().filter(is_it).cloned().collect();
     if found.is_empty() { Err(format!("{package} has no tests {name}")) } else { Ok(found) }
-}
-
-/// Builds the command `carom`, out of the same crates as [`build`].
-pub fn build_command() -> Outcome {
-    setup::graphics()?;
-    cargo(&["build", "--workspace", "--bin", "carom", "--profile", CI, "--quiet"])
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Runs parts of the checks side by side, each in a process of its own that writes into a log.
 
 use std::fs::{self, File};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::Duration;
@@ -9,6 +9,7 @@ use std::time::Duration;
 use super::part::Part;
 use super::summary::{Counts, counts};
 use super::times::{self, Times};
+use crate::files::{made, said};
 use crate::shell::Outcome;
 
 /// How many parts run at a time. Builds use every processor anyway; a second part fills the gaps in
@@ -41,7 +42,7 @@ pub fn run(parts: &[&'static Part], variables: &[(&str, String)]) -> Outcome<Don
     let mut running: Vec<Running<'static>> = Vec::new();
     let mut done = Done::default();
     let mut failed: Vec<&str> = Vec::new();
-    fs::create_dir_all(times::folder()).map_err(|error| said(&times::folder(), &error))?;
+    made(times::folder())?;
     loop {
         while failed.is_empty() && running.len() < AT_A_TIME {
             let unfinished: Vec<&str> = waiting
@@ -87,8 +88,4 @@ fn start<'a>(part: &'a Part, variables: &[(&str, String)]) -> Outcome<Running<'a
     command.stdin(Stdio::null()).stdout(file).stderr(errors);
     let child = command.spawn().map_err(|error| format!("{}: {error}", part.name))?;
     Ok(Running { part, child, log })
-}
-
-fn said(path: &Path, error: &std::io::Error) -> String {
-    format!("{}: {error}", path.display())
 }

@@ -129,7 +129,7 @@ fn processor_time() -> Option<Duration> {
 }
 
 /// Times, for people.
-pub fn described(times: Times) -> String {
+fn described(times: Times) -> String {
     match times.processor {
         Some(processor) => {
             format!("{}, {} of processor time", minutes(times.wall), minutes(processor))
@@ -139,7 +139,7 @@ pub fn described(times: Times) -> String {
 }
 
 /// A time, for people.
-pub fn minutes(time: Duration) -> String {
+fn minutes(time: Duration) -> String {
     let seconds = time.as_secs();
     format!("{} min {:02} s", seconds / 60, seconds % 60)
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::files;
-use crate::shell::{Outcome, finish, output};
+use crate::shell::{Outcome, finish, output, printed};
 
 /// Options with which GNU's `tar` makes the same archive of the same files for every user.
 const SAME: [&str; 4] = ["--sort=name", "--owner=0", "--group=0", "--numeric-owner"];
@@ -51,12 +51,7 @@ impl Archive {
 pub fn names_in(file: &Path) -> Outcome<Vec<String>> {
     let name = file.file_name().unwrap_or_default();
     let folder = file.parent().unwrap_or(file);
-    let output = Command::new("tar").arg("-tzf").arg(name).current_dir(folder).output();
-    let output = output.map_err(|error| format!("tar: {error}"))?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-    }
-    let text = String::from_utf8_lossy(&output.stdout);
+    let text = printed("tar", Command::new("tar").arg("-tzf").arg(name).current_dir(folder))?;
     Ok(text.lines().filter(|line| !line.ends_with('/')).map(str::to_owned).collect())
 }
 

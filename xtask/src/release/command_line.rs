@@ -6,7 +6,7 @@ use std::process::Command;
 use super::archive::{Archive, demand, unpack};
 use super::files;
 use super::versions::VERSION;
-use crate::shell::{Outcome, cargo, finish, host, root, target_folder};
+use crate::shell::{Outcome, cargo, finish, host, printed, root, target_folder};
 use crate::{notices, setup};
 
 /// What stands in the archive as it stands in the repository: from where, to where.
@@ -37,7 +37,7 @@ pub fn make() -> Outcome {
         archive.add(&root().join(from), to)?;
     }
     for (shell, file) in SHELLS {
-        let script = printed(&built, &["completions", shell])?;
+        let script = printed("carom", Command::new(&built).args(["completions", shell]))?;
         files::write(&archive.place("completions").join(file), script)?;
     }
     finish("carom", Command::new(&built).arg("man").arg(archive.place("man")))?;
@@ -51,19 +51,9 @@ pub fn make() -> Outcome {
 fn try_out(folder: &Path, program: &str) -> Outcome {
     let program = folder.join(program);
     files::run_in(folder, "carom", Command::new(&program).args(["run", "simtest1"]))?;
-    let version = printed(&program, &["--version"])?;
+    let version = printed("carom", Command::new(&program).arg("--version"))?;
     if version.trim() == format!("carom {VERSION}") {
         return Ok(());
     }
     Err(format!("the program in the archive is {version:?}, not {VERSION}"))
-}
-
-/// What a program prints.
-fn printed(program: &Path, arguments: &[&str]) -> Outcome<String> {
-    let output = Command::new(program).args(arguments).output();
-    let output = output.map_err(|error| format!("{}: {error}", program.display()))?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-    }
-    String::from_utf8(output.stdout).map_err(|error| format!("{}: {error}", program.display()))
 }

@@ -4,8 +4,8 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::member::{Member, all, built_from, in_order_of_publishing};
 use super::{archive, files};
+use crate::member::{Member, all, built_from, in_order_of_publishing};
 use crate::setup;
 use crate::shell::{Outcome, cargo_with, target_folder};
 

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::files;
-use crate::shell::{Outcome, finish, succeeds, target_folder};
+use crate::files::{self, emptied, made, remove, said};
+use crate::shell::{Outcome, finish, printed, succeeds, target_folder};
 
 /// The name of the file of checksums.
 pub const CHECKSUMS: &str = "SHA256SUMS";
@@ -20,9 +20,7 @@ pub fn folder() -> Outcome<PathBuf> {
 
 /// An empty folder to put an archive together in.
 pub fn staging(name: &str) -> Outcome<PathBuf> {
-    let folder = target_folder().join("release-staging").join(name);
-    remove(&folder)?;
-    made(folder)
+    emptied(target_folder().join("release-staging").join(name))
 }
 
 /// Removes the archives of before.
@@ -61,21 +59,8 @@ pub fn write_checksums() -> Outcome {
     let program = program.ok_or("there is neither sha256sum nor shasum")?;
     let mut command = Command::new(program[0]);
     command.args(&program[1..]).args(names()?).current_dir(folder()?);
-    let output = command.output().map_err(|error| format!("{}: {error}", program[0]))?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-    }
-    write(&folder()?.join(CHECKSUMS), &output.stdout)
-}
-
-/// The only file of a folder.
-pub fn only_file(folder: &Path) -> Outcome<PathBuf> {
-    let entries = fs::read_dir(folder).map_err(|error| said(folder, &error))?;
-    let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    match (files.pop(), files.len()) {
-        (Some(file), 0) => Ok(file),
-        _ => Err(format!("{} should hold one file", folder.display())),
-    }
+    let checksums = printed(program[0], &mut command)?;
+    write(&folder()?.join(CHECKSUMS), checksums)
 }
 
 /// Runs a program in a folder.
@@ -87,20 +72,4 @@ pub fn run_in(folder: &Path, name: &str, command: &mut Command) -> Outcome {
 pub fn write(file: &Path, content: impl AsRef<[u8]>) -> Outcome {
     made(file.parent().unwrap_or(file).to_owned())?;
     fs::write(file, content).map_err(|error| said(file, &error))
-}
-
-fn made(folder: PathBuf) -> Outcome<PathBuf> {
-    fs::create_dir_all(&folder).map_err(|error| said(&folder, &error))?;
-    Ok(folder)
-}
-
-fn remove(folder: &Path) -> Outcome {
-    if folder.exists() {
-        fs::remove_dir_all(folder).map_err(|error| said(folder, &error))?;
-    }
-    Ok(())
-}
-
-fn said(path: &Path, error: &std::io::Error) -> String {
-    format!("{}: {error}", path.display())
 }

@@ -3,10 +3,11 @@
 //! docs.rs shows no files of the repository, registries show READMEs alone, and a package holds what lies in the folder of
 //! its crate.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
-use super::member::Member;
+use crate::files::normal;
 use crate::markdown::Markdown;
+use crate::member::Member;
 use crate::shell::{Outcome, root};
 use crate::sources::{files_of, read, seen_from_root};
 
@@ -83,19 +84,6 @@ fn outside(source: &str, file: &Path, folder: &Path) -> Vec<(usize, String)> {
         is_outside.then(|| (line, path.to_owned()))
     });
     found.collect()
-}
-
-/// A path without steps back.
-fn normal(path: &Path) -> PathBuf {
-    let mut whole = PathBuf::new();
-    for component in path.components() {
-        match component {
-            Component::ParentDir => drop(whole.pop()),
-            Component::CurDir => {}
-            other => whole.push(other),
-        }
-    }
-    whole
 }
 
 #[cfg(test)]

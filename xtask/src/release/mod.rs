@@ -10,13 +10,13 @@ mod crates;
 mod files;
 mod javascript;
 mod links;
-mod member;
 mod readiness;
 mod source_distribution;
 mod table;
 mod versions;
 mod wheel;
 
+use crate::member;
 use crate::shell::Outcome;
 use crate::wasm::Purpose;
 use crate::web;

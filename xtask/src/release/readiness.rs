@@ -1,10 +1,9 @@
 //! What has to be done before a release is published, and not before it is tried.
 
-use std::fs;
-
-use super::member;
 use super::versions::{VERSION, is_in_changelog};
-use crate::shell::{Outcome, root};
+use crate::documents;
+use crate::member;
+use crate::shell::Outcome;
 
 /// An address that leads nowhere ends so.
 const RESERVED: &str = ".example";
@@ -22,12 +21,12 @@ pub fn open_points(tag: Option<&str>) -> Outcome<Vec<String>> {
         open.push(format!("  `repository` of Cargo.toml is {address}, which leads nowhere"));
     } else {
         for file in NAME_THE_ADDRESS {
-            if !read(file)?.contains(&address) {
+            if !documents::text(file)?.contains(&address) {
                 open.push(format!("  {file} does not name {address}"));
             }
         }
     }
-    if !is_in_changelog(&read("CHANGELOG.md")?, VERSION) {
+    if !is_in_changelog(&documents::text("CHANGELOG.md")?, VERSION) {
         open.push(format!("  CHANGELOG.md has no heading `## {VERSION}`"));
     }
     Ok(open)
@@ -43,10 +42,6 @@ fn address() -> Outcome<String> {
 fn host(address: &str) -> &str {
     let rest = address.split_once("://").map_or(address, |(_, rest)| rest);
     rest.split('/').next().unwrap_or(rest)
-}
-
-fn read(file: &str) -> Outcome<String> {
-    fs::read_to_string(root().join(file)).map_err(|error| format!("{file}: {error}"))
 }
 
 #[cfg(test)]

@@ -3,10 +3,11 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use super::member::{Member, all, built_from};
 use super::{archive, files};
+use crate::files::only_file;
+use crate::member::{Member, all, built_from};
 use crate::python::Environment;
-use crate::shell::{Outcome, cargo_program, root};
+use crate::shell::{Outcome, cargo_program, printed, root};
 
 /// The crate that the Python package is built from.
 const ENGINE: &str = "carom-py";
@@ -32,7 +33,7 @@ pub fn make(builds: bool) -> Outcome {
     let mut maturin = environment.command();
     maturin.args(["-m", "maturin", "sdist", "--out"]).arg(&folder);
     files::run_in(&root(), "maturin", &mut maturin)?;
-    let file = files::publish(&files::only_file(&folder)?)?;
+    let file = files::publish(&only_file(&folder)?)?;
     check(&file)?;
     if builds {
         let wheels = files::staging("wheel-of-sdist")?;
@@ -72,12 +73,7 @@ fn resolve(folder: &Path) -> Outcome {
 fn packaged(member: &Member) -> Outcome<Vec<String>> {
     let mut command = Command::new(cargo_program());
     command.args(["package", "--list", "--quiet", "--allow-dirty", "--package", &member.name]);
-    let output = command.current_dir(root()).output();
-    let output = output.map_err(|error| format!("cargo package: {error}"))?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-    }
-    let text = String::from_utf8_lossy(&output.stdout);
+    let text = printed("cargo package", &mut command)?;
     let names = text.lines().filter(|name| !ADDED.contains(name));
     Ok(names.map(|name| name.replace('\\', "/")).collect())
 }

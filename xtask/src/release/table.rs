@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use super::{files, member, readiness};
+use super::{files, readiness};
+use crate::member;
 use crate::shell::Outcome;
 
 /// Prints it.

@@ -1,9 +1,8 @@
 //! One version everywhere: crates, Python package, JavaScript package, citation.
 
-use std::fs;
-
-use super::member::Member;
-use crate::shell::{Outcome, root};
+use crate::documents;
+use crate::member::Member;
+use crate::shell::Outcome;
 
 /// The version of this release.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -17,11 +16,11 @@ pub fn check(members: &[Member]) -> Outcome {
     let mut faults: Vec<String> = members.iter().flat_map(faults_of).collect();
     for (file, before, after) in LINES {
         let line = format!("{before}{VERSION}{after}");
-        if !read(file)?.lines().any(|it| it == line) {
+        if !documents::text(file)?.lines().any(|it| it == line) {
             faults.push(format!("  {file} has no line {line:?}"));
         }
     }
-    if !takes_version_of_crate(&read("pyproject.toml")?) {
+    if !takes_version_of_crate(&documents::text("pyproject.toml")?) {
         faults.push("  pyproject.toml must take its version from the crate: dynamic".to_owned());
     }
     if faults.is_empty() { Ok(()) } else { Err(format!("versions:\n{}", faults.join("\n"))) }
@@ -55,10 +54,6 @@ fn takes_version_of_crate(text: &str) -> bool {
     let project = project.split("\n[").next().unwrap_or_default();
     let is_own = |line: &str| line.starts_with("version");
     project.lines().any(|line| line == "dynamic = [\"version\"]") && !project.lines().any(is_own)
-}
-
-fn read(file: &str) -> Outcome<String> {
-    fs::read_to_string(root().join(file)).map_err(|error| format!("{file}: {error}"))
 }
 
 #[cfg(test)]

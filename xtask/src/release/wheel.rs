@@ -2,6 +2,7 @@
 
 use super::files;
 use super::versions::VERSION;
+use crate::files::only_file;
 use crate::notices;
 use crate::python::Environment;
 use crate::shell::{Outcome, host, root, target_folder};
@@ -27,7 +28,7 @@ pub fn make() -> Outcome {
     maturin.args(["-m", "maturin", "build", "--profile", "dist", "--locked", "--out"]).arg(&folder);
     maturin.env("CARGO_TARGET_DIR", target_folder());
     files::run_in(&root(), "maturin", &mut maturin)?;
-    let wheel = files::publish(&files::only_file(&folder)?)?;
+    let wheel = files::publish(&only_file(&folder)?)?;
     let name = wheel.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let is_for_linux = cfg!(target_os = "linux");
     if !name.contains(VERSIONS_OF_PYTHON) || is_for_linux && !name.contains("manylinux") {
