@@ -53,7 +53,15 @@ pub fn run(parts: &[&'static Part], variables: &[(&str, String)]) -> Outcome<Don
                 .collect();
             let is_ready = |part: &&Part| !part.after.iter().any(|it| unfinished.contains(it));
             let Some(next) = waiting.iter().position(is_ready) else { break };
-            running.push(start(waiting.remove(next), variables)?);
+            let next = waiting.remove(next);
+            match start(next, variables) {
+                Ok(part) => running.push(part),
+                // Those that run are waited for.
+                Err(fault) => {
+                    eprintln!("{}: {fault}", next.name);
+                    failed.push(next.name);
+                }
+            }
         }
         if running.is_empty() {
             break;
