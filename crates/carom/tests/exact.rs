@@ -765,3 +765,34 @@ fn a_ball_that_slides_over_the_edge_of_a_turning_box_goes_no_farther_than_its_sp
         assert!(way < 0.6 * frame, "{way} m from {place}");
     }
 }
+
+#[test]
+fn balls_however_far_outside_a_periodic_box_are_their_images_within() {
+    let boundary = Boundary::Periodic { size: vec(8.0, 8.0, f64::INFINITY) };
+    let ball = |x: f64| Sphere::new(vec(x, 0.0, 0.0), 0.25).with_velocity(DVec3::X);
+    let target = Sphere::new(vec(2.0, 0.0, 0.0), 0.25);
+    let image = |first: Sphere, is_put: bool| {
+        let mut world = World::new(Settings::default().with_boundary(boundary)).unwrap();
+        let id = world.add_sphere(if is_put { ball(0.0) } else { first }).unwrap();
+        world.add_sphere(target).unwrap();
+        if is_put {
+            world.step(1.0 / 64.0).unwrap();
+            world.set_sphere(id, first).unwrap();
+        }
+        let impacts = run(&mut world, 1.0 / 64.0, 256);
+        (impacts, world.spheres().positions().to_vec())
+    };
+    for is_put in [false, true] {
+        let expected = image(ball(0.0), is_put);
+        assert_eq!(expected.0, 1);
+        // Multiples of 8, as far as the box is counted and farther; the last one has no digit left.
+        for away in [8.0, 2f64.powi(40), -(2f64.powi(55)), 2f64.powi(1000)] {
+            assert_eq!(image(ball(away), is_put), expected, "{away} m away");
+        }
+    }
+    let emitter = Emitter::new(ball(2f64.powi(50)), 1.0).with_count(1);
+    let mut world = World::new(Settings::default().with_boundary(boundary)).unwrap();
+    world.add_emitter(emitter).unwrap();
+    world.step(0.5).unwrap();
+    assert_eq!(world.spheres().positions(), [vec(0.5, 0.0, 0.0)]);
+}

@@ -9,8 +9,8 @@ mod common;
 use std::f64::consts::{PI, TAU};
 
 use carom::{
-    Buoyancy, DVec3, Exact, Force, Gravity, Integrator, PointAttractor, QuadraticDrag, Sphere,
-    SphereState, Vortex, Wind, World,
+    Buoyancy, Collider, DQuat, DVec3, Exact, Force, ForceId, Gravity, Integrator, PointAttractor,
+    Pose, QuadraticDrag, Rule, Shape, Sphere, SphereState, Vortex, Wind, World,
 };
 use common::{G, Numbers, assert_close, vec, world, world_with};
 
@@ -207,4 +207,98 @@ fn forces_refuse_numbers_that_make_no_sense() {
         assert!(error.to_string().contains(&format!("`{field}` must be")), "{error}");
     }
     assert_eq!(world.forces().len(), 0);
+}
+
+/// Adds a force to a world of a size.
+type Add = fn(&mut World, f64) -> ForceId;
+
+/// Forces that have no closed form; each lets a ball lie on a floor at y = 0.
+const VARYING: [Add; 4] = [
+    |world, _| world.add_force(QuadraticDrag::new(1.2)).unwrap(),
+    |world, size| {
+        let gravity = vec(0.0, -G * size, 0.0);
+        world.add_force(Buoyancy::new(300.0, 10.0 * size).with_gravity(gravity)).unwrap()
+    },
+    |world, size| {
+        let centre = vec(0.3, 0.0, 0.2) * size;
+        world.add_force(Vortex::new(centre, 0.5 * size * size, 0.4 * size.powi(3))).unwrap()
+    },
+    |world, size| {
+        let below = vec(0.0, -30.0, 0.0) * size;
+        world.add_force(PointAttractor::new(below, 40.0 * size.powi(3))).unwrap()
+    },
+];
+
+/// A world of this size where gravity and another force act over colliders of a restitution.
+fn borne(add: Add, colliders: &[Collider], restitution: f64, size: f64) -> World {
+    let mut world = world(Rule::default());
+    world.add_force(Gravity::new(vec(0.0, -G * size, 0.0))).unwrap();
+    add(&mut world, size);
+    for &collider in colliders {
+        world.add_collider(collider.with_restitution(restitution)).unwrap();
+    }
+    world
+}
+
+fn light_ball(place: DVec3, size: f64) -> Sphere {
+    Sphere::new(place * size, 0.1 * size).with_density(1000.0)
+}
+
+#[test]
+fn balls_under_varying_forces_stay_on_the_plane_that_bears_them() {
+    for (size, friction) in [(1e-6, 0.0), (1.0, 0.0), (1.0, 0.4), (1e6, 0.0)] {
+        let face = Shape::Rectangle { size_x: 80.0 * size, size_z: 80.0 * size };
+        let block = Shape::Box { size: vec(80.0, 2.0, 80.0) * size };
+        for (shape, y) in [(Shape::HalfSpace, 0.0), (face, 0.0), (block, -1.0)] {
+            let floor = Collider::new(shape, Pose::at(vec(0.0, y, 0.0) * size));
+            for (add, restitution) in
+                VARYING.iter().flat_map(|&add| [0.0, 0.5, 0.9].map(|e| (add, e)))
+            {
+                let mut world = borne(add, &[floor], restitution, size);
+                let ball = |x: f64| light_ball(vec(x, 0.1, 0.0), size).with_friction(friction);
+                world.add_sphere(ball(-1.0).with_restitution(restitution)).unwrap();
+                let moving = ball(1.0).with_velocity(vec(0.0, 0.0, 0.5) * size);
+                world.add_sphere(moving.with_restitution(restitution)).unwrap();
+                run(&mut world, 4.0, 1.0 / 60.0);
+                for position in world.spheres().positions() {
+                    let gap = position.y - 0.1 * size;
+                    // The rounding of coordinates that differ by tens of metres.
+                    assert!(gap.abs() <= 1e-13 * size, "{gap} m: {shape:?}, e = {restitution}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn balls_under_varying_forces_stay_in_corners_grooves_and_piles() {
+    let plane = |normal: DVec3| {
+        let pose = Pose::at(DVec3::ZERO).rotated(DQuat::from_rotation_arc(DVec3::Y, normal));
+        Collider::new(Shape::HalfSpace, pose)
+    };
+    let lean = 0.5f64.sqrt();
+    let floor = plane(DVec3::Y);
+    let corner = [floor, plane(DVec3::X)];
+    let groove = [plane(vec(lean, lean, 0.0)), plane(vec(-lean, lean, 0.0))];
+    let round = [Collider::new(Shape::Sphere { radius: 1.0 }, Pose::at(vec(0.0, -1.0, 0.0)))];
+    let at = |places: &[[f64; 3]]| places.iter().map(|&it| it.into()).collect::<Vec<DVec3>>();
+    let situations: [(&[Collider], Vec<DVec3>); 4] = [
+        (&corner, at(&[[0.1, 0.1, 0.0]])),
+        (&groove, at(&[[0.0, 0.2 * lean, 0.0]])),
+        (&[floor], at(&[[0.0, 0.1, 0.0], [0.0, 0.3, 0.0], [0.2, 0.1, 0.0]])),
+        (&round, at(&[[0.0, 0.1, 0.0]])),
+    ];
+    for (colliders, places) in &situations {
+        for (add, restitution) in VARYING.iter().flat_map(|&add| [0.0, 0.5, 0.9].map(|e| (add, e)))
+        {
+            let mut world = borne(add, colliders, restitution, 1.0);
+            for &place in places {
+                world.add_sphere(light_ball(place, 1.0).with_restitution(restitution)).unwrap();
+            }
+            run(&mut world, 3.0, 1.0 / 60.0);
+            // A pile is followed to this part of a radius.
+            let overlaps = world.overlaps(1e-9 * 0.1);
+            assert!(overlaps.is_empty(), "{overlaps:?}: {colliders:?}, e = {restitution}");
+        }
+    }
 }

@@ -155,15 +155,13 @@ pub(crate) enum Unheld {
     NotFinite(SphereId),
 }
 
-/// Has force ticks fit frames of this length \[s\], and springs. Tells whether they are others now.
+/// Has force ticks fit frames of this length \[s\], and springs; of spheres that are emitted in the frame,
+/// too. Tells whether forces are held until others now.
 fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, Unheld> {
-    if !timeline.flights.forces_vary {
-        return Ok(false);
-    }
     let (before, rate) = (timeline.force_tick, timeline.spring_rate);
     let tick = tick_for_springs(rate, timeline.parameters, frame)?;
     timeline.force_tick = ticks::part(tick, ticks::halvings_for_springs(rate, tick));
-    Ok(timeline.force_tick != before)
+    Ok(timeline.flights.forces_vary && timeline.force_tick != before)
 }
 
 /// The force tick \[s\] in frames of this length \[s\], before springs of this rate \[1/s\] make it shorter.

@@ -7,10 +7,14 @@ use glam::DVec3;
 /// The image of a position in the box about the origin \[m\]. `period` has the edges of the box,
 /// infinite along an open axis.
 pub(super) fn wrapped(position: DVec3, period: DVec3) -> DVec3 {
-    match image_offset_of(position, period) {
-        [0, 0, 0] => position,
-        offset => position - image_shift(offset, period),
+    if is_in_box(position, period) {
+        return position;
     }
+    // Boxes may be more than an image offset counts. Along an open axis this is the floor of a half.
+    let boxes = (position / period + 0.5).floor();
+    let way = DVec3::select(period.is_finite_mask(), boxes * period, DVec3::ZERO);
+    // From very far away, rounding leaves no place within the box.
+    (position - way).clamp(-0.5 * period, 0.5 * period)
 }
 
 /// Whether a position is in the box about the origin.

@@ -133,6 +133,7 @@ impl Timeline {
     pub fn place(&mut self, index: usize, position: DVec3, velocity: DVec3, time: f64) {
         let slot = self.flights.slot_of[index];
         self.set_free(slot, time);
+        let position = self.neighbours.wrapped(position);
         self.flights.bodies[slot as usize].begin_flight(position, velocity, time);
         self.cross_cell(slot, [position, velocity], &mut NeighbourBuffer::default());
         self.wrap(slot);

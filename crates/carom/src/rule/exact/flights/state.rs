@@ -10,6 +10,7 @@ use super::rotation::Rotation;
 use super::species::{Species, SpeciesOfSpheres};
 use crate::bodies::Motion;
 use crate::detect::contact::Bodies;
+use crate::rule::exact::periodic;
 use crate::system::System;
 
 /// The flights of all spheres, and the clusters that persistent contacts make of them.
@@ -46,8 +47,10 @@ impl Flights {
         let SpeciesOfSpheres { species, number_of, hold_forces, forces_vary } =
             SpeciesOfSpheres::of(system);
         let count = number_of.len();
+        let period = system.settings.boundary.period();
         let body = |index: usize| {
-            let (position, velocity) = (motion.position[index], motion.velocity[index]);
+            let position = periodic::wrapped(motion.position[index], period);
+            let velocity = motion.velocity[index];
             let begun = |time| Body { position, velocity, time, species: 0, generation: 0 };
             let flight = flight_of(index).unwrap_or_else(begun);
             Body { species: number_of[index], ..flight }

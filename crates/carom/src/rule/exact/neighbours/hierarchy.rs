@@ -405,6 +405,11 @@ impl Neighbours {
         periodic::is_in_box(position, self.periodic_box.period)
     }
 
+    /// The image of a position in the periodic box \[m\].
+    pub fn wrapped(&self, position: DVec3) -> DVec3 {
+        periodic::wrapped(position, self.periodic_box.period)
+    }
+
     /// Wraps the position of a sphere, where a flight of it begins, into the periodic box, if it is
     /// elsewhere.
     pub fn wrap(&mut self, slot: u32, level: u32, position: DVec3) -> Option<DVec3> {

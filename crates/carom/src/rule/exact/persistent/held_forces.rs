@@ -8,6 +8,7 @@ use crate::detect::contact::Bodies;
 use crate::forces::{self, SphereState};
 use crate::integrate;
 use crate::rule::exact::contacts::{Corner, Member, Plane};
+use crate::rule::exact::flights::Species;
 use crate::rule::exact::ticks::first_tick_after;
 use crate::rule::exact::timeline::Timeline;
 use crate::system::System;
@@ -48,13 +49,14 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) {
         if timeline.flights.is_stepped(slot) {
             // Of use once it flies again.
             timeline.flights.set_free_acceleration(slot, uniform);
-        } else if is_all {
+            continue;
+        }
+        if is_all {
             begin_under(timeline, system, slot, uniform, [start, end]);
-            timeline.find_clearance(system, slot);
         } else {
-            timeline.set_free(slot, start);
             begin_under_varying(timeline, system, slot, uniform, [start, end]);
         }
+        timeline.find_clearance(system, slot);
     }
 }
 
@@ -156,7 +158,8 @@ fn planar_support(
 }
 
 /// Begins the flight of a sphere under forces that depend on where it is and how it moves, besides
-/// an acceleration \[m/s²\] that is the same everywhere.
+/// an acceleration \[m/s²\] that is the same everywhere: those that act on it in the middle of a flight,
+/// or of a motion in contact, under the forces of the start.
 fn begin_under_varying(
     timeline: &mut Timeline,
     system: &System,
@@ -164,17 +167,18 @@ fn begin_under_varying(
     uniform: DVec3,
     [start, end]: [f64; 2],
 ) {
-    let half = 0.5 * (end - start);
-    let species = *timeline.flights.species_of(slot);
-    let acceleration_in = |(position, velocity): (DVec3, DVec3), time: f64| {
-        let state = SphereState { position, velocity, radius: species.radius, mass: species.mass };
-        uniform + forces::total_of_others(system.forces, &state, time) / species.mass
+    let middle = start + 0.5 * (end - start);
+    let Species { radius, mass, .. } = *timeline.flights.species_of(slot);
+    let acceleration_at = |timeline: &Timeline, time: f64| {
+        let (position, velocity) = timeline.flights.state_of(slot, time);
+        let state = SphereState { position, velocity, radius, mass };
+        uniform + forces::total_of_others(system.forces, &state, time) / mass
     };
+    // In a periodic box the flight may begin at an image of that place.
     let (position, velocity) = timeline.flights.state_of(slot, start);
     timeline.begin_flight(slot, position, velocity, start);
-    // In a periodic box the flight may begin at an image of that place.
-    let before = acceleration_in(timeline.flights.state_of(slot, start), start);
-    timeline.flights.set_acceleration(slot, before);
-    let middle = acceleration_in(timeline.flights.state_of(slot, start + half), start + half);
-    timeline.flights.set_acceleration(slot, middle);
+    for time in [start, middle] {
+        let acceleration = acceleration_at(timeline, time);
+        begin_under(timeline, system, slot, acceleration, [start, end]);
+    }
 }
