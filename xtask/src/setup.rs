@@ -1,8 +1,10 @@
 //! What the checks need besides the toolchain itself.
 
+use std::fs::File;
 use std::path::Path;
 
-use crate::shell::{Outcome, output, run, succeeds};
+use crate::files::{made, said};
+use crate::shell::{Outcome, output, run, succeeds, target_folder};
 
 /// Adds the toolchain's formatter and linter where they are missing.
 pub fn toolchain() -> Outcome {
@@ -126,12 +128,15 @@ pub fn debian_wasm() -> Outcome {
 /// Installs what is missing with the system's package manager, if that is Debian's or one like it;
 /// elsewhere says what is needed and goes on.
 fn install(needs: &[Need]) -> Outcome {
-    let missing: Vec<&str> = needs
-        .iter()
-        .filter(|need| !(need.is_met)())
-        .flat_map(|need| need.packages.iter().copied())
-        .collect();
-    if missing.is_empty() || !cfg!(target_os = "linux") {
+    if missing(needs).is_empty() || !cfg!(target_os = "linux") {
+        return Ok(());
+    }
+    // One at a time: another part of the checks may be installing the same.
+    let path = made(target_folder())?.join("install.lock");
+    let lock = File::create(&path).map_err(|error| said(&path, &error))?;
+    lock.lock().map_err(|error| said(&path, &error))?;
+    let missing = missing(needs);
+    if missing.is_empty() {
         return Ok(());
     }
     if !succeeds("apt-get", &["--version"]) {
@@ -151,6 +156,12 @@ fn install(needs: &[Need]) -> Outcome {
     // Rather fail than remove what another program uses.
     let install = ["install", "-y", "-qq", "--no-install-recommends", "--no-remove"];
     with(&[&install[..], &missing].concat())
+}
+
+/// The packages of what is not there.
+fn missing(needs: &[Need]) -> Vec<&'static str> {
+    let missing = needs.iter().filter(|need| !(need.is_met)());
+    missing.flat_map(|need| need.packages.iter().copied()).collect()
 }
 
 /// Whether the loader of Vulkan finds a driver.

@@ -3,6 +3,7 @@
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::Instant;
 
 use serde_json::Value;
 
@@ -66,7 +67,9 @@ pub fn cargo_output(arguments: &[&str]) -> Outcome<String> {
     eprintln!("\n== {line}");
     let mut command = Command::new(cargo_program());
     command.args(arguments).current_dir(root()).stderr(Stdio::inherit());
+    let start = Instant::now();
     let output = command.output().map_err(|error| format!("{line}: {error}"))?;
+    say_duration(start);
     if output.status.success() {
         Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     } else {
@@ -125,6 +128,16 @@ pub fn finish(name: &str, command: &mut Command) -> Outcome {
     if command.get_current_dir().is_none() {
         command.current_dir(root());
     }
+    let start = Instant::now();
     let status = command.status().map_err(|error| format!("{line}: {error}"))?;
+    say_duration(start);
     if status.success() { Ok(()) } else { Err(format!("{line} failed")) }
+}
+
+/// Says how long a command took, if somebody waited for it.
+fn say_duration(start: Instant) {
+    let seconds = start.elapsed().as_secs();
+    if seconds >= 5 {
+        eprintln!("== {seconds} s");
+    }
 }

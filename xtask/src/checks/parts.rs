@@ -6,7 +6,6 @@ use super::part::{Part, Reads};
 use super::programs::{self, Program};
 use crate::commands::{self, Programs};
 use crate::shell::{CI, Outcome, cargo, cargo_with, ci_folder, finish, program};
-use crate::wasm_toolchain::WasmToolchain;
 use crate::{
     architecture, c_interface, circles, dependencies, documents, js_package, python, release,
     setup, sizes, stages, wasm, web, web_tools, words,
@@ -18,7 +17,8 @@ pub const PACKAGES: &str = "CAROM_TEST_PACKAGES";
 /// The parts.
 pub const PARTS: [Part; 15] = [
     Part { name: "set-up", after: &[], reads: Reads::Everything, run: set_up },
-    Part { name: "lint", after: &["set-up"], reads: Reads::Everything, run: lint },
+    // What is built meanwhile needs nothing of it, or waits for it.
+    Part { name: "lint", after: &[], reads: Reads::Everything, run: lint },
     Part {
         name: "modules",
         after: &["lint"],
@@ -30,7 +30,7 @@ pub const PARTS: [Part; 15] = [
     Part { name: "tests", after: &["builds"], reads: RUST, run: tests },
     Part {
         name: "debug",
-        after: &["lint"],
+        after: &["builds"],
         reads: Reads::Some { packages: PHYSICS, paths: &[] },
         run: debug,
     },
@@ -91,9 +91,7 @@ const PHYSICS: &[&str] = &["carom", "carom-scene"];
 
 /// Installs what all parts need; by itself each part installs what it needs.
 fn set_up() -> Outcome {
-    setup::toolchain()?;
-    setup::everything()?;
-    WasmToolchain::find().map(drop)
+    setup::everything()
 }
 
 /// Checks what needs no build: formats, words, names in documents, the order of modules.
@@ -154,12 +152,20 @@ fn tests() -> Outcome {
     programs::run(&programs, &[], &[("XDG_RUNTIME_DIR", &folder)])
 }
 
-/// The physics as it is built while one works on it: with assertions, with checks of overflows,
-/// without threads; the bits are the same.
+/// The physics with assertions, with checks of overflows, without threads; the bits are the same.
 fn debug() -> Outcome {
-    let packages = ["--package", "carom", "--package", "carom-scene"];
-    let targets = ["--lib", "--tests", "--quiet"];
-    cargo_with(&[&["test"], &packages[..], &targets].concat(), &[("CARGO_INCREMENTAL", "0")])
+    let checked = |package: &&str| {
+        let setting = |name: &str| format!("profile.{CI}.package.{package}.{name}=true");
+        ["debug-assertions", "overflow-checks"].map(setting)
+    };
+    // Rather built soon than fast.
+    let mut settings = vec![format!("profile.{CI}.package.carom.opt-level=1")];
+    settings.push(format!("profile.{CI}.package.carom.codegen-units=16"));
+    settings.extend(PHYSICS.iter().flat_map(checked));
+    let settings = settings.iter().flat_map(|setting| ["--config", setting]);
+    let packages = PHYSICS.iter().flat_map(|package| ["--package", package]);
+    let test = ["test", "--profile", CI, "--lib", "--tests", "--quiet"];
+    cargo(&test.into_iter().chain(packages).chain(settings).collect::<Vec<_>>())
 }
 
 /// The examples in the documentation of functions.
