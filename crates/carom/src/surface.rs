@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::collider::{Collider, Pose, Shape, Sides};
 use crate::friction::Friction;
 use crate::id::ColliderId;
+use crate::norm::Norm;
 
 /// One surface of a collider in world coordinates, with what a contact needs to know of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,6 +97,38 @@ pub(crate) enum Form {
     Rectangle(Rectangle),
     HalfSpace { point: DVec3, normal: DVec3 },
     Box(SolidBox),
+}
+
+impl Form {
+    /// Size of the coordinates that it is given by \[m\].
+    pub fn coordinates(&self) -> f64 {
+        match *self {
+            Self::Sphere { center, radius } => center.norm() + radius,
+            Self::HalfSpace { point, .. } => point.norm(),
+            Self::Rectangle(Rectangle { center, half_x, half_z, .. }) => {
+                center.norm() + half_x + half_z
+            }
+            Self::Box(SolidBox { center, half, .. }) => center.norm() + half.element_sum(),
+        }
+    }
+
+    /// Height of its highest point above a plane, which is given by a point \[m\] and its normal.
+    pub fn height_above(&self, [point, normal]: [DVec3; 2]) -> f64 {
+        let height = |place: DVec3| (place - point).dot(normal);
+        match *self {
+            Self::Sphere { center, radius } => height(center) + radius,
+            Self::HalfSpace { point, normal: own } if own == normal => height(point),
+            Self::HalfSpace { .. } => f64::INFINITY,
+            Self::Rectangle(Rectangle { center, axis_x, axis_z, half_x, half_z, .. }) => {
+                let rise = |axis: DVec3, half: f64| half * axis.dot(normal).abs();
+                height(center) + rise(axis_x, half_x) + rise(axis_z, half_z)
+            }
+            Self::Box(SolidBox { center, axes, half }) => {
+                let rises = axes.map(|axis| axis.dot(normal).abs());
+                height(center) + half.dot(DVec3::from_array(rises))
+            }
+        }
+    }
 }
 
 /// A solid box in the world.

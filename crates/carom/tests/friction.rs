@@ -5,11 +5,11 @@
 
 mod common;
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use carom::{
-    Collider, DVec3, Emitter, Error, Exact, Friction, Gravity, Pose, Settings, Shape, Sphere,
-    SphereId, World, Zones,
+    Collider, DQuat, DVec3, Emitter, Error, Exact, Friction, Gravity, Pose, Settings, Shape,
+    Sphere, SphereId, World, Zones,
 };
 use common::{G, Numbers, vec, world};
 
@@ -539,4 +539,82 @@ fn what_friction_presses_together_is_stepped_at_once() {
     let ball = world.sphere(id).unwrap();
     assert_close(ball.velocity.x, 0.5, 1e-3);
     assert_close(ball.angular_velocity.z, -0.5 / RADIUS, 1e-2 / RADIUS);
+}
+
+/// Colliders whose tops make a floor, in a turned place: a row of boxes side by side, rectangles edge to edge
+/// in two directions, a small one before a large one, a box that is let into a half-space.
+fn floors(size: f64, turn: DQuat) -> [Vec<Collider>; 4] {
+    let place = |shape: Shape, x: f64, y: f64, z: f64| {
+        Collider::new(shape, Pose::at(turn * vec(x, y, z) * size).rotated(turn))
+    };
+    let rectangle = |size_x: f64, size_z: f64| Shape::Rectangle {
+        size_x: size_x * size,
+        size_z: size_z * size,
+    };
+    let steps = -8..8;
+    let block = Shape::Box { size: vec(0.25, 1.0, 4.0) * size };
+    let blocks = steps.clone().map(|i| place(block, 0.25 * f64::from(i), -0.5, 0.0));
+    let pairs = steps.clone().flat_map(|i| steps.clone().map(move |j| (i, j)));
+    let tile = rectangle(0.3, 0.3);
+    let tiles = pairs.map(|(i, j)| place(tile, 0.3 * f64::from(i), 0.0, 0.3 * f64::from(j)));
+    let two = [
+        place(rectangle(1.0, 4.0), -0.5, 0.0, 0.0),
+        place(rectangle(1000.0, 1000.0), 500.0, 0.0, 0.0),
+    ];
+    let sunk = Shape::Box { size: vec(0.7, 1.0, 0.7) * size };
+    let sunk = [place(Shape::HalfSpace, 0.0, 0.0, 0.0), place(sunk, 0.1, -0.5, 0.0)];
+    [blocks.collect(), tiles.collect(), two.into(), sunk.into()]
+}
+
+/// How balls come over a floor: speed, direction, friction, restitution.
+const WAYS: [(f64, [f64; 3], f64, f64); 7] = [
+    (2.0, [1.0, 0.0, 0.0], 0.5, 1.0),
+    (0.01, [1.0, 0.0, 0.0], 0.5, 1.0),
+    (30.0, [1.0, 0.0, 0.0], 0.5, 0.6),
+    (2.0, [0.8, 0.0, 0.6], 0.5, 1.0),
+    // Through the corners of tiles.
+    (2.0, [FRAC_1_SQRT_2, 0.0, FRAC_1_SQRT_2], 0.5, 1.0),
+    (2.0, [1.0, 0.0, 0.0], 0.0, 1.0),
+    (2.0, [0.8, 0.0, 0.6], 0.0, 0.5),
+];
+
+#[test]
+fn a_ball_rolls_over_the_seams_of_a_floor_as_if_there_were_none() {
+    let (radius, way) = (0.1, 0.9);
+    let turned = DQuat::from_rotation_z(0.3) * DQuat::from_rotation_x(0.7);
+    let scales = [1e-6, 1.0, 1e6].map(|size| [(size, DQuat::IDENTITY), (size, turned)]);
+    for (size, turn) in scales.into_iter().flatten() {
+        for (number, floor) in floors(size, turn).into_iter().enumerate() {
+            for (speed, direction, friction, restitution) in WAYS {
+                let mut world = world(Exact::default());
+                world.add_force(Gravity::new(turn * vec(0.0, -G * size, 0.0))).unwrap();
+                for &collider in &floor {
+                    world.add_collider(collider.with_restitution(restitution)).unwrap();
+                }
+                let direction = DVec3::from(direction);
+                // It begins between seams, but for tiles on one or before a corner.
+                let start = vec(-0.15, radius, -0.15) - 0.3 * direction;
+                let ball = Sphere::new(turn * start * size, radius * size)
+                    .with_velocity(turn * direction * (speed * size))
+                    .with_angular_velocity(turn * DVec3::Y.cross(direction) * (speed / radius))
+                    .with_restitution(restitution)
+                    .with_friction(friction);
+                let id = world.add_sphere(ball).unwrap();
+                let (mut impacts, mut events) = (0, 0);
+                for _ in 0..64 {
+                    let report = world.step(way / speed / 64.0).unwrap();
+                    impacts += report.impacts.len();
+                    events += report.work.events;
+                }
+                let case = format!("floor {number}, size {size}, {turn}, {speed} m/s, {direction}");
+                assert_eq!(impacts, 0, "{case}");
+                assert!(events < 100, "{events} events, {case}");
+                let after = world.sphere(id).unwrap();
+                // Rounding, once for every seam.
+                let expected = turn * (start + way * direction) * size;
+                assert_vectors_close(after.position, expected, 1e-12 * size);
+                assert_vectors_close(after.velocity, ball.velocity, 1e-12 * speed * size);
+            }
+        }
+    }
 }

@@ -87,13 +87,5 @@ fn sphere_turning_surface(
 
 /// Size of the coordinates of a surface and of the radii.
 fn size_of(form: &Form, radius: f64) -> Magnitudes {
-    let length = match *form {
-        Form::Sphere { center, radius } => center.norm() + radius,
-        Form::HalfSpace { point, .. } => point.norm(),
-        Form::Rectangle(Rectangle { center, half_x, half_z, .. }) => {
-            center.norm() + half_x + half_z
-        }
-        Form::Box(_) => 0.0,
-    };
-    Magnitudes::of_length(length + radius)
+    Magnitudes::of_length(form.coordinates() + radius)
 }

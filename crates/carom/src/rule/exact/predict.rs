@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::contacts::{MOST_PLANES, Plane};
 use super::context::StepContext;
 use super::events::{Event, EventTarget, NextEvents, PackedTarget, Prediction};
 use super::flights::{Body, Species};
@@ -203,6 +204,8 @@ fn meet_surfaces(
     let (horizon, flight_end) = (timeline.horizon(), timeline.flight_end(species));
     let reach = (flight_end < f64::INFINITY)
         .then(|| Reach::of(body.flight(species), species.radius, flight_end - body.time));
+    let center = body.position;
+    let planes = planes_that_hold(timeline, system, slot);
     for (number, shift) in timeline.surfaces_near(slot) {
         let surface = &system.surfaces[number as usize];
         let is_at_rest = surface.motion.is_at_rest();
@@ -212,6 +215,10 @@ fn meet_surfaces(
         }
         let is_passed = passed.contains(&Bodies::Surface { sphere, surface: number });
         if is_passed || timeline.flights.is_held_by(slot, number) {
+            continue;
+        }
+        if is_at_rest && planes.iter().flatten().any(|plane| plane.is_above(&surface.form, center))
+        {
             continue;
         }
         // A surface that moves is given as it is at the start of the frame.
@@ -229,4 +236,24 @@ fn meet_surfaces(
             events.add(Event::at(start + delay, target));
         }
     }
+}
+
+/// The planes at rest that a sphere lies on. In a periodic box they may be images, and none is given.
+fn planes_that_hold<'a>(
+    timeline: &Timeline,
+    system: &System<'a>,
+    slot: u32,
+) -> [Option<Plane<'a>>; MOST_PLANES] {
+    let mut planes = [None; MOST_PLANES];
+    let flights = &timeline.flights;
+    let Some(cluster) = flights.species_of(slot).cluster else { return planes };
+    if system.settings.boundary.period() != DVec3::INFINITY {
+        return planes;
+    }
+    let body = &flights.bodies[slot as usize];
+    let state = [body.position, body.velocity];
+    let surfaces = flights.clusters.get(cluster).surfaces_of(flights.index_of[slot as usize]);
+    let under = surfaces.filter_map(|surface| Plane::under(state, surface, system.surfaces));
+    planes.iter_mut().zip(under).for_each(|(place, plane)| *place = Some(plane));
+    planes
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::separation::beyond;
+use super::separation::are_within;
 use crate::detect::Separation;
 use crate::norm::Norm;
 use crate::surface::Form;
@@ -31,22 +31,24 @@ impl NormalCurvature {
     }
 }
 
-/// How the normal turns where a sphere about `center` \[m\] touches a surface.
-pub(super) fn curvature_of(form: &Form, center: DVec3, separation: &Separation) -> NormalCurvature {
+/// How the normal turns where a sphere about `center` \[m\] touches a surface, with a velocity relative to
+/// it \[m/s\].
+pub(super) fn curvature_of(
+    form: &Form,
+    [center, velocity]: [DVec3; 2],
+    separation: &Separation,
+) -> NormalCurvature {
     let distance = (center - separation.point).norm();
     match form {
         Form::Sphere { center: fixed, .. } => {
             NormalCurvature::RoundFeature((center - *fixed).norm())
         }
         Form::HalfSpace { .. } | Form::Box(_) => NormalCurvature::Flat,
-        Form::Rectangle(rectangle) => {
-            let [beyond_x, beyond_z] = beyond(rectangle, center);
-            match (beyond_x >= 0.0, beyond_z >= 0.0) {
-                (false, false) => NormalCurvature::Flat,
-                (true, false) => NormalCurvature::Edge(rectangle.axis_z, distance),
-                (false, true) => NormalCurvature::Edge(rectangle.axis_x, distance),
-                (true, true) => NormalCurvature::RoundFeature(distance),
-            }
-        }
+        Form::Rectangle(rectangle) => match are_within(rectangle, [center, velocity]) {
+            [true, true] => NormalCurvature::Flat,
+            [false, true] => NormalCurvature::Edge(rectangle.axis_z, distance),
+            [true, false] => NormalCurvature::Edge(rectangle.axis_x, distance),
+            [false, false] => NormalCurvature::RoundFeature(distance),
+        },
     }
 }

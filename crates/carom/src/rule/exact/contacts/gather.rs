@@ -11,6 +11,7 @@ use super::touch::{Found, Touch};
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
 use crate::norm::Norm;
+use crate::rule::exact::contact_scale::TOUCHING;
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::Cluster;
 use crate::rule::exact::neighbours::NeighbourBuffer;
@@ -219,8 +220,38 @@ impl<'a> Gathering<'a> {
             let touch = Touch { has_persisted, ..Touch::between(bodies, first, second, found) };
             touch.measured_at(context, &members, time)
         });
-        let touches = touches.collect();
+        let mut touches: Vec<Touch> = touches.collect();
+        leave_out_seams(context, &members, &mut touches);
         let fastest = members.iter().map(|member| member.velocity.norm()).fold(0.0, f64::max);
         Group { time, members, touches, fastest }
+    }
+}
+
+/// Leaves out edges that spheres touch where they touch a plane, but for rounding: there two faces meet that
+/// make one.
+fn leave_out_seams(context: &StepContext, members: &[Member], touches: &mut Vec<Touch>) {
+    let is_at_rest = |touch: &Touch| touch.first.is_none() && !touch.does_work();
+    let planes: Vec<Touch> =
+        touches.iter().filter(|touch| is_at_rest(touch) && !touch.is_curved()).copied().collect();
+    let is_seam = |touch: &Touch| {
+        let Member { position, species, .. } = &members[touch.second];
+        let is_same = |plane: &Touch| {
+            let forms = [plane.bodies, touch.bodies].map(|bodies| coordinates_of(context, bodies));
+            let coordinates = position.norm() + species.radius + forms[0] + forms[1];
+            let apart = (plane.point - touch.point).norm();
+            plane.second == touch.second && apart <= 4.0 * TOUCHING * coordinates
+        };
+        touch.is_curved() && is_at_rest(touch) && planes.iter().any(is_same)
+    };
+    touches.retain(|touch| !is_seam(touch));
+}
+
+/// Size of the coordinates of the surface among two bodies \[m\].
+fn coordinates_of(context: &StepContext, bodies: Bodies) -> f64 {
+    match bodies {
+        Bodies::Surface { surface, .. } => {
+            context.system.surfaces[surface as usize].form.coordinates()
+        }
+        Bodies::Pair(..) => 0.0,
     }
 }

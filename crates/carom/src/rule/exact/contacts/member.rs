@@ -35,6 +35,11 @@ impl Member {
         }
     }
 
+    /// Centre \[m\] and velocity \[m/s\].
+    pub fn state(&self) -> [DVec3; 2] {
+        [self.position, self.velocity]
+    }
+
     /// What can be resolved of the contacts of this sphere with surfaces, some of them curved or none.
     pub fn scale(&self, is_curved: bool) -> ContactScale {
         let scale = ContactScale { is_curved, ..ContactScale::default() };

@@ -12,5 +12,5 @@ pub(super) use gather::{gather, gather_cluster};
 pub(super) use group::Group;
 pub(super) use member::Member;
 pub(super) use planes::{Corner, MOST_PLANES, Plane};
-pub(super) use separation::{beyond, separation, touches_surface};
+pub(super) use separation::{are_within, beyond, separation, slack_of, touches_surface};
 pub(super) use touch::Touch;

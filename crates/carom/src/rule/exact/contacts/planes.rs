@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
-use super::separation::{beyond, separation};
+use super::separation::{are_within, separation};
+use crate::norm::Norm;
+use crate::rule::exact::contact_scale::TOUCHING;
 use crate::surface::{Form, Surface};
 
 /// Planes at right angles to each other, at most.
@@ -18,20 +20,26 @@ pub(crate) struct Plane<'a> {
 }
 
 impl<'a> Plane<'a> {
-    /// The surface of this number, if a sphere about `center` \[m\] finds a plane at rest in it, not an
-    /// edge.
-    pub fn under(center: DVec3, surface: u32, surfaces: &'a [Surface]) -> Option<Self> {
+    /// The surface of this number, if a sphere with this centre \[m\] and velocity \[m/s\] finds a plane at
+    /// rest in it, not an edge.
+    pub fn under(state: [DVec3; 2], surface: u32, surfaces: &'a [Surface]) -> Option<Self> {
         let Surface { form, motion, .. } = &surfaces[surface as usize];
         let normal = match form {
             _ if !motion.is_at_rest() => return None,
             Form::HalfSpace { normal, .. } => *normal,
             Form::Rectangle(rectangle) => {
-                let is_over = beyond(rectangle, center).into_iter().all(|beyond| beyond < 0.0);
-                is_over.then_some(rectangle.normal)?
+                (are_within(rectangle, state) == [true; 2]).then_some(rectangle.normal)?
             }
             Form::Sphere { .. } | Form::Box(_) => return None,
         };
         Some(Self { surface, normal, form })
+    }
+
+    /// Whether no part of a form is above it, but for the rounding of their coordinates and of that of a
+    /// sphere's centre \[m\]: a sphere that stays on it passes over that.
+    pub fn is_above(&self, form: &Form, center: DVec3) -> bool {
+        let coordinates = self.form.coordinates() + form.coordinates() + center.norm();
+        form.height_above([self.foot_of(center), self.normal]) <= TOUCHING * coordinates
     }
 
     /// Its point nearest to the centre \[m\] of a sphere that touches it.

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::member::Member;
 use crate::detect::{Separation, sphere_rectangle_known_in_front, sphere_surface};
 use crate::norm::Norm;
+use crate::respond;
 use crate::rule::exact::contact_scale::{CLOCK_ROUNDING, TOUCHING};
 use crate::rule::exact::context::StepContext;
 use crate::surface::{Form, Rectangle, Surface};
@@ -28,9 +29,33 @@ pub(crate) fn separation(
 /// very edge it counts as beyond, so that what slides over it goes on.
 pub(crate) fn beyond(rectangle: &Rectangle, point: DVec3) -> [f64; 2] {
     let offset = point - rectangle.center;
-    let slack = TOUCHING * (offset.norm() + rectangle.half_x + rectangle.half_z);
+    let slack = slack_of(rectangle, offset);
     [(rectangle.axis_x, rectangle.half_x), (rectangle.axis_z, rectangle.half_z)]
         .map(|(axis, half)| offset.dot(axis).abs() - half + slack)
+}
+
+/// Whether a sphere with this centre \[m\] and velocity relative to a rectangle \[m/s\] is within its edges
+/// along its axes. At the very edge it is if it moves inward, or along the edge, and inward is along the
+/// axes of the world: of two faces that share an edge, one has the sphere.
+pub(crate) fn are_within(rectangle: &Rectangle, [center, velocity]: [DVec3; 2]) -> [bool; 2] {
+    let offset = center - rectangle.center;
+    let slack = slack_of(rectangle, offset);
+    let [beyond_x, beyond_z] = beyond(rectangle, center);
+    [(rectangle.axis_x, beyond_x), (rectangle.axis_z, beyond_z)].map(|(axis, beyond)| {
+        let inward = if offset.dot(axis) > 0.0 { -axis } else { axis };
+        let moves_in = || {
+            let speed = velocity.dot(inward);
+            let is_along = speed.abs() <= respond::rounding_of(velocity);
+            let leads = || inward.to_array().into_iter().find(|&part| part != 0.0) > Some(0.0);
+            if is_along { leads() } else { speed > 0.0 }
+        };
+        beyond < 0.0 || (beyond <= 2.0 * slack && moves_in())
+    })
+}
+
+/// Rounding of a place beside a rectangle, at an `offset` from its centre \[m\].
+pub(crate) fn slack_of(rectangle: &Rectangle, offset: DVec3) -> f64 {
+    TOUCHING * (offset.norm() + rectangle.half_x + rectangle.half_z)
 }
 
 /// Gap \[m\] up to which two bodies touch: rounding of their coordinates \[m\], and how far they move,

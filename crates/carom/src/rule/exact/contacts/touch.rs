@@ -10,7 +10,7 @@ use crate::detect::{Separation, sphere_sphere};
 use crate::norm::Norm;
 use crate::respond::TouchingContact;
 use crate::rule::exact::context::StepContext;
-use crate::surface::SurfaceMotion;
+use crate::surface::{Form, SurfaceMotion};
 
 /// Two bodies that touch.
 #[derive(Debug, Clone, Copy)]
@@ -120,9 +120,16 @@ impl Touch {
             Bodies::Surface { surface, .. } => {
                 let (form, motion) = context.surface_at(surface, time);
                 let center = second.position + self.shift;
-                let separation =
+                let mut separation =
                     separation(&form, center, second.species.radius, self.is_predicted)?;
-                let curvature = curvature_of(&form, center, &separation);
+                let velocity = second.velocity - motion.velocity_at(center);
+                let curvature = curvature_of(&form, [center, velocity], &separation);
+                if let (Form::Rectangle(face), NormalCurvature::Flat) = (form, curvature) {
+                    // At its very edge, too.
+                    let height = (center - face.center).dot(face.normal);
+                    separation.distance = height - second.species.radius;
+                    separation.normal = face.normal;
+                }
                 Some(Self { curvature, ..self.with(separation).with_motion(&motion, center) })
             }
         }

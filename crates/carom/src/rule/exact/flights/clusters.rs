@@ -42,6 +42,16 @@ impl Cluster {
     pub fn has(&self, contact: Bodies) -> bool {
         self.contacts.binary_search(&contact).is_ok()
     }
+
+    /// The surfaces that a sphere, by its index, is in contact with.
+    pub fn surfaces_of(&self, sphere: u32) -> impl Iterator<Item = u32> {
+        let first = Bodies::Surface { sphere, surface: 0 };
+        let start = self.contacts.partition_point(|contact| *contact < first);
+        self.contacts[start..].iter().map_while(move |contact| match *contact {
+            Bodies::Surface { sphere: other, surface } if other == sphere => Some(surface),
+            _ => None,
+        })
+    }
 }
 
 /// All clusters, by number; numbers are used again.

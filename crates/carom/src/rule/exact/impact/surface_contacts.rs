@@ -58,7 +58,7 @@ impl<'a> SurfaceContacts<'a> {
     /// Adds a surface that a sphere touches; `None` if it is not at rest, or feels another one.
     fn add(&mut self, context: &StepContext<'a>, member: &Member, surface: u32) -> Option<()> {
         let surfaces = context.system.surfaces;
-        if let Some(plane) = Plane::under(member.position, surface, surfaces) {
+        if let Some(plane) = Plane::under(member.state(), surface, surfaces) {
             return self.corner.add(plane);
         }
         let it = &surfaces[surface as usize];

@@ -144,7 +144,7 @@ fn planar_support(
         return None;
     }
     let plane_of = |bodies: &Bodies| match *bodies {
-        Bodies::Surface { surface, .. } => Plane::under(member.position, surface, system.surfaces),
+        Bodies::Surface { surface, .. } => Plane::under(member.state(), surface, system.surfaces),
         Bodies::Pair(..) => None,
     };
     let mut corner = Corner::default();

@@ -147,7 +147,8 @@ impl PlanarSupport {
                 && persists
                 && !beyond(face, position).into_iter().all(is_within)
             {
-                self.valid_for = self.valid_for.min(time_on_face(face, position, motion));
+                self.valid_for =
+                    self.valid_for.min(time_on_face(face, [position, velocity], motion));
             }
         }
     }

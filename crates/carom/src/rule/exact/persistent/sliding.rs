@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::accelerations::Accelerations;
 use crate::detect::contact::Bodies;
-use crate::rule::exact::contacts::{Group, Touch, beyond};
+use crate::rule::exact::contacts::{Group, Touch, are_within, slack_of};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::flights::AxisMotion;
 use crate::surface::{Form, Rectangle};
@@ -29,27 +29,29 @@ pub(super) fn sliding_time(
             acceleration: accelerations.each[touch.second].dot(axis),
             drag_rate: member.species.drag_rate,
         };
-        time = time.min(time_on_face(&rectangle, center, motion));
+        time = time.min(time_on_face(&rectangle, [center, velocity], motion));
     }
     time
 }
 
-/// Time \[s\] until a sphere about `center` \[m\] may slide off the part of a rectangle that it is in
-/// contact with, by its motion along the axes of the rectangle.
+/// Time \[s\] until a sphere with this centre \[m\] and velocity relative to a rectangle \[m/s\] may slide off
+/// the part of it that it is in contact with, by its motion along the axes of the rectangle.
 pub(super) fn time_on_face(
     rectangle: &Rectangle,
-    center: DVec3,
+    state: [DVec3; 2],
     motion: impl Fn(DVec3) -> AxisMotion,
 ) -> f64 {
     let mut time = f64::INFINITY;
-    let distances = beyond(rectangle, center);
-    for (axis, beyond) in [rectangle.axis_x, rectangle.axis_z].into_iter().zip(distances) {
-        if beyond >= 0.0 {
+    let offset = state[0] - rectangle.center;
+    let sides = [(rectangle.axis_x, rectangle.half_x), (rectangle.axis_z, rectangle.half_z)];
+    for ((axis, half), is_within) in sides.into_iter().zip(are_within(rectangle, state)) {
+        if !is_within {
             continue;
         }
-        let place = (center - rectangle.center).dot(axis);
-        let half_length = place.abs() - beyond;
-        time = time.min(motion(axis).leaves(-half_length - place, half_length - place));
+        let place = offset.dot(axis);
+        // As far as the edge is certain to be behind it: then the next face has it.
+        let half = half + slack_of(rectangle, offset);
+        time = time.min(motion(axis).leaves(-half - place, half - place));
     }
     time
 }

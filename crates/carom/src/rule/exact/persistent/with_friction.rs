@@ -133,7 +133,7 @@ fn is_pressing(touch: &Touch, pressing: &[Touch]) -> bool {
 fn plane_of<'a>(context: &StepContext<'a>, member: &Member, touch: &Touch) -> Option<Plane<'a>> {
     match touch.bodies {
         Bodies::Surface { surface, .. } if touch.shift == DVec3::ZERO => {
-            Plane::under(member.position, surface, context.system.surfaces)
+            Plane::under(member.state(), surface, context.system.surfaces)
         }
         _ => None,
     }
