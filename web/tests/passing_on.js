@@ -8,13 +8,11 @@ import { createServer } from "node:http";
  *   whether the test answers a request itself, or leaves it without an answer
  */
 export async function passOn(site, takes) {
-  const server = createServer(async (request, response) => {
-    if (takes(request, response)) {
-      return;
+  const server = createServer((request, response) => {
+    if (!takes(request, response)) {
+      // What the other server breaks off, as it does when it is closed, is broken off here.
+      answer(site, request.url ?? "", response).catch(() => response.destroy());
     }
-    const answer = await fetch(new URL(request.url ?? "", site));
-    response.writeHead(answer.status, { "Content-Type": answer.headers.get("Content-Type") ?? "" });
-    response.end(Buffer.from(await answer.arrayBuffer()));
   });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(undefined)));
   const { port } = /** @type {import("node:net").AddressInfo} */ (server.address());
@@ -25,4 +23,18 @@ export async function passOn(site, takes) {
       server.closeAllConnections();
     },
   };
+}
+
+/**
+ * Answers as another server does.
+ *
+ * @param {string} site
+ * @param {string} path
+ * @param {import("node:http").ServerResponse} response
+ */
+async function answer(site, path, response) {
+  const other = await fetch(new URL(path, site));
+  const body = Buffer.from(await other.arrayBuffer());
+  response.writeHead(other.status, { "Content-Type": other.headers.get("Content-Type") ?? "" });
+  response.end(body);
 }

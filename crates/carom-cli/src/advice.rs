@@ -1,6 +1,9 @@
 //! What would have made a run better: another rule, or something that moves.
 
-use carom_scene::scene::Rule;
+use carom::World;
+use carom_scene::scene::{Bisect, Contact, Discrete, Exact, Rule, Simulation};
+
+use crate::written::written;
 
 /// Under the rules that know nothing but frames, balls may overlap by this part of their radius before it
 /// shows.
@@ -15,6 +18,8 @@ pub struct Conduct {
     pub rule: Rule,
     /// Whether there are spheres, or emitters that may give some.
     pub has_spheres: bool,
+    /// Whether the world is a periodic box, which no rule but `exact` knows.
+    pub is_periodic: bool,
     /// Whether there are forces.
     pub has_forces: bool,
     /// Largest overlap at the end of a frame, as a part of the mean radius.
@@ -48,12 +53,30 @@ pub fn advice(conduct: Conduct) -> Option<String> {
             "balls overlap by {overlap:.1} of a radius: `--rule contact` keeps them apart in heaps, \
              `--rule exact` in bounces"
         )),
-        Rule::Exact if has_forces && impact_rate > IMPACT_RATE => Some(format!(
+        Rule::Exact if has_forces && impact_rate > IMPACT_RATE && !conduct.is_periodic => Some(format!(
             "each ball has {impact_rate:.0} impacts in a second, as in a heap: `--rule contact` is made \
              for those"
         )),
         _ => None,
     }
+}
+
+/// What a scene says that its rule does not read; `None` where that is nothing.
+pub fn unread(simulation: &Simulation, world: &World) -> Option<String> {
+    let Simulation { rule, exact, contact, discrete, bisect, .. } = simulation;
+    let has_friction = world.settings().rule.has_friction();
+    let friction = (world.is_rough() && !has_friction).then(|| "friction".to_owned());
+    let tables = [
+        (Rule::Exact, *exact != Exact::default()),
+        (Rule::Contact, *contact != Contact::default()),
+        (Rule::Discrete, *discrete != Discrete::default()),
+        (Rule::Bisect, *bisect != Bisect::default()),
+    ];
+    let of_others = tables.into_iter().filter(|(other, is_set)| other != rule && *is_set);
+    let tables = of_others.map(|(other, _)| format!("`simulation.{}`", written(other)));
+    let all: Vec<String> = friction.into_iter().chain(tables).collect();
+    (!all.is_empty())
+        .then(|| format!("the rule {} does not read {}", written(rule), all.join(", ")))
 }
 
 /// What would keep motion on springs from growing without bound, in frames that long and of the longest

@@ -36,6 +36,7 @@ mod table;
 mod verify;
 #[cfg(feature = "view")]
 mod window;
+mod written;
 mod zone_totals;
 
 use std::ffi::OsString;

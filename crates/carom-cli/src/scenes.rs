@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use carom_scene::{Budget, Entry, Library, Scene, SceneText};
 use serde_json::json;
 
-use crate::advice::advice_for_springs;
+use crate::advice::{advice_for_springs, unread};
 use crate::args::Show;
 use crate::failure::{Failure, complain, legible};
 use crate::standard_input::{self, STANDARD};
@@ -71,7 +71,7 @@ pub fn check(files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
         match text.and_then(|text| text.within(budget).scene(&[])) {
             Ok(scene) => {
                 writeln!(out, "{}: ok, \"{}\"", legible(&name), scene.name)?;
-                if let Some(advice) = advice_for(&scene) {
+                for advice in advice_for(&scene) {
                     writeln!(out, "{}: {advice}", legible(&name))?;
                 }
             }
@@ -97,14 +97,11 @@ pub fn check(files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
     }
 }
 
-/// What would make a sound scene better.
-fn advice_for(scene: &Scene) -> Option<String> {
-    // Only springs need a world to tell.
-    if scene.springs.is_empty() {
-        return None;
-    }
-    let world = scene.world().ok()?;
-    advice_for_springs([scene.simulation.frame_time, world.longest_stable_frame()])
+/// What would make a sound scene better, and what in it means nothing.
+fn advice_for(scene: &Scene) -> Vec<String> {
+    let Ok(world) = scene.world() else { return Vec::new() };
+    let frames = [scene.simulation.frame_time, world.longest_stable_frame()];
+    advice_for_springs(frames).into_iter().chain(unread(&scene.simulation, &world)).collect()
 }
 
 /// Prints a scene as TOML.

@@ -3,15 +3,16 @@
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-use carom::{BodyPair, DVec3, StageCounts, World};
+use carom::{BodyPair, Boundary, DVec3, StageCounts, World};
 use carom_scene::scene::{ImpactLaw, Integrator, Rule, WindBack};
 use carom_session::{Replay, SessionError};
 use serde::Serialize;
 
-use crate::advice::{Conduct, advice};
+use crate::advice::{Conduct, advice, unread};
 use crate::breach::{Course, breaches};
 use crate::contact_totals::ContactTotals;
 use crate::stage_work::StageWork;
+use crate::written::written;
 use crate::zone_totals::ZoneTotals;
 
 /// Overlaps are looked for after each frame, but with more spheres than this, where the rule prevents
@@ -170,6 +171,8 @@ pub struct Summary {
     wall_time: f64,
     stepping_time: f64,
     state_hash: String,
+    /// What the scene says that its rule does not read.
+    unread: Option<String>,
     /// What would have made the run better.
     advice: Option<String>,
     /// What the rule keeps, and this run did not.
@@ -199,6 +202,7 @@ impl Conduct {
             has_spheres: !world.spheres().is_empty()
                 || observer.retired > 0
                 || world.emitters().len() > 0,
+            is_periodic: world.settings().boundary != Boundary::Open,
             has_forces: !replay.scene().forces.is_empty(),
             overlap: if radius > 0.0 { observer.largest_overlap / radius } else { 0.0 },
             impact_rate: observer.impacts as f64 / (spheres * world.time().max(f64::MIN_POSITIVE)),
@@ -253,6 +257,7 @@ impl Summary {
             wall_time: observer.began.elapsed().as_secs_f64(),
             stepping_time: observer.stepping.as_secs_f64(),
             state_hash: world.state_hash().to_string(),
+            unread: unread(simulation, world),
             advice,
             broken,
         }
@@ -278,13 +283,15 @@ impl Summary {
     /// The rule and its method, in words.
     fn rule(&self) -> String {
         let rule = match self.wind_back {
-            Some(wind_back) => format!("{}, winding back {}", name(self.rule), name(wind_back)),
-            None => name(self.rule),
+            Some(wind_back) => {
+                format!("{}, winding back {}", written(self.rule), written(wind_back))
+            }
+            None => written(self.rule),
         };
         let method = match (self.impact_law, self.sub_steps, self.sweeps) {
-            (Some(law), ..) => format!("impact law {}", name(law)),
+            (Some(law), ..) => format!("impact law {}", written(law)),
             (_, Some(sub_steps), Some(sweeps)) => format!("sub-steps {sub_steps}, sweeps {sweeps}"),
-            _ => name(self.integrator),
+            _ => written(self.integrator),
         };
         format!("{rule}, {method}, frames of {:.6} s", self.frame_time)
     }
@@ -349,16 +356,11 @@ impl Summary {
             );
             rows.push(("note", text));
         }
+        rows.extend(self.unread.iter().map(|unread| ("not read", unread.clone())));
         rows.extend(self.broken.iter().map(|broken| ("not kept", broken.clone())));
         rows.extend(self.advice.iter().map(|advice| ("advice", advice.clone())));
         rows
     }
-}
-
-/// A value as scene files write it.
-fn name(value: impl Serialize) -> String {
-    let value = serde_json::to_value(value).unwrap_or_default();
-    value.as_str().unwrap_or_default().to_owned()
 }
 
 fn energy_change(start: f64, end: f64) -> String {

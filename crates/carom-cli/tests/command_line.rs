@@ -273,6 +273,26 @@ fn bad_usage_ends_with_code_2_and_says_what_was_meant() {
 }
 
 #[test]
+fn what_a_rule_does_not_read_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = path(&folder, "rough.toml");
+    let text = "name = \"rough\"\n[simulation]\nrule = \"discrete\"\ncontact = { sub_steps = 4 }\n\
+                [[colliders]]\nshape = \"half-space\"\nfriction = 0.5\n\
+                [[spheres]]\nradius = 0.1\nposition = [0, 1, 0]\n";
+    std::fs::write(&scene, text).unwrap();
+    let said = "the rule discrete does not read friction, `simulation.contact`";
+    assert!(good(&["check", &scene]).contains(said));
+    assert!(good(&["run", &scene, "--frames", "2"]).contains(said));
+    let json = good(&["run", &scene, "--frames", "2", "--json"]);
+    assert!(json.contains("\"unread\": \"the rule discrete does not"), "{json}");
+    for rule in ["contact", "exact"] {
+        let told = good(&["run", &scene, "--frames", "2", "--rule", rule]);
+        assert!(!told.contains("read friction"), "{told}");
+        assert_eq!(told.contains("does not read"), rule == "exact", "{told}");
+    }
+}
+
+#[test]
 fn what_goes_wrong_on_the_way_ends_with_code_1_and_one_line() {
     let folder = tempfile::tempdir().unwrap();
     let nowhere = path(&folder, "missing/t.csv");

@@ -143,8 +143,12 @@ impl Keeps {
         // What moves may press a sphere through what stands.
         let is_kept = is_solid && !is_driven;
         // Where an impact cuts the time for which they are held, springs keep energy to the second order only.
-        let keeps_energy =
-            scene.simulation.boundary == Boundary::default() && scene.springs.is_empty();
+        let is_constant =
+            |force: &Force| matches!(force, Force::Gravity { .. } | Force::Constant { .. });
+        let keeps_energy = scene.simulation.boundary == Boundary::default()
+            && scene.springs.is_empty()
+            && scene.emitters.is_empty()
+            && scene.forces.iter().all(is_constant);
         Self {
             gain: match rule {
                 Rule::Exact if is_kept && keeps_energy => Some(EXACT_GAIN),

@@ -145,11 +145,16 @@ pub(crate) fn nearest<'a>(
 ) -> Option<String> {
     // Below this, suggestions are guesses.
     const SIMILAR: f64 = 0.8;
+    // More slips than these at the start of a name are another name: a triangle is no rectangle.
+    const SLIPS: usize = 2;
     let name = name.to_lowercase();
     let mut best = (SIMILAR, None);
     for candidate in candidates {
-        let similarity = strsim::jaro_winkler(&name, &candidate.to_lowercase());
-        if similarity > best.0 {
+        let lower = candidate.to_lowercase();
+        let similarity = strsim::jaro_winkler(&name, &lower);
+        let begins_so = name.chars().next() == lower.chars().next();
+        let is_meant = begins_so || strsim::osa_distance(&name, &lower) <= SLIPS;
+        if is_meant && similarity > best.0 {
             best = (similarity, Some(candidate.to_owned()));
         }
     }

@@ -153,6 +153,12 @@ pub(crate) fn slip_of_syntax(text: &str, place: usize, message: &str) -> Option<
     if ["True", "False"].contains(&value) {
         return Some(format!("`{value}` is written small: {}", value.to_lowercase()));
     }
+    let mut parts = value.split_whitespace();
+    if let (Some(first), Some(second)) = (parts.next(), parts.next())
+        && [first, second].iter().all(|it| it.parse::<f64>().is_ok())
+    {
+        return Some(format!("between `{first}` and `{second}` there is no comma"));
+    }
     let is_word = value.starts_with(char::is_alphabetic) && !value.contains(['"', '\'']);
     (message.contains("must be quoted") && is_word)
         .then(|| format!("a text stands in quotes: \"{value}\""))

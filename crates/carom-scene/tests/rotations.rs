@@ -106,7 +106,11 @@ fn a_turn_that_makes_no_sense_is_refused_with_its_line() {
         ("{ axis = [0, 1, 0], degrees = nan }", "an angle cannot be NaN"),
         ("{ axis = [0, 1, 0], radians = 1 }", "unknown field `radians`"),
         ("30", "a quaternion [x, y, z, w], { axis, degrees }"),
-        ("[0, 0, 1]", "rotation"),
+        (
+            "[0, 0, 1]",
+            "has three numbers, a quaternion four: angles about x, y and z in degrees are",
+        ),
+        ("[0, 1]", "has 2 values, not 4"),
     ] {
         let error = scene(rotation).unwrap_err();
         assert!(error.starts_with("turned.toml:4: colliders[0].rotation"), "{rotation}: {error}");

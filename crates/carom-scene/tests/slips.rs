@@ -54,6 +54,8 @@ fn one_slip_is_one_fault_that_says_what_to_write() {
             "[[spheres]]\nposition = [0, 5 cm, 0]",
             "3: `5 cm` is no number; one with a unit has quotes: \"5 cm\"",
         ),
+        ("[[spheres]]\nposition = [0 1.5, 0]", "3: between `0` and `1.5` there is no comma"),
+        ("[[spheres]]\nposition = [\n  -1, 2 3\n]", "4: between `2` and `3` there is no comma"),
         ("[simulation]\nrule = exact", "3: a text stands in quotes: \"exact\""),
         (
             "[[spheres]]\nradius = 1\ncolor = 'reddish'",
@@ -96,6 +98,12 @@ fn what_others_call_otherwise_is_understood() {
         let [told] = &told(text)[..] else { panic!("{:?}", told(text)) };
         assert!(told.ends_with(&format!("did you mean \"{meant}\"?")), "{told}");
     }
+}
+
+#[test]
+fn another_shape_is_not_taken_for_a_slip() {
+    let [told] = &told("[[colliders]]\nshape = { triangle = {} }")[..] else { panic!() };
+    assert!(!told.contains("did you mean") && told.contains("`rectangle`"), "{told}");
 }
 
 #[test]

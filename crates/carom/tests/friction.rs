@@ -8,8 +8,8 @@ mod common;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use carom::{
-    Collider, DQuat, DVec3, Emitter, Error, Exact, Friction, Gravity, Pose, Settings, Shape,
-    Sphere, SphereId, World, Zones,
+    Boundary, Collider, Contact, DQuat, DVec3, Emitter, Error, Exact, Friction, Gravity, Pose,
+    Rule, Settings, Shape, Sphere, SphereId, World, Zones,
 };
 use common::{G, Numbers, vec, world};
 
@@ -348,6 +348,25 @@ fn without_zones_what_has_no_closed_form_is_an_error() {
     let refused = (0..100).find_map(|_| world.step(0.1).err());
     assert!(matches!(refused, Some(Error::NeedsZone { .. })), "{refused:?}");
     assert!(world.time() > before);
+}
+
+#[test]
+fn in_a_periodic_box_no_rule_is_advised_that_knows_none() {
+    let boundary = Boundary::Periodic { size: vec(0.4, f64::INFINITY, 0.4) };
+    let settings = Settings::default().with_boundary(boundary);
+    let mut world = World::new(settings).unwrap();
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_friction(0.5);
+    world.add_collider(floor.with_restitution(0.0)).unwrap();
+    let lower = ball(DVec3::ZERO, DVec3::ZERO).with_friction(0.5).with_restitution(0.0);
+    world.add_sphere(lower).unwrap();
+    world.add_sphere(lower.with_position(vec(0.001, 0.2, 0.0))).unwrap();
+    let refused = (0..100).find_map(|_| world.step(0.1).err()).unwrap();
+    assert!(matches!(refused, Error::NeedsZone { is_periodic: true, .. }), "{refused:?}");
+    let said = refused.to_string();
+    assert!(!said.contains("contact`") && said.contains("periodic box"), "{said}");
+    let contact = settings.with_rule(Rule::Contact(Contact::default()));
+    assert!(World::new(contact).is_err());
 }
 
 #[test]

@@ -3,6 +3,7 @@
 
 use std::fmt::Write;
 
+use carom::{DQuat, DVec3};
 use carom_scene::Scene;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -33,6 +34,12 @@ struct Drawn {
     restitution: f64,
     friction: Option<f64>,
     gravity: Option<Vector>,
+    /// A force that has no closed form.
+    field: Option<&'static str>,
+    /// Whether boxes side by side make a floor, turned as the box is.
+    has_floor: bool,
+    /// The period of an emitter in the middle \[s\], perhaps of a world that is empty until then.
+    emitter: Option<f64>,
     /// Turn of the box \[°\].
     turn: Vector,
     obstacles: Vec<Obstacle>,
@@ -85,21 +92,51 @@ fn drawn() -> impl Strategy<Value = Drawn> {
         select(&[1.0, 1.0, 0.95, 0.7, 0.3, 0.0][..]),
         proptest::option::weighted(0.3, 0.01..1.0),
         proptest::option::weighted(0.6, vector().prop_map(|it| scaled(it, 10.0))),
+        proptest::option::weighted(0.2, select(&FIELDS[..])),
+        proptest::bool::weighted(0.2),
+        proptest::option::weighted(0.1, 0.1..0.5),
         // Turned or not.
         prop_oneof![Just([0.0; 3]), vector().prop_map(|it| scaled(it, 180.0))],
     );
     let bodies =
-        (vec(obstacle(), 0..3), vec(ball(), 1..12), proptest::option::weighted(0.2, springs()));
+        (vec(obstacle(), 0..3), vec(ball(), 0..12), proptest::option::weighted(0.2, springs()));
     (settings, bodies).prop_map(|(settings, (obstacles, balls, springs))| {
-        let (rule, boundary, restitution, friction, gravity, turn) = settings;
+        let (rule, boundary, restitution, friction, gravity, field, has_floor, emitter, turn) =
+            settings;
         // Under other rules stiff ones are not stable; and many impacts within a force tick heat light balls.
         let is_slow = balls.iter().all(|ball| ball.velocity.iter().all(|it| it.abs() < 10.0));
         let springs = springs.filter(|_| rule == "exact" && is_slow);
+        // Held over a tick, drag throws back what is light and fast.
+        let is_heavy = balls.iter().all(|ball| ball.mass >= 0.0);
+        let field = field.filter(|_| is_slow && is_heavy);
         // There `exact` refuses what has no closed form, for it steps nothing.
         let friction = friction.filter(|_| boundary != "periodic");
-        Drawn { rule, boundary, restitution, friction, gravity, turn, obstacles, balls, springs }
+        // What stands in the middle leaves no room.
+        let obstacles = if emitter.is_some() { Vec::new() } else { obstacles };
+        Drawn {
+            rule,
+            boundary,
+            restitution,
+            friction,
+            gravity,
+            field,
+            has_floor,
+            emitter,
+            turn,
+            obstacles,
+            balls,
+            springs,
+        }
     })
 }
+
+/// Forces without a closed form. None grows without bound.
+const FIELDS: [&str; 4] = [
+    "quadratic-drag = { density = 1.2 }",
+    "buoyancy = { density = 300.0, surface_height = 0.5 }",
+    "vortex = { position = [0.3, 0.0, 0.2], circulation = 2.0, core_radius = 0.2, coefficient = 1e-4 }",
+    "point-attractor = { position = [0.1, -0.6, 0.0], gravitational_parameter = 5.0, softening = 0.3 }",
+];
 
 fn obstacle() -> impl Strategy<Value = Obstacle> {
     let shapes = [
@@ -182,6 +219,9 @@ fn written(drawn: &Drawn) -> String {
     if let Some(acceleration) = gravity {
         add(format_args!("[[forces]]\ngravity = {{ acceleration = {acceleration:?} }}\n"));
     }
+    if let Some(field) = drawn.field {
+        add(format_args!("[[forces]]\n{field}\n"));
+    }
     let placed = placed(drawn);
     for &(position, radius, ball) in &placed {
         let (mass, velocity) = (10f64.powf(ball.mass), ball.velocity);
@@ -208,6 +248,21 @@ fn written(drawn: &Drawn) -> String {
              rotation = {{ euler_degrees = {turn:?} }}\n{material}"
         ));
     }
+    if drawn.has_floor {
+        // Below the balls that are in the middle of the box, and on which some come to lie.
+        for place in floor_places(*turn) {
+            add(format_args!(
+                "[[colliders]]\nshape = {{ box = {{ size = [{TILE:?}, 0.4, 2.0] }} }}\n\
+                 position = {place:?}\nrotation = {{ euler_degrees = {turn:?} }}\n{material}"
+            ));
+        }
+    }
+    if let Some(period) = drawn.emitter {
+        add(format_args!(
+            "[[emitters]]\nperiod = {period:?}\ncount = 3\nneeds_room = true\nsphere = {{ radius = 0.1, \
+             mass = 1.0, velocity = [0.0, 2.0, 1.0], restitution = {restitution:?} }}\n"
+        ));
+    }
     for Obstacle { shape, position, turn, velocity } in obstacles {
         let velocity = velocity.map_or(String::new(), |it| format!("velocity = {it:?}\n"));
         add(format_args!(
@@ -216,6 +271,20 @@ fn written(drawn: &Drawn) -> String {
         ));
     }
     text
+}
+
+/// Width of a box of the floor \[m\].
+const TILE: f64 = 0.4;
+/// Height of its top in the box, before that is turned \[m\].
+const FLOOR: f64 = -0.6;
+
+/// Centres of the boxes of a floor \[m\], turned by these angles about x, y and z \[°\].
+fn floor_places(turn: Vector) -> impl Iterator<Item = Vector> {
+    let [x, y, z] = turn.map(|angle| angle.to_radians());
+    let rotation =
+        DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x) * DQuat::from_rotation_z(z);
+    let center = move |number: i32| DVec3::new(TILE * f64::from(number), FLOOR - 0.2, 0.0);
+    (-3..=3).map(move |number| (rotation * center(number)).to_array())
 }
 
 /// A power of two, so that frames of other lengths meet at the same times \[s\].

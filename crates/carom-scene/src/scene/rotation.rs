@@ -58,7 +58,14 @@ impl<'de> Visitor<'de> for Reader {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Quaternion, A::Error> {
-        Quaternion::deserialize(SeqAccessDeserializer::new(list))
+        let quaternion = Quaternion::deserialize(SeqAccessDeserializer::new(list));
+        quaternion.map_err(|error: A::Error| match error.to_string() {
+            said if said.starts_with("invalid length 3,") => A::Error::custom(
+                "has three numbers, a quaternion four: angles about x, y and z in degrees are \
+                 { euler_degrees = [x, y, z] }",
+            ),
+            _ => error,
+        })
     }
 
     fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<Quaternion, A::Error> {

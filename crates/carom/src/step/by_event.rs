@@ -1,6 +1,8 @@
 //! Steps by the rule `exact`: flights go on from step to step, and what is due within a step is
 //! emitted at its own time.
 
+use glam::DVec3;
+
 use super::attempt::Attempt;
 use crate::emitter;
 use crate::error::{Error, InvalidValue, Subject};
@@ -9,6 +11,7 @@ use crate::id::SphereId;
 use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Unheld, Until};
 use crate::settings::Exact;
 use crate::state::State;
+use crate::system::System;
 use crate::validate;
 
 /// Takes a step from event to event. If that fails, no sphere was moved.
@@ -84,7 +87,7 @@ fn advance(
         let Attempt { state, work, report, .. } = &mut *attempt;
         let (system, _) = state.split();
         let came_to = exact::advance(&system, timeline, span, work, report, until)
-            .map_err(|unfinished| refusal(unfinished, start))?;
+            .map_err(|unfinished| refusal(unfinished, start, is_periodic(&system)))?;
         let is_over = until == Until::NextImpact && !attempt.report.impacts.is_empty();
         if due >= end || is_over {
             return Ok(came_to);
@@ -133,14 +136,21 @@ fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result
     )
 }
 
-/// Why a step that starts at `time` \[s\] was not taken to its end.
-fn refusal(unfinished: Unfinished, time: f64) -> Error {
+/// Whether the world is a periodic box.
+fn is_periodic(system: &System) -> bool {
+    system.settings.boundary.period() != DVec3::INFINITY
+}
+
+/// Why a step that starts at `time` \[s\] was not taken to its end, in a periodic box or not.
+fn refusal(unfinished: Unfinished, time: f64, is_periodic: bool) -> Error {
     match unfinished {
         Unfinished::Stopped => Error::Stopped { time },
         Unfinished::NonFiniteForce { sphere } => no_longer_finite(sphere, "velocity", time),
-        Unfinished::NoClosedForm { sphere, time: at } => Error::NeedsZone { sphere, at, time },
+        Unfinished::NoClosedForm { sphere, time: at } => {
+            Error::NeedsZone { sphere, at, time, is_periodic }
+        }
         Unfinished::TooManyImpacts { sphere, limit, companions, time: at } => {
-            Error::TooManyImpacts { sphere, limit, companions, at, time }
+            Error::TooManyImpacts { sphere, limit, companions, at, time, is_periodic }
         }
     }
 }

@@ -63,8 +63,9 @@ impl World {
             || (self.settings().rule.has_friction() && self.is_rough())
     }
 
-    /// Whether there is friction.
-    fn is_rough(&self) -> bool {
+    /// Whether friction of some body is above zero. Only some rules have it act:
+    /// [`Rule::has_friction`](crate::Rule::has_friction).
+    pub fn is_rough(&self) -> bool {
         let colliders = self.colliders().filter(|(_, collider)| !collider.trigger);
         let of_colliders = colliders.map(|(_, collider)| collider.friction);
         let of_emitted = self.emitters().map(|(_, emitter)| emitter.sphere.friction);
