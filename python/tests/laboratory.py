@@ -9,6 +9,7 @@ import socket
 import subprocess
 import sys
 import time
+import urllib.error
 import urllib.request
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -117,8 +118,14 @@ def laboratory(cells: Sequence[str], folder: Path) -> Iterator[Laboratory]:
 
 
 def kernel_ids(url: str) -> list[str]:
-    with urllib.request.urlopen(f"{url}api/kernels") as answer:
-        return [kernel["id"] for kernel in json.load(answer)]
+    """The kernels that run; none while one is about to, when the server cannot list them."""
+    try:
+        with urllib.request.urlopen(f"{url}api/kernels") as answer:
+            return [kernel["id"] for kernel in json.load(answer)]
+    except urllib.error.HTTPError as error:
+        if error.code != 500:
+            raise
+        return []
 
 
 @contextlib.contextmanager
