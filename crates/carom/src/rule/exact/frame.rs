@@ -155,8 +155,8 @@ pub(crate) enum Unheld {
     NotFinite(SphereId),
 }
 
-/// Has force ticks fit frames of this length \[s\], and springs; of spheres that are emitted in the frame,
-/// too. Tells whether forces are held until others now.
+/// Has force ticks fit frames of this length \[s\], and springs, also before there is a sphere that needs
+/// them: it may be emitted within the frame. Tells whether forces that are held now have other ticks.
 fn set_force_tick(timeline: &mut Timeline, frame: f64) -> Result<bool, Unheld> {
     let (before, rate) = (timeline.force_tick, timeline.spring_rate);
     let tick = tick_for_springs(rate, timeline.parameters, frame)?;

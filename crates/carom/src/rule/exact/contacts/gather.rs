@@ -231,6 +231,9 @@ impl<'a> Gathering<'a> {
 /// make one.
 fn leave_out_seams(context: &StepContext, members: &[Member], touches: &mut Vec<Touch>) {
     let is_at_rest = |touch: &Touch| touch.first.is_none() && !touch.does_work();
+    if !touches.iter().any(|touch| is_at_rest(touch) && touch.is_curved()) {
+        return;
+    }
     let planes: Vec<Touch> =
         touches.iter().filter(|touch| is_at_rest(touch) && !touch.is_curved()).copied().collect();
     let is_seam = |touch: &Touch| {
