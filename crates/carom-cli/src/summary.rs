@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-use carom::{BodyPair, Boundary, DVec3, StageCounts, World};
+use carom::{BodyPair, DVec3, StageCounts, World};
 use carom_scene::scene::{ImpactLaw, Integrator, Rule, WindBack};
 use carom_session::{Replay, SessionError};
 use serde::Serialize;
@@ -202,7 +202,7 @@ impl Conduct {
             has_spheres: !world.spheres().is_empty()
                 || observer.retired > 0
                 || world.emitters().len() > 0,
-            is_periodic: world.settings().boundary != Boundary::Open,
+            is_periodic: world.settings().boundary.is_periodic(),
             has_forces: !replay.scene().forces.is_empty(),
             overlap: if radius > 0.0 { observer.largest_overlap / radius } else { 0.0 },
             impact_rate: observer.impacts as f64 / (spheres * world.time().max(f64::MIN_POSITIVE)),

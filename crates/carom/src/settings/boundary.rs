@@ -45,6 +45,11 @@ impl Boundary {
         nearest_image(distance, self.period())
     }
 
+    /// Whether space repeats itself along some axis.
+    pub fn is_periodic(self) -> bool {
+        self.period() != DVec3::INFINITY
+    }
+
     /// Edges of the periodic box \[m\], infinite along open axes.
     pub(crate) fn period(self) -> DVec3 {
         match self {

@@ -1,8 +1,6 @@
 //! Steps by the rule `exact`: flights go on from step to step, and what is due within a step is
 //! emitted at its own time.
 
-use glam::DVec3;
-
 use super::attempt::Attempt;
 use crate::emitter;
 use crate::error::{Error, InvalidValue, Subject};
@@ -11,7 +9,6 @@ use crate::id::SphereId;
 use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Unheld, Until};
 use crate::settings::Exact;
 use crate::state::State;
-use crate::system::System;
 use crate::validate;
 
 /// Takes a step from event to event. If that fails, no sphere was moved.
@@ -86,8 +83,10 @@ fn advance(
         let span = Span { start, length, end: due.min(end) };
         let Attempt { state, work, report, .. } = &mut *attempt;
         let (system, _) = state.split();
-        let came_to = exact::advance(&system, timeline, span, work, report, until)
-            .map_err(|unfinished| refusal(unfinished, start, is_periodic(&system)))?;
+        let came_to =
+            exact::advance(&system, timeline, span, work, report, until).map_err(|unfinished| {
+                refusal(unfinished, start, system.settings.boundary.is_periodic())
+            })?;
         let is_over = until == Until::NextImpact && !attempt.report.impacts.is_empty();
         if due >= end || is_over {
             return Ok(came_to);
@@ -134,11 +133,6 @@ fn place_spheres(attempt: &mut Attempt, timeline: &Timeline, end: f64) -> Result
             no_longer_finite(sphere, quantity, start)
         },
     )
-}
-
-/// Whether the world is a periodic box.
-fn is_periodic(system: &System) -> bool {
-    system.settings.boundary.period() != DVec3::INFINITY
 }
 
 /// Why a step that starts at `time` \[s\] was not taken to its end, in a periodic box or not.

@@ -247,7 +247,7 @@ fn planes_that_hold<'a>(
     let mut planes = [None; MOST_PLANES];
     let flights = &timeline.flights;
     let Some(cluster) = flights.species_of(slot).cluster else { return planes };
-    if system.settings.boundary.period() != DVec3::INFINITY {
+    if system.settings.boundary.is_periodic() {
         return planes;
     }
     let body = &flights.bodies[slot as usize];

@@ -140,7 +140,7 @@ fn planar_support(
     let number = timeline.flights.species_of(member.slot).cluster?;
     let cluster = timeline.flights.clusters.get(number);
     // In a periodic box a surface may bear the sphere by one of its images.
-    if cluster.members.len() != 1 || system.settings.boundary.period() != DVec3::INFINITY {
+    if cluster.members.len() != 1 || system.settings.boundary.is_periodic() {
         return None;
     }
     let plane_of = |bodies: &Bodies| match *bodies {
