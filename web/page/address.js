@@ -5,13 +5,20 @@ import { titleOf } from "./title.js";
 /** Least time between two changes [ms]: browsers refuse more than a hundred in half a minute. */
 const PAUSE = 400;
 
-/** @type {string | null} */
-let waiting = null;
+/** What is to be written next, and the timer that will do so; none while nothing waits. */
+let waiting = "";
+/** @type {ReturnType<typeof setTimeout> | null} */
+let timer = null;
 let last = -Infinity;
 
 /** What stands behind `#` now. */
 export function address() {
-  return location.hash.replace(/^#/, "");
+  return fragmentOf(location);
+}
+
+/** @param {{ hash: string }} url */
+function fragmentOf({ hash }) {
+  return hash.replace(/^#/, "");
 }
 
 /**
@@ -21,19 +28,16 @@ export function address() {
  * @param {string} fragment
  */
 export function showFragment(fragment) {
-  const isOnItsWay = waiting !== null;
   waiting = fragment;
-  if (!isOnItsWay) {
-    setTimeout(write, Math.max(0, last + PAUSE - performance.now()));
-  }
+  timer ??= setTimeout(write, Math.max(0, last + PAUSE - performance.now()));
 }
 
 function write() {
   const { pathname, search } = location;
   const url = waiting ? `#${waiting}` : pathname + search;
-  const isAnotherScene = address() !== "" && sceneOf(waiting ?? "") !== sceneOf(address());
-  const title = titleOf(waiting ?? "");
-  waiting = null;
+  const isAnotherScene = address() !== "" && sceneOf(waiting) !== sceneOf(address());
+  const title = titleOf(waiting);
+  timer = null;
   last = performance.now();
   if (isAnotherScene) {
     history.pushState(null, "", url);
@@ -60,5 +64,11 @@ function sceneOf(fragment) {
  * @param {(fragment: string) => void} tell
  */
 export function onAddressChange(tell) {
-  addEventListener("hashchange", () => tell(address()));
+  addEventListener("hashchange", ({ newURL }) => {
+    // What was shown until now must not be written over the new address.
+    clearTimeout(timer ?? undefined);
+    timer = null;
+    // The event comes later than the change, and the page may have written its own in between.
+    tell(fragmentOf(new URL(newURL)));
+  });
 }

@@ -132,6 +132,17 @@ test("an address that changes is followed", async () => {
   await viewer.close();
 });
 
+test("an address that changes is followed where the page has just written its own", async () => {
+  const viewer = await desk.watch("simtest1");
+  await viewer.page.evaluate(() => {
+    const own = location.href;
+    location.hash = "scene=tutorial3";
+    history.replaceState(null, "", own);
+  });
+  await viewer.until(({ watching }) => watching.scene === "tutorial3");
+  await viewer.close();
+});
+
 test("a way that takes minutes is stopped by Escape, and other keys work on it", async () => {
   const viewer = await desk.show("#scene=tutorial4&t=100000");
   await viewer.until(({ watching }) => watching?.seeking && watching.frame > 10);
