@@ -14,6 +14,7 @@ from carom import _gymnasium, analysis
 from carom._batch import Batch
 from carom._carom import Snapshot
 from carom._contact_account import ContactAccount
+from carom._energy_account import EnergyAccount
 from carom._film import Film
 from carom._library import Listed, load, scene, scenes
 from carom._parts import (
@@ -95,6 +96,7 @@ __all__ = [
     "ConstantForce",
     "Contact",
     "ContactAccount",
+    "EnergyAccount",
     "Container",
     "DensityColor",
     "Discrete",

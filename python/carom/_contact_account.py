@@ -1,4 +1,4 @@
-"""What became of kinetic energy in the contacts that were stepped in a frame."""
+"""How good the solution of the contacts that were stepped in a frame is."""
 
 from __future__ import annotations
 
@@ -6,17 +6,11 @@ from typing import NamedTuple
 
 
 class ContactAccount(NamedTuple):
-    """What contacts did to energy in a frame, and how good the solution is.
+    """How good the solution of a frame is.
 
     Under the rule ``contact``, and in the stepped zones of ``exact``; else 0.
     """
 
-    impulse_work: float
-    """What impulses did to kinetic energy [J], <= 0 but for rounding: impacts and friction take."""
-    surface_work: float
-    """Work of moving colliders [J]."""
-    correction_work: float
-    """Energy that the correction of overlaps added [J]."""
     limited_sub_steps: int
     """Sub-steps in which impulses were scaled down for them not to add energy."""
     residual: float

@@ -16,6 +16,7 @@ from carom import _pictures as pictures
 from carom import _tables as tables
 from carom._carom import Engine, Snapshot
 from carom._contact_account import ContactAccount
+from carom._energy_account import EnergyAccount
 from carom._functions import ForceFunction, Functions
 from carom._points import Points
 from carom._recording import Out, run_into
@@ -248,8 +249,13 @@ class World(Strict, Engine):
         return StageCounts(*self._work())
 
     @property
+    def energy_account(self) -> EnergyAccount:
+        """What became of the energy in the last frame."""
+        return EnergyAccount(*self._energy_account())
+
+    @property
     def contact_account(self) -> ContactAccount:
-        """What contacts did to energy in the last frame.
+        """How good the solution of the last frame is.
 
         Under the rule ``contact``, and in stepped zones under ``exact``.
         """

@@ -53,8 +53,9 @@ def test_contacts_and_the_account_tell_of_friction() -> None:
     assert contact["tangential_force"][0] == pytest.approx(-0.3 * contact["normal_force"])
     account = world.contact_account
     assert isinstance(account, carom.ContactAccount)
-    assert account.impulse_work < 0.0
     assert account.asleep == 0
+    assert isinstance(world.energy_account, carom.EnergyAccount)
+    assert world.energy_account.contacts < 0.0
     assert world.work.sweeps > 0
 
 

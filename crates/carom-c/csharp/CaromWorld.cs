@@ -674,7 +674,7 @@ namespace Carom
     static class Native
     {
         const string Library = "carom_c";
-        const uint AbiVersion = 1;
+        const uint AbiVersion = 2;
 
         static Native() { Check(carom_check_abi(AbiVersion)); }
 

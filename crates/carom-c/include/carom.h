@@ -21,7 +21,7 @@
 
 /// The version of the interface that this header declares. Within one version functions are only added:
 /// structures, constants and what functions take stay as they are.
-#define CAROM_ABI_VERSION 1
+#define CAROM_ABI_VERSION 2
 
 /// How a call ended. After any status but CAROM_STATUS_OK the world is as it was before the call, unless
 /// the function says otherwise, and carom_last_error() says what was wrong.
@@ -364,12 +364,15 @@ typedef struct {
     uint64_t unfinished_islands;
     /// Under the rule `contact`: spheres that sleep at the end of the step.
     uint64_t asleep;
-    /// Under the rule `contact`: what the impulses of all contacts did to kinetic energy [J].
-    double impulse_work;
-    /// Under the rule `contact`: work of moving colliders [J].
-    double surface_work;
-    /// Under the rule `contact`: energy that the correction of overlaps added [J].
+    /// Work of contacts [J]: what restitution and friction took.
+    double contact_work;
+    /// Work of moving colliders [J].
+    double collider_work;
+    /// Work of moving spheres out of what they overlap [J].
     double correction_work;
+    /// Energy of emitted spheres, less that of those taken out [J]. The total energy changes by these four, by the
+    /// work of forces without a potential, and by the error of the integration.
+    double emission_energy;
     /// Under the rule `contact`: largest change of an impulse in the last sweep, as a part of the largest impulse.
     double residual;
     /// Under the rule `contact`: largest overlap before it was corrected, as a part of the sum of radii.

@@ -151,12 +151,15 @@ pub struct CaromReport {
     pub unfinished_islands: u64,
     /// Under the rule `contact`: spheres that sleep at the end of the step.
     pub asleep: u64,
-    /// Under the rule `contact`: what the impulses of all contacts did to kinetic energy [J].
-    pub impulse_work: f64,
-    /// Under the rule `contact`: work of moving colliders [J].
-    pub surface_work: f64,
-    /// Under the rule `contact`: energy that the correction of overlaps added [J].
+    /// Work of contacts [J]: what restitution and friction took.
+    pub contact_work: f64,
+    /// Work of moving colliders [J].
+    pub collider_work: f64,
+    /// Work of moving spheres out of what they overlap [J].
     pub correction_work: f64,
+    /// Energy of emitted spheres, less that of those taken out [J]. The total energy changes by these four, by the
+    /// work of forces without a potential, and by the error of the integration.
+    pub emission_energy: f64,
     /// Under the rule `contact`: largest change of an impulse in the last sweep, as a part of the largest impulse.
     pub residual: f64,
     /// Under the rule `contact`: largest overlap before it was corrected, as a part of the sum of radii.
@@ -179,9 +182,10 @@ pub unsafe extern "C" fn carom_world_report(
             was_stepped: inner.world.was_stepped().into(),
             unfinished_islands: report.unfinished_islands.into(),
             asleep: account.asleep.into(),
-            impulse_work: account.impulse_work,
-            surface_work: account.surface_work,
-            correction_work: account.correction_work,
+            contact_work: report.energy_account.contacts,
+            collider_work: report.energy_account.colliders,
+            correction_work: report.energy_account.correction,
+            emission_energy: report.energy_account.emission,
             residual: account.residual,
             largest_overlap: account.largest_overlap,
         }

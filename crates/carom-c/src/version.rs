@@ -6,7 +6,7 @@ use crate::status::{CaromStatus, Failure, call};
 
 /// The version of the interface that this header declares. Within one version functions are only added:
 /// structures, constants and what functions take stay as they are.
-pub const CAROM_ABI_VERSION: u32 = 1;
+pub const CAROM_ABI_VERSION: u32 = 2;
 
 /// The version of Carom, like "0.1.0".
 #[unsafe(no_mangle)]

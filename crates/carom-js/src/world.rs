@@ -162,16 +162,20 @@ impl World {
         all.map(|&count| count as f64).collect()
     }
 
-    /// What became of kinetic energy under the rule `contact`: work of impulses, of moving colliders
-    /// and of the correction of overlaps \[J\]; sub-steps with fewer impulses, residual, largest
-    /// overlap, spheres asleep.
+    /// What became of the energy: work of contacts, of moving colliders and of the correction of overlaps,
+    /// energy of emitted spheres less that of those taken out \[J\].
+    #[wasm_bindgen(getter, js_name = energyAccount)]
+    pub fn energy_account(&self) -> Vec<f64> {
+        let account = self.world.report().energy_account;
+        vec![account.contacts, account.colliders, account.correction, account.emission]
+    }
+
+    /// How good the solutions of the rule `contact` are: sub-steps with fewer impulses, residual, largest
+    /// overlap; and spheres asleep.
     #[wasm_bindgen(getter, js_name = contactAccount)]
     pub fn contact_account(&self) -> Vec<f64> {
         let account = self.world.report().contact_account;
         vec![
-            account.impulse_work,
-            account.surface_work,
-            account.correction_work,
             f64::from(account.limited_sub_steps),
             account.residual,
             account.largest_overlap,

@@ -5,7 +5,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use carom::{ContactAccount, World, ZoneAccount};
+use carom::{ContactAccount, EnergyAccount, World, ZoneAccount};
 use carom_scene::{Palette, Scene, part};
 use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
@@ -425,30 +425,22 @@ impl Engine {
         ])
     }
 
-    /// What became of kinetic energy under the rule `contact`: work of impulses, of moving colliders
-    /// and of the correction of overlaps [J]; sub-steps with fewer impulses, residual, largest
-    /// overlap, spheres asleep.
+    /// What became of the energy: work of contacts, of moving colliders and of the correction of
+    /// overlaps, energy of emitted spheres less that of those taken out [J].
+    #[pyo3(name = "_energy_account")]
+    fn energy_account(&self, py: Python<'_>) -> PyResult<(f64, f64, f64, f64)> {
+        let EnergyAccount { contacts, colliders, correction, emission, .. } =
+            self.lock(py)?.world.report().energy_account;
+        Ok((contacts, colliders, correction, emission))
+    }
+
+    /// How good the solutions of the rule `contact` are: sub-steps with fewer impulses, residual,
+    /// largest overlap; and spheres asleep.
     #[pyo3(name = "_contact_account")]
-    fn contact_account(&self, py: Python<'_>) -> PyResult<(f64, f64, f64, u32, f64, f64, u32)> {
-        let ContactAccount {
-            impulse_work,
-            surface_work,
-            correction_work,
-            limited_sub_steps,
-            residual,
-            largest_overlap,
-            asleep,
-            ..
-        } = self.lock(py)?.world.report().contact_account;
-        Ok((
-            impulse_work,
-            surface_work,
-            correction_work,
-            limited_sub_steps,
-            residual,
-            largest_overlap,
-            asleep,
-        ))
+    fn contact_account(&self, py: Python<'_>) -> PyResult<(u32, f64, f64, u32)> {
+        let ContactAccount { limited_sub_steps, residual, largest_overlap, asleep, .. } =
+            self.lock(py)?.world.report().contact_account;
+        Ok((limited_sub_steps, residual, largest_overlap, asleep))
     }
 
     /// What was stepped under the rule `exact`: spheres in zones, the time that they spent there of all

@@ -150,6 +150,12 @@ impl Properties {
     pub fn inertia_factor(&self, index: usize) -> f64 {
         self.inertia_factor.get(index).copied().unwrap_or(SOLID_BALL)
     }
+
+    /// Moment of inertia of a sphere \[kg m²\], about any axis through its centre.
+    pub fn moment_of_inertia(&self, index: usize) -> f64 {
+        let radius = self.radius[index];
+        self.inertia_factor(index) * self.mass[index] * radius * radius
+    }
 }
 
 /// All spheres of a world, one array per quantity, in ascending order of id.
@@ -233,8 +239,7 @@ impl Spheres {
     /// # Panics
     /// If there is none.
     pub fn moment_of_inertia(&self, index: usize) -> f64 {
-        let radius = self.properties.radius[index];
-        self.properties.inertia_factor(index) * self.properties.mass[index] * radius * radius
+        self.properties.moment_of_inertia(index)
     }
 
     /// Index of a sphere in the arrays; it changes when spheres are removed.

@@ -238,11 +238,6 @@ pub(crate) fn next_due(emitters: &Numbered<EmitterState>) -> f64 {
     emitters.iter().map(|(_, state)| state.due()).fold(f64::INFINITY, f64::min)
 }
 
-/// Whether an emitter that has a sphere due until `time` \[s\] needs room for it.
-pub(crate) fn any_needs_room(emitters: &Numbered<EmitterState>, time: f64, room: Room) -> bool {
-    emitters.iter().any(|(_, state)| state.is_due(time) && state.needs(room))
-}
-
 /// Emits every sphere that is due until `time` \[s\], emitter by emitter.
 pub(crate) fn emit(
     emitters: &mut Numbered<EmitterState>,

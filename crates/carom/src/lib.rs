@@ -76,8 +76,8 @@ pub use hash::StateHash;
 pub use id::{ColliderId, EmitterId, ForceId, SphereId, SpringId};
 pub use persistent_contact::PersistentContact;
 pub use report::{
-    BodyPair, ContactAccount, Impact, ImpactGroup, LedgerEntry, Overlap, StageCounts, StepReport,
-    TriggerContact, ZoneAccount,
+    BodyPair, ContactAccount, EnergyAccount, Impact, ImpactGroup, LedgerEntry, Overlap,
+    StageCounts, StepReport, TriggerContact, ZoneAccount,
 };
 pub use settings::{
     Bisect, Boundary, CombineRule, Contact, Discrete, Exact, ImpactLaw, Integrator, Rule, Settings,

@@ -46,8 +46,9 @@ pub struct StepReport {
     pub unfinished_islands: u32,
     /// The work of the step, by stage.
     pub work: StageCounts,
-    /// Under the rule `contact`, and in the stepped zones of `exact`, what became of kinetic energy, and
-    /// how good the solution is.
+    /// What became of the energy.
+    pub energy_account: EnergyAccount,
+    /// Under the rule `contact`, and in the stepped zones of `exact`, how good the solution is.
     pub contact_account: ContactAccount,
     /// Under the rule `exact`, which spheres were not moved from impact to impact, but stepped.
     pub zone_account: ZoneAccount,
@@ -72,23 +73,66 @@ pub struct ZoneAccount {
     pub left: u32,
 }
 
-/// What became of kinetic energy in a step under the rule `contact`, or in the stepped zones of `exact`,
-/// and how good the solution is.
+/// What became of the energy of a world in a step, under any rule.
+///
+/// [`World::total_energy`](crate::World::total_energy) after the step is that before it, and the sum of these,
+/// and what is left: the work of forces that have no potential, and the error of the integration.
+///
+/// ```
+/// use carom::{Collider, DVec3, Gravity, Pose, Shape, Sphere, World};
+///
+/// let mut world = World::default();
+/// world.add_force(Gravity::new(DVec3::new(0.0, -10.0, 0.0)))?;
+/// let floor = Collider::new(Shape::HalfSpace, Pose::at(DVec3::ZERO)).with_restitution(0.5);
+/// world.add_collider(floor)?;
+/// world.add_sphere(Sphere::new(DVec3::new(0.0, 2.0, 0.0), 1.0))?;
+/// let before = world.total_energy();
+/// let taken = world.step(0.5)?.energy_account.contacts;
+/// assert!((world.total_energy() - before - taken).abs() < 1e-14 * before);
+/// // Of m g h = 10 J the impact leaves a quarter.
+/// assert!((taken + 7.5).abs() < 1e-14 * before);
+/// # Ok::<(), carom::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
+pub struct EnergyAccount {
+    /// Work of contacts \[J\]: what restitution and friction took, in impacts and in contacts that persist.
+    /// <= 0 but for rounding, and under the rule `contact` for the error of a sub-step. What bears a sphere
+    /// at rest does none.
+    pub contacts: f64,
+    /// Work of moving colliders \[J\].
+    pub colliders: f64,
+    /// Work of moving spheres out of what they overlap \[J\], against forces that have a potential or
+    /// are linear.
+    pub correction: f64,
+    /// Energy of the spheres that emitters put into the world, less that of those they took out \[J\].
+    pub emission: f64,
+}
+
+impl EnergyAccount {
+    /// The sum of all entries \[J\].
+    pub fn total(&self) -> f64 {
+        self.contacts + self.colliders + self.correction + self.emission
+    }
+}
+
+impl AddAssign for EnergyAccount {
+    fn add_assign(&mut self, other: Self) {
+        self.contacts += other.contacts;
+        self.colliders += other.colliders;
+        self.correction += other.correction;
+        self.emission += other.emission;
+    }
+}
+
+/// How good the solutions of a step are under the rule `contact`, or in the stepped zones of `exact`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ContactAccount {
-    /// What the impulses of all contacts did to kinetic energy \[J\], <= 0 but for rounding: restitution
-    /// and friction only take. The work of moving surfaces is not part of it.
-    pub impulse_work: f64,
-    /// Work of moving colliders \[J\].
-    pub surface_work: f64,
-    /// What it took to lift spheres out of surfaces, against forces that are linear \[J\]: energy that
-    /// the correction of overlaps adds.
-    pub correction_work: f64,
     /// Sub-steps in which less of all impulses was taken, for them not to add kinetic energy.
     pub limited_sub_steps: u32,
-    /// Largest change of a normal impulse in the last sweep of a sub-step, as a part of the largest
-    /// impulse: how far the solution is from the one that more sweeps would come to.
+    /// Largest change of a normal impulse in the last sweep of a sub-step, as a part of the largest impulse
+    /// before or after it, 0 to 1: how far the solution is from the one that more sweeps would come to.
     pub residual: f64,
     /// Largest overlap before it was corrected, beyond what is left as it is, as a part of the sum of
     /// radii.
@@ -150,6 +194,7 @@ impl StepReport {
         self.retired.clear();
         self.unfinished_islands = 0;
         self.work = StageCounts::default();
+        self.energy_account = EnergyAccount::default();
         self.contact_account = ContactAccount::default();
         self.zone_account = ZoneAccount::default();
     }
@@ -189,12 +234,15 @@ pub struct ImpactGroup {
     /// Momentum after, less what colliders gave \[kg m/s\]: it differs from that before by
     /// rounding only.
     pub momentum_after: DVec3,
-    /// Sum of the sizes of the momenta before, to compare their errors with \[kg m/s\].
+    /// Sum of the sizes of the momenta before, to compare their errors with \[kg m/s\]; with more than two
+    /// spheres or with colliders, of those after where that is more.
     pub momentum_scale: f64,
     /// Kinetic energy of its spheres before \[J\].
     pub energy_before: f64,
     /// Kinetic energy after, less the work of moving colliders \[J\].
     pub energy_after: f64,
+    /// Work of moving colliders \[J\].
+    pub collider_work: f64,
     /// Change of the kinetic energy that the coefficients of restitution demand \[J\], <= 0.
     pub energy_demanded: f64,
 }

@@ -12,6 +12,7 @@ use crate::emitter::{self, EmitterState};
 use crate::error::{Error, InvalidValue, Subject};
 use crate::forces::{Force, Spring};
 use crate::id::{EmitterId, SphereId};
+use crate::invariants;
 use crate::numbered::Numbered;
 use crate::persistent_contact::PersistentContact;
 use crate::rule::contact::{self, Solver};
@@ -68,6 +69,17 @@ impl State {
         let Self { settings, forces, springs, colliders, .. } = self;
         let system = System::new(settings, forces, springs, colliders, properties);
         Instant { system, motion: &self.spheres.motion, time }
+    }
+
+    /// Potential energy \[J\] in all forces and springs that have one, at `time` \[s\].
+    pub fn potential_energy(&self, time: f64) -> f64 {
+        let Self { forces, springs, settings, spheres, .. } = self;
+        invariants::potential_energy(spheres, forces, springs, settings.boundary.period(), time)
+    }
+
+    /// Kinetic and potential energy \[J\], at `time` \[s\].
+    pub fn total_energy(&self, time: f64) -> f64 {
+        invariants::kinetic_energy(&self.spheres) + self.potential_energy(time)
     }
 
     /// The contacts that persist, as far as flights are known.

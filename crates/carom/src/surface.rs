@@ -37,6 +37,12 @@ impl SurfaceMotion {
     pub const REST: Self =
         Self { origin: DVec3::ZERO, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO };
 
+    /// Of the surfaces of a collider.
+    pub fn of(collider: &Collider) -> Self {
+        let Collider { pose, velocity, angular_velocity, .. } = *collider;
+        Self { origin: pose.position, velocity, angular_velocity }
+    }
+
     pub fn is_at_rest(&self) -> bool {
         self.velocity == DVec3::ZERO && self.angular_velocity == DVec3::ZERO
     }
@@ -163,10 +169,8 @@ pub(crate) struct Rectangle {
 /// the order -x, +x, -y, +y, -z, +z; those of a container its walls in the same order, each facing
 /// outward and then inward. A box or a container that only reports is its volume.
 pub(crate) fn place(id: ColliderId, collider: &Collider, surfaces: &mut Vec<Surface>) {
-    let Collider { shape, pose, velocity, angular_velocity, restitution, friction, trigger } =
-        *collider;
-    let center = pose.position;
-    let motion = SurfaceMotion { origin: center, velocity, angular_velocity };
+    let Collider { shape, pose, restitution, friction, trigger, .. } = *collider;
+    let (center, motion) = (pose.position, SurfaceMotion::of(collider));
     let rotation = pose.rotation.normalize();
     let axes @ [x, y, z] = [rotation * DVec3::X, rotation * DVec3::Y, rotation * DVec3::Z];
     let mut add = |form, role| {

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::bodies::Properties;
+use crate::bodies::{Motion, Properties};
 use crate::colliders::Colliders;
 use crate::detect::surface_tree::SurfaceTree;
-use crate::forces::{Force, Interactions, SphereStates, Spring};
+use crate::forces::{Force, Interactions, SphereState, SphereStates, Spring};
 use crate::friction::Friction;
 use crate::numbered::Numbered;
 use crate::settings::Settings;
@@ -75,6 +75,17 @@ impl<'a> System<'a> {
             };
             interactions.add_forces(&spheres, time, forces);
         }
+    }
+
+    /// Potential energy of a sphere \[J\] at a time on the world's clock \[s\], without forces between spheres.
+    pub fn potential_energy_alone(&self, motion: &Motion, index: usize, time: f64) -> f64 {
+        let state = SphereState {
+            position: motion.position[index],
+            velocity: motion.velocity[index],
+            radius: self.spheres.radius[index],
+            mass: self.spheres.mass[index],
+        };
+        self.forces.iter().map(|(_, force)| force.potential_energy(&state, time)).sum()
     }
 
     /// An upper bound for the rate of the fastest motion on springs \[1/s\], damped or not; 0 without springs.

@@ -64,7 +64,7 @@ fn a_heap_comes_to_rest_and_gains_nothing_but_what_is_accounted_for() {
         let scale = energy;
         while world.time() < 15.0 {
             let report = world.step(FRAME).unwrap();
-            let corrected = report.contact_account.correction_work;
+            let corrected = report.energy_account.correction;
             most = most.max(report.zone_account.spheres);
             let now = world.total_energy();
             // One that stops within a sub-step of h is off by up to h u / 2 from where it would have: for

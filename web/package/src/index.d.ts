@@ -342,9 +342,10 @@ export interface Simulation {
   };
   /** Parameters of `discrete`. */
   discrete: { integrator: Integrator };
-  /** Parameters of `contact`: sub-steps of a frame, sweeps over all contacts in each, and whether
-   *  sweeps go on until the solution has converged; 8, 2 and false unless given. */
-  contact?: { subSteps: number; sweeps: number; converged: boolean };
+  /** Parameters of `contact`: sub-steps of a frame, sweeps over all contacts in each, whether sweeps go
+   *  on until the solution has converged, and below which part of sqrt(a r), the speed after falling
+   *  through half its radius, a ball may fall asleep, none with 0; 8, 2, false and 0.02 unless given. */
+  contact?: { subSteps: number; sweeps: number; converged: boolean; sleepSpeed: number };
 }
 
 /** New values for how a world is stepped; what is not named stays. */
@@ -445,15 +446,21 @@ export interface StageCounts {
   contacts: number;
 }
 
-/** What contacts did to energy in a frame, and how good the solution is: by `contact`, and in the
- *  stepped zones of `exact`; else 0. */
-export interface ContactAccount {
-  /** What impulses did to kinetic energy [J], <= 0 but for rounding: impacts and friction take. */
-  impulseWork: number;
+/** What became of the energy in a frame: `totalEnergy()` changes by these, by the work of forces that
+ *  have no potential, and by the error of the integration. */
+export interface EnergyAccount {
+  /** Work of contacts [J]: what restitution and friction took, <= 0 but for errors. */
+  contacts: number;
   /** Work of moving colliders [J]. */
-  surfaceWork: number;
-  /** Energy that the correction of overlaps added [J]. */
-  correctionWork: number;
+  colliders: number;
+  /** Work of moving spheres out of what they overlap [J]. */
+  correction: number;
+  /** Energy of emitted spheres, less that of those taken out [J]. */
+  emission: number;
+}
+
+/** How good the solution of a frame is: by `contact`, and in the stepped zones of `exact`; else 0. */
+export interface ContactAccount {
   /** Sub-steps in which impulses were scaled down for them not to add energy. */
   limitedSubSteps: number;
   /** Largest change of a normal impulse in the last sweep, as a part of the largest impulse. */
@@ -620,7 +627,9 @@ export class World {
   readonly triggers: { collider: number; sphere: number }[];
   /** The work of the last frame. */
   readonly work: StageCounts;
-  /** What contacts did to energy in the last frame, by `contact` and in stepped zones. */
+  /** What became of the energy in the last frame. */
+  readonly energyAccount: EnergyAccount;
+  /** How good the solution of the last frame is, by `contact` and in stepped zones. */
   readonly contactAccount: ContactAccount;
   /** What was stepped in the last frame by `exact`. */
   readonly zoneAccount: ZoneAccount;

@@ -203,11 +203,14 @@ export class World {
     return { ...ofEvents, searches, sweeps, contacts };
   }
 
+  get energyAccount() {
+    const [contacts, colliders, correction, emission] = this.#world.energyAccount;
+    return { contacts, colliders, correction, emission };
+  }
+
   get contactAccount() {
-    const [impulseWork, surfaceWork, correctionWork, ...others] = this.#world.contactAccount;
-    const [limitedSubSteps, residual, largestOverlap, asleep] = others;
-    const works = { impulseWork, surfaceWork, correctionWork };
-    return { ...works, limitedSubSteps, residual, largestOverlap, asleep };
+    const [limitedSubSteps, residual, largestOverlap, asleep] = this.#world.contactAccount;
+    return { limitedSubSteps, residual, largestOverlap, asleep };
   }
 
   get zoneAccount() {

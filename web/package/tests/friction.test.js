@@ -55,16 +55,14 @@ test("contacts and the account tell of friction", () => {
   const [along, up, across] = contact.tangentialForce;
   assert.ok(isNear(along, -0.3 * contact.normalForce, 1e-12));
   assert.ok(Math.abs(up) < 1e-12 && Math.abs(across) < 1e-12);
+  const energies = world.energyAccount;
+  assert.ok(energies.contacts < 0);
+  assert.deepEqual({ ...energies, contacts: 0 }, { contacts: 0, colliders: 0, correction: 0, emission: 0 });
   const account = world.contactAccount;
-  assert.ok(account.impulseWork < 0);
-  assert.equal(account.surfaceWork, 0);
   assert.equal(account.asleep, 0);
   const { searches, sweeps, contacts } = world.work;
   assert.ok(searches > 0 && sweeps >= 8 && contacts === 1);
   assert.deepEqual(Object.keys(account), [
-    "impulseWork",
-    "surfaceWork",
-    "correctionWork",
     "limitedSubSteps",
     "residual",
     "largestOverlap",
@@ -79,11 +77,12 @@ test("a ball that lies still falls asleep, and the account counts it", () => {
   assert.equal(step(world, 60).contactAccount.asleep, 1);
 });
 
-test("by `exact` friction acts without an account, by `discrete` there is none", () => {
+test("by `exact` friction acts and takes energy, by `discrete` there is none", () => {
   const world = slidingBall();
   world.setSimulation({ rule: "exact" });
   step(world, 2);
   assert.ok(Object.values(world.contactAccount).every((value) => value === 0));
+  assert.ok(world.energyAccount.contacts < 0);
   const { tangentialForce, normalForce, isSliding } = world.contacts[0];
   assert.ok(isSliding);
   assert.ok(isNear(tangentialForce[0], -0.3 * normalForce, 1e-9));

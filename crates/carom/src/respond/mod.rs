@@ -138,15 +138,22 @@ fn answer_with(
     })
 }
 
-/// Puts a sphere that hit a flat surface onto it, in place of the normal force that would keep
-/// it there; spheres at rounded surfaces and pairs of spheres are left where they are. Tells
-/// whether it was moved.
-pub(crate) fn put_on_surface(contact: &Contact, system: &System, motion: &mut Motion) -> bool {
-    let Bodies::Surface { sphere, surface } = contact.bodies else { return false };
-    let is_flat = !matches!(system.surfaces[surface as usize].form, Form::Sphere { .. });
-    if is_flat {
-        let Separation { point, normal, .. } = contact.separation;
-        motion.position[sphere as usize] = point + system.spheres.radius[sphere as usize] * normal;
+/// Puts a sphere that hit a flat surface onto it, at `time` \[s\], in place of the normal force that would
+/// keep it there; spheres at rounded surfaces and pairs of spheres are left where they are. Returns the
+/// work of that \[J\]; `None` where the sphere was not moved.
+pub(crate) fn put_on_surface(
+    contact: &Contact,
+    system: &System,
+    motion: &mut Motion,
+    time: f64,
+) -> Option<f64> {
+    let Bodies::Surface { sphere, surface } = contact.bodies else { return None };
+    if matches!(system.surfaces[surface as usize].form, Form::Sphere { .. }) {
+        return None;
     }
-    is_flat
+    let Separation { point, normal, .. } = contact.separation;
+    let (index, radius) = (sphere as usize, system.spheres.radius[sphere as usize]);
+    let before = system.potential_energy_alone(motion, index, time);
+    motion.position[index] = point + radius * normal;
+    Some(system.potential_energy_alone(motion, index, time) - before)
 }

@@ -214,7 +214,8 @@ fn give_up(frame: &Frame, island: &mut Island, rest: Interval, buffers: &mut Buf
             if rests(contact.bodies) { respond::answer_plastically } else { respond::answer };
         let Some(impact) = answer(&contact, &system, end, interval.h) else { continue };
         island.impacts.push(impact);
-        respond::put_on_surface(&contact, &system, end);
+        let lift = respond::put_on_surface(&contact, &system, end, interval.time + interval.h);
+        island.correction += lift.unwrap_or(0.0);
     }
     island.settled = true;
     island.unfinished = true;

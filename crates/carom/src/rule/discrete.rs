@@ -39,7 +39,7 @@ pub(crate) fn step(
     let Discrete { integrator, .. } = parameters;
     integrate::advance(integrator, system, motion, everyone.clone(), frame, &mut scratch.integrate);
     for sphere in everyone {
-        meet_surfaces(system, motion, sphere, frame.h, &mut scratch.near, report);
+        meet_surfaces(system, motion, sphere, frame, &mut scratch.near, report);
     }
     meet_each_other(system, motion, frame, scratch, report);
 }
@@ -50,7 +50,7 @@ fn meet_surfaces(
     system: &System,
     motion: &mut Motion,
     sphere: u32,
-    time: f64,
+    frame: Interval,
     near: &mut Vec<u32>,
     report: &mut StepReport,
 ) {
@@ -73,11 +73,11 @@ fn meet_surfaces(
             }
             Role::Encloses => continue,
         }
-        let Some(impact) = respond::answer(&contact, system, motion, time) else { continue };
+        let Some(impact) = respond::answer(&contact, system, motion, frame.h) else { continue };
         report.impacts.push(impact);
-        if respond::put_on_surface(&contact, system, motion)
-            && (place(motion) - found_at).abs().max_element() >= room
-        {
+        let lift = respond::put_on_surface(&contact, system, motion, frame.time + frame.h);
+        report.energy_account.correction += lift.unwrap_or(0.0);
+        if lift.is_some() && (place(motion) - found_at).abs().max_element() >= room {
             // The sphere moved far: other surfaces may be near now. Go on with those that follow.
             found_at = find_near(motion, near);
             next = near.partition_point(|&other| other <= surface);

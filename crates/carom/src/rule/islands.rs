@@ -18,6 +18,8 @@ pub(super) struct Island {
     pub unfinished: bool,
     /// What happened on its way.
     pub impacts: Vec<Impact>,
+    /// Work of putting spheres onto surfaces \[J\].
+    pub correction: f64,
 }
 
 impl Island {
@@ -96,6 +98,7 @@ impl Islands {
         for island in &mut unsettled {
             island.members.sort_unstable();
             island.impacts.clear();
+            island.correction = 0.0;
             island.unfinished = false;
         }
         unsettled.into_iter()
@@ -110,6 +113,7 @@ impl Islands {
     pub fn report(&self, report: &mut StepReport) {
         for island in &self.list {
             report.impacts.extend_from_slice(&island.impacts);
+            report.energy_account.correction += island.correction;
             report.unfinished_islands += u32::from(island.unfinished);
         }
         report.impacts.sort_by(|a, b| a.time.total_cmp(&b.time));

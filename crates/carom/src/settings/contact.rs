@@ -12,11 +12,14 @@ pub struct Contact {
     pub sweeps: u32,
     /// Whether sweeps go on until the residual is at most 1e-10: slow, to compare with.
     pub converged: bool,
+    /// Speed below which a sphere that bears or is borne counts as at rest and may fall asleep, as a part of
+    /// `sqrt(a r)`, the speed after falling through half its radius r, >= 0. With 0 none sleeps.
+    pub sleep_speed: f64,
 }
 
 impl Default for Contact {
     fn default() -> Self {
-        Self { sub_steps: 8, sweeps: 2, converged: false }
+        Self { sub_steps: 8, sweeps: 2, converged: false, sleep_speed: 0.02 }
     }
 }
 
@@ -36,8 +39,14 @@ impl Contact {
         Self { converged, ..self }
     }
 
+    /// The same parameters with another speed of sleep, as a part of `sqrt(a r)`; 0 for none.
+    pub fn with_sleep_speed(self, sleep_speed: f64) -> Self {
+        Self { sleep_speed, ..self }
+    }
+
     pub(super) fn validate(&self) -> Result<(), InvalidValue> {
         validate::at_least_one("sub_steps", self.sub_steps)?;
-        validate::at_least_one("sweeps", self.sweeps)
+        validate::at_least_one("sweeps", self.sweeps)?;
+        validate::non_negative("sleep_speed", self.sleep_speed)
     }
 }

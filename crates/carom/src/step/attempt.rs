@@ -102,18 +102,21 @@ impl<'a> Attempt<'a> {
         Room { is_needed, period: settings.boundary.period() }
     }
 
-    /// Emits the spheres that are due at `time` \[s\]; notes what was before, the first time.
+    /// Emits the spheres that are due at `time` \[s\], when all others are where the arrays say; notes what was
+    /// before, the first time.
     pub fn emit(&mut self, time: f64) -> Emission {
         if !emitter::any_due(&self.state.emitters, time) {
             return Emission::default();
         }
         self.expect_emission();
         let room = self.room();
+        let energy = self.state.total_energy(time);
         let State { emitters, spheres, next_id, .. } = &mut *self.state;
         let emission = emitter::emit(emitters, spheres, next_id, time, room);
         if !emission.retired.is_empty() {
             self.state.drop_loose_springs();
         }
+        self.report.energy_account.emission += self.state.total_energy(time) - energy;
         self.report.emitted.extend(&emission.emitted);
         self.report.retired.extend(&emission.retired);
         self.report.left_out.extend(&emission.left_out);

@@ -6,9 +6,11 @@ use crate::emitter;
 use crate::error::{Error, InvalidValue, Subject};
 use crate::forces;
 use crate::id::SphereId;
+use crate::report::StepReport;
 use crate::rule::exact::{self, Arrivals, Span, Timeline, Unfinished, Unheld, Until};
 use crate::settings::Exact;
 use crate::state::State;
+use crate::sum::Sum;
 use crate::validate;
 
 /// Takes a step from event to event. If that fails, no sphere was moved.
@@ -22,6 +24,7 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
         let mut timeline = begin(attempt, parameters, end)?;
         let end = advance(attempt, &mut timeline, end, until)?;
         attempt.end_at(end);
+        account_for_contacts(attempt.report, &mut timeline, end);
         place_spheres(attempt, &timeline, end)?;
         if !timeline.has_friction() {
             attempt.state.spheres.motion.spin.advance(attempt.length);
@@ -34,6 +37,22 @@ pub(super) fn step(mut attempt: Attempt, parameters: Exact, until: Until) -> Res
     })?;
     attempt.report_triggers();
     Ok(())
+}
+
+/// Accounts for the impacts of a step, and for persistent contacts up to its end \[s\].
+fn account_for_contacts(report: &mut StepReport, timeline: &mut Timeline, end: f64) {
+    let taken = report.groups.iter().map(|group| group.energy_after - group.energy_before);
+    report.energy_account.contacts += taken.collect::<Sum>().value();
+    let given = report.groups.iter().map(|group| group.collider_work);
+    report.energy_account.colliders += given.collect::<Sum>().value();
+    account_for_persistent_contacts(report, timeline, end);
+}
+
+/// Accounts for the work of persistent contacts up to `time` \[s\].
+fn account_for_persistent_contacts(report: &mut StepReport, timeline: &mut Timeline, time: f64) {
+    let [friction, colliders] = timeline.take_contact_work(time);
+    report.energy_account.contacts += friction;
+    report.energy_account.colliders += colliders;
 }
 
 /// The flights of all spheres at the start of the step, which ends at `end` \[s\]: those of the step
@@ -98,15 +117,15 @@ fn advance(
 /// Emits the spheres that are due at `time` \[s\]; those that are there fly on.
 ///
 /// # Errors
-/// [`Error::NonFiniteState`] if room is needed and a sphere is nowhere.
+/// [`Error::NonFiniteState`] if a sphere is nowhere.
 fn emit(attempt: &mut Attempt, timeline: &mut Timeline, time: f64) -> Result<(), Error> {
     if !emitter::any_due(&attempt.state.emitters, time) {
         return Ok(());
     }
-    if emitter::any_needs_room(&attempt.state.emitters, time, attempt.room()) {
-        attempt.expect_emission();
-        place_spheres(attempt, timeline, time)?;
-    }
+    // Those that are there may be in the way, and their energy counts.
+    attempt.expect_emission();
+    place_spheres(attempt, timeline, time)?;
+    account_for_persistent_contacts(attempt.report, timeline, time);
     let known = attempt.state.spheres.ids().to_vec();
     let emission = attempt.emit(time);
     let next = emitter::next_due(&attempt.state.emitters);

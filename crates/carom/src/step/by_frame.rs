@@ -4,8 +4,10 @@ use super::attempt::{Attempt, Scratch};
 use crate::emitter;
 use crate::error::Error;
 use crate::interval::Interval;
-use crate::report::StepReport;
+use crate::report::{BodyPair, StepReport};
 use crate::state::State;
+use crate::sum::Sum;
+use crate::surface::SurfaceMotion;
 
 /// Takes a step in which `advance` moves the spheres over the frame, and tells whether to its end. If that
 /// fails, the spheres are where they were.
@@ -27,4 +29,20 @@ pub(super) fn step(
         }
         checked
     })
+}
+
+/// Accounts for impacts that were answered one after the other, so that the speeds of each are those right
+/// before and after it.
+pub(super) fn account_for_impacts(state: &State, report: &mut StepReport) {
+    let [mut contacts, mut colliders] = [Sum::default(); 2];
+    for impact in &report.impacts {
+        contacts.add(0.5 * impact.impulse * (impact.separation_speed - impact.approach_speed));
+        let BodyPair::Collider { collider, .. } = impact.between else { continue };
+        if let Some(collider) = state.colliders.list().get(collider.0) {
+            let velocity = SurfaceMotion::of(collider).velocity_at(impact.point);
+            colliders.add(impact.impulse * impact.normal.dot(velocity));
+        }
+    }
+    report.energy_account.contacts += contacts.value();
+    report.energy_account.colliders += colliders.value();
 }

@@ -73,6 +73,7 @@ pub(crate) fn step(
                 let scratch = &mut scratch.discrete;
                 discrete::step(&system, parameters, motion, frame, scratch, report);
                 motion.spin.advance(frame.h);
+                by_frame::account_for_impacts(state, report);
                 true
             })
         }
@@ -83,6 +84,7 @@ pub(crate) fn step(
                 let is_done =
                     bisect::step(&system, parameters, motion, frame, scratch, report, stop_request);
                 motion.spin.advance(frame.h);
+                by_frame::account_for_impacts(state, report);
                 is_done
             })
         }

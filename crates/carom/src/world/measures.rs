@@ -9,7 +9,6 @@ use crate::detect::image_overlaps;
 use crate::detect::instant::Instant;
 use crate::invariants;
 use crate::report::{BodyPair, Overlap};
-use crate::state::State;
 
 impl World {
     /// Kinetic energy \[J\], that of rotation included.
@@ -24,14 +23,12 @@ impl World {
 
     /// Potential energy \[J\] in all forces and springs that have one.
     pub fn potential_energy(&self) -> f64 {
-        let State { forces, springs, settings, .. } = &self.state;
-        let period = settings.boundary.period();
-        invariants::potential_energy(self.spheres(), forces, springs, period, self.time())
+        self.state.potential_energy(self.time())
     }
 
     /// Kinetic and potential energy \[J\].
     pub fn total_energy(&self) -> f64 {
-        self.kinetic_energy() + self.potential_energy()
+        self.state.total_energy(self.time())
     }
 
     /// Momentum \[kg m/s\].

@@ -120,3 +120,28 @@ fn twice_energy<S: Simd>(simd: S, velocity: Vector<Lanes<S>>, inverse_mass: Lane
     let energy = velocity.length_squared() / inverse_mass;
     energy.select(zero.is_less(inverse_mass), zero)
 }
+
+/// Work \[J\] of the impulses of a sub-step of `h` \[s\] on the spheres of a run, with the mean of their
+/// velocities before forces and after impulses; the spin changes by impulses alone.
+#[inline(always)]
+pub(super) fn work_of_impulses<S: Simd>(simd: S, run: &Run, h: f64) -> f64 {
+    let zero = Lanes::all(simd, 0.0);
+    let mut twice = zero;
+    let mut add = |change: Vector<Lanes<S>>, sum: Vector<Lanes<S>>, inverse_mass: Lanes<S>| {
+        let work = change.dot(sum) / inverse_mass;
+        // Nothing moves one that sleeps.
+        twice = twice + work.select(zero.is_less(inverse_mass), zero);
+    };
+    for slot in (0..run.velocity.len()).step_by(LANES) {
+        let (now, inverse_mass) = row::columns(simd, run.velocity, slot);
+        let (before, _) = row::columns(simd, run.before, slot);
+        let force = row::columns(simd, run.acceleration, slot);
+        add(now - accelerated(simd, before, force, h), now + before, inverse_mass);
+    }
+    for slot in (0..run.spin.len()).step_by(LANES) {
+        let (now, inverse_mass) = row::columns(simd, run.spin, slot);
+        let (before, _) = row::columns(simd, run.spin_before, slot);
+        add(now - before, now + before, inverse_mass);
+    }
+    0.5 * twice.sum()
+}

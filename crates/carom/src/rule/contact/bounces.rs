@@ -13,6 +13,7 @@ use super::swept::FAR;
 use crate::contact_time;
 use crate::detect::sphere_surface;
 use crate::flight::Flight;
+use crate::report::StepReport;
 
 /// A change of velocity is that of a bounce alone up to this part of it.
 const ROUNDING: f64 = 1e-9;
@@ -28,13 +29,22 @@ struct OneBounce {
     time: f64,
 }
 
+impl OneBounce {
+    /// What the work of its impulse is more \[J\] at its own time than in the middle of the sub-step: forces
+    /// change the velocity in between.
+    fn work_at_its_time(&self, slots: &Slots, sub_step: &SubStep) -> f64 {
+        let acceleration = slots.acceleration[self.slot].vector();
+        (self.time - 0.5 * sub_step.h) * self.impulse.dot(acceleration)
+    }
+}
+
 /// Notes where spheres that bounce come to.
 ///
 /// One that nothing else touches in the sub-step moves until its bounce as if nothing were there. Any other
 /// moves by its last velocity. Contacts know nothing of surfaces that a sphere comes to after a bounce, or
 /// because of what hit it: one that goes far stops at the first of them, and bounces off it in the next
 /// sub-step.
-pub(super) fn note(solver: &mut Solver, sub_step: &SubStep) {
+pub(super) fn note(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) {
     let Solver { slots, slabs, bounces, places, has_other_forces, .. } = solver;
     let mut all = Vec::new();
     for slab in slabs.iter() {
@@ -42,6 +52,8 @@ pub(super) fn note(solver: &mut Solver, sub_step: &SubStep) {
         of_surfaces(slots, slab, &mut all);
     }
     all.sort_by_key(|bounce| bounce.slot);
+    let work = all.iter().map(|bounce| bounce.work_at_its_time(slots, sub_step));
+    report.energy_account.contacts += work.sum::<f64>();
     bounces.clear();
     for of_sphere in all.chunk_by(|first, second| first.slot == second.slot) {
         let own = match of_sphere {

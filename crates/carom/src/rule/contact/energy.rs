@@ -4,7 +4,7 @@
 use fearless_simd::{Level, dispatch};
 use glam::DVec3;
 
-use super::accelerate::kinetic_energy;
+use super::accelerate::{kinetic_energy, work_of_impulses};
 use super::row::Row;
 use super::slots::Run;
 use super::solve;
@@ -29,40 +29,51 @@ const SOFTENING: u32 = 3;
 /// Moving surfaces do work: where there are any, it is accounted for, and nothing is taken back.
 pub(super) fn keep(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) {
     let before = solver.energy_before;
-    let mut gain = gain(solver);
-    if solver.has_moving_surfaces {
-        let surfaces = solver.slabs.iter().flat_map(|slab| &slab.surfaces);
-        let work = surfaces.map(|contact| contact.work()).sum::<f64>();
-        report.contact_account.surface_work += work;
-        report.contact_account.impulse_work += gain - work;
-        return;
-    }
+    let mut change = change(solver, sub_step.h);
     let mut round = 0;
-    while gain > ROUNDING * before && round < ROUNDS {
+    while !solver.has_moving_surfaces && change.gain > ROUNDING * before && round < ROUNDS {
         if round >= SOFTENING {
             solve::soften_bounces(solver, 0.5);
         }
         solve::sweep_once(solver, true, report);
         solve::sweep_once(solver, false, report);
-        gain = self::gain(solver);
+        change = self::change(solver, sub_step.h);
         round += 1;
     }
     report.contact_account.limited_sub_steps += u32::from(round > 0);
-    if gain <= ROUNDING * before {
-        report.contact_account.impulse_work += gain;
-        return;
+    if !solver.has_moving_surfaces && change.gain > ROUNDING * before {
+        take_less(solver, change.gain, sub_step.h);
+        change = self::change(solver, sub_step.h);
     }
-    take_less(solver, gain, sub_step.h);
+    report.energy_account.contacts += change.work;
+    if solver.has_moving_surfaces {
+        let surfaces = solver.slabs.iter().flat_map(|slab| &slab.surfaces);
+        let work = surfaces.map(|contact| contact.work()).sum::<f64>();
+        report.energy_account.colliders += work;
+        report.energy_account.contacts -= work;
+    }
 }
 
-/// What the impulses have added to the kinetic energy \[J\].
-fn gain(solver: &mut Solver) -> f64 {
+/// What impulses did to the kinetic energy of a sub-step.
+struct Change {
+    /// Change of kinetic energy \[J\], as if forces had acted before them.
+    gain: f64,
+    /// Their work \[J\] with the mean of the velocities at both ends of the sub-step, as forces act all
+    /// along: none where a sphere rests.
+    work: f64,
+}
+
+/// What the impulses of a sub-step of `h` \[s\] did to the kinetic energy.
+fn change(solver: &mut Solver, h: f64) -> Change {
     solver.slabs.each(&mut solver.slots, |run, slab| {
-        slab.found.energy = dispatch!(Level::new(), simd => {
-            kinetic_energy(simd, run.velocity) + kinetic_energy(simd, run.spin)
+        let (energy, work) = dispatch!(Level::new(), simd => {
+            let work = work_of_impulses(simd, &run, h);
+            (kinetic_energy(simd, run.velocity) + kinetic_energy(simd, run.spin), work)
         });
+        (slab.found.energy, slab.found.work) = (energy, work);
     });
-    solver.slabs.energy() - solver.energy_before
+    let work = solver.slabs.iter().map(|slab| slab.found.work).sum();
+    Change { gain: solver.slabs.energy() - solver.energy_before, work }
 }
 
 /// Takes less of all impulses, so that they add nothing, in a sub-step of `h` \[s\].

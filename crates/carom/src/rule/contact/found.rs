@@ -6,12 +6,14 @@
 pub(super) struct Found {
     /// A sum \[J\].
     pub energy: f64,
+    /// Work of impulses \[J\].
+    pub work: f64,
     /// Largest change of a normal impulse \[N s\], or of a velocity \[m/s\].
     pub change: f64,
     /// Largest speed that a contact had to be kept from \[m/s\]: in the last sweep, by how much it still
     /// closed too fast.
     pub excess: f64,
-    /// Largest normal impulse \[N s\].
+    /// Largest normal impulse, before or after a sweep \[N s\].
     pub impulse: f64,
     /// Largest overlap, as a part of the sum of radii.
     pub overlap: f64,

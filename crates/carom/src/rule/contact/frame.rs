@@ -95,7 +95,7 @@ pub(super) fn end(
     report: &mut StepReport,
 ) {
     wake::loaded(system, solver);
-    sleep::fall_asleep(solver, h);
+    sleep::fall_asleep(solver, h, report);
     report.contact_account.asleep = solver.asleep();
     solver.slots.write(motion);
     if solver.slots.turn.is_empty() {

@@ -51,6 +51,7 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
     for step in 0..count {
         let number = if backwards { count - 1 - step } else { step };
         let batch = &mut pairs[number];
+        let before = Lanes::each(simd, batch.impulse);
         let Solved { change, room } = if FRICTION {
             let rolling = if ROLLING { rollings.get_mut(number) } else { None };
             solve_with_friction(simd, run, batch, &mut frictions[number], rolling)
@@ -58,6 +59,7 @@ fn sweep_all<S: Simd, const FRICTION: bool, const ROLLING: bool>(
             solve(simd, run, batch)
         };
         largest_change = largest_change.max(change.abs());
+        largest_impulse = largest_impulse.max(before);
         largest_impulse = largest_impulse.max(Lanes::each(simd, batch.impulse));
         least_room = smaller(least_room, room);
     }

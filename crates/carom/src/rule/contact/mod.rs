@@ -80,6 +80,7 @@ pub(crate) fn step(
     stop_request: Option<&StopRequest>,
 ) -> bool {
     let work = Work::new(stop_request);
+    solver.sleep_speed = parameters.sleep_speed;
     frame::begin(system, motion, solver);
     for number in 0..parameters.sub_steps {
         if !work.spend(UNITS_PER_SPHERE * solver.slots.len() as u64) {
@@ -101,6 +102,7 @@ pub(crate) fn tick(
     (solver, scratch): (&mut Solver, &mut Scratch),
     report: &mut StepReport,
 ) {
+    solver.sleep_speed = parameters.sleep_speed;
     frame::go_on(system, motion, solver);
     sub_step(system, parameters, (frame, 0), (solver, scratch), report);
     frame::end(system, motion, solver.h, solver, report);
@@ -124,7 +126,7 @@ fn sub_step(
     solve::sweep(solver, &sub_step, parameters, report);
     energy::keep(solver, &sub_step, report);
     impacts::report(system, solver, &sub_step, report);
-    bounces::note(solver, &sub_step);
+    bounces::note(solver, &sub_step, report);
     advance::advance(system, solver, &sub_step);
     solve::correct(solver, report);
 }

@@ -7,13 +7,12 @@
 use glam::DVec3;
 
 use super::dormant::{self, Dormant, Partner};
+use super::row::Row;
 use super::slots::Slots;
 use super::solver::Solver;
 use super::sub_step::SLOP;
+use crate::report::StepReport;
 
-/// A sphere is calm below this part of the speed `sqrt(a r)` that it would have after falling through half
-/// its radius.
-const CALM: f64 = 0.02;
 /// A spin is steady that a sub-step changes by less than this part of the speed of free fall over it: that
 /// of a ball about the normal on which it lies, without spinning friction.
 const STEADY: f64 = 1e-3;
@@ -29,18 +28,18 @@ pub(super) const NEAR: u32 = 2;
 /// It is looked for what may sleep once in so many frames: that costs as much as a sweep.
 const FRAMES: u32 = 16;
 
-/// Has spheres fall asleep that have been calm for long enough, at the end of a frame of this length \[s\].
-pub(super) fn fall_asleep(solver: &mut Solver, frame: f64) {
-    if !solver.may_sleep {
+/// Puts spheres to sleep that have been calm for long enough, at the end of a frame of this length \[s\].
+pub(super) fn fall_asleep(solver: &mut Solver, frame: f64, report: &mut StepReport) {
+    if !solver.may_sleep || solver.sleep_speed == 0.0 {
         return;
     }
-    let longest = note_calm(&mut solver.slots, frame, solver.h);
+    let longest = note_calm(&mut solver.slots, solver.sleep_speed, frame, solver.h);
     solver.frames = (solver.frames + 1) % FRAMES;
     if longest < PATIENCE || solver.frames != 0 {
         return;
     }
     let stays_awake = near_restless(solver);
-    let slots = &mut solver.slots;
+    let Solver { slots, sleep_speed, .. } = &mut *solver;
     let falls: Vec<bool> =
         slots.sleeps.iter().zip(stays_awake).map(|(sleeps, stays)| !sleeps && !stays).collect();
     if !falls.contains(&true) {
@@ -48,27 +47,35 @@ pub(super) fn fall_asleep(solver: &mut Solver, frame: f64) {
     }
     for slot in (0..slots.len()).filter(|&slot| falls[slot]) {
         slots.sleeps[slot] = true;
-        slots.velocity[slot] = slots.velocity[slot].with_vector(DVec3::ZERO);
-        let slow = calm_speed_squared(slots, slot);
+        let slow = calm_speed_squared(slots, *sleep_speed, slot);
+        let velocity = &mut slots.velocity[slot];
+        report.energy_account.contacts -= stop(velocity);
         if let Some(spin) = slots.spin.get_mut(slot)
             && spin.vector().length_squared() < slow
         {
-            *spin = spin.with_vector(DVec3::ZERO);
+            report.energy_account.contacts -= stop(spin);
         }
     }
     keep_contacts(solver, &falls);
     solver.is_stale = true;
 }
 
-/// Square of the speed below which a sphere is calm \[m²/s²\].
-pub(super) fn calm_speed_squared(slots: &Slots, slot: usize) -> f64 {
-    let acceleration = slots.acceleration[slot].vector().length();
-    CALM * CALM * acceleration * slots.position[slot].number()
+/// Ends a motion, of a sphere or of its spin. Returns its kinetic energy \[J\].
+fn stop(row: &mut Row) -> f64 {
+    let (twice, inverse_mass) = (row.vector().length_squared(), row.number());
+    *row = row.with_vector(DVec3::ZERO);
+    if inverse_mass > 0.0 { 0.5 * twice / inverse_mass } else { 0.0 }
 }
 
-/// Whether a sphere is no faster than one that is calm.
-pub(super) fn is_slow(slots: &Slots, slot: usize) -> bool {
-    slots.velocity[slot].vector().length_squared() < calm_speed_squared(slots, slot)
+/// Square of the speed below which a sphere is calm \[m²/s²\], with the parameter `sleep_speed`.
+pub(super) fn calm_speed_squared(slots: &Slots, sleep_speed: f64, slot: usize) -> f64 {
+    let acceleration = slots.acceleration[slot].vector().length();
+    sleep_speed * sleep_speed * acceleration * slots.position[slot].number()
+}
+
+/// Whether a sphere is slower than the speed below which it is calm.
+fn is_slow(slots: &Slots, sleep_speed: f64, slot: usize) -> bool {
+    slots.velocity[slot].vector().length_squared() < calm_speed_squared(slots, sleep_speed, slot)
 }
 
 /// Whether contacts bear what forces do to a sphere in a sub-step of `h` \[s\].
@@ -79,27 +86,28 @@ fn is_borne(slots: &Slots, slot: usize, h: f64) -> bool {
 }
 
 /// Whether a sphere has no spin that does anything: it is slow, or steady over a sub-step of `h` \[s\].
-fn turns_calmly(slots: &Slots, slot: usize, h: f64) -> bool {
+fn turns_calmly(slots: &Slots, sleep_speed: f64, slot: usize, h: f64) -> bool {
     let (Some(spin), Some(before)) = (slots.spin.get(slot), slots.spin_before.get(slot)) else {
         return true;
     };
     let change = (spin.vector() - before.vector()).length();
     let steady = STEADY * h * slots.acceleration[slot].vector().length();
-    spin.vector().length_squared() < calm_speed_squared(slots, slot) || change < steady
+    let slow = calm_speed_squared(slots, sleep_speed, slot);
+    spin.vector().length_squared() < slow || change < steady
 }
 
 /// Counts for how long each sphere has been calm \[s\], in sub-steps of `h` \[s\]. Gives the longest time of
 /// one that is awake.
-fn note_calm(slots: &mut Slots, frame: f64, h: f64) -> f64 {
+fn note_calm(slots: &mut Slots, sleep_speed: f64, frame: f64, h: f64) -> f64 {
     let mut longest = 0.0_f64;
     for slot in 0..slots.len() {
         if slots.sleeps[slot] {
             continue;
         }
         let is_calm = slots.bears[slot]
-            && is_slow(slots, slot)
+            && is_slow(slots, sleep_speed, slot)
             && is_borne(slots, slot, h)
-            && turns_calmly(slots, slot, h);
+            && turns_calmly(slots, sleep_speed, slot, h);
         slots.calm[slot] = if is_calm { slots.calm[slot] + frame } else { 0.0 };
         longest = longest.max(slots.calm[slot]);
     }

@@ -148,8 +148,8 @@ pub(super) fn correct(solver: &mut Solver, report: &mut StepReport) {
         let (work, of_surfaces) = surfaces::correct(run, &slab.surfaces, places);
         (slab.found.overlap, slab.found.energy) = (overlap.max(of_surfaces), work);
     });
-    let account = &mut report.contact_account;
-    account.correction_work += slabs.energy();
+    report.energy_account.correction += slabs.energy();
     let overlap = slabs.iter().map(|slab| slab.found.overlap).fold(0.0, f64::max);
+    let account = &mut report.contact_account;
     account.largest_overlap = account.largest_overlap.max(overlap);
 }

@@ -49,6 +49,8 @@ pub(crate) struct Solver {
     pub(super) watched: Vec<[u32; 2]>,
     /// The contacts of spheres that sleep.
     pub(super) dormant: Vec<Dormant>,
+    /// Speed below which a sphere is calm, as a part of `sqrt(a r)`.
+    pub(super) sleep_speed: f64,
     /// Whether spheres at rest stay at rest: forces are constant, and surfaces fixed.
     pub(super) may_sleep: bool,
     /// Frames since it was looked for what may fall asleep.

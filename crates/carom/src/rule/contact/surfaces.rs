@@ -317,7 +317,7 @@ impl SurfaceContact {
         let found = Found {
             change: change.abs(),
             excess: (-room).max(0.0),
-            impulse: solved,
+            impulse: solved.max(impulse),
             ..Found::default()
         };
         if solved == 0.0 && impulse == 0.0 {

@@ -47,7 +47,7 @@ pub(super) fn touched(system: &System, solver: &mut Solver, h: f64) {
         let [own, others] = [sleeper, other].map(|slot| system.spheres.mass[index[slot] as usize]);
         // Without what it falls in the sub-step: that is so for what rests.
         let gain = others / (own + others) * velocity[other].vector().length();
-        let calm = sleep::calm_speed_squared(&solver.slots, sleeper);
+        let calm = sleep::calm_speed_squared(&solver.slots, solver.sleep_speed, sleeper);
         if gain * gain > HARD * HARD * calm {
             hard.push(sleeper);
         } else if gain * gain > calm {

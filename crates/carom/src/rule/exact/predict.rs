@@ -170,6 +170,7 @@ fn first_but(
 /// Begins another flight of a sphere from where it is at `now` \[s\].
 pub(super) fn restart(timeline: &mut Timeline, context: &mut StepContext, slot: u32, now: f64) {
     let (position, velocity) = timeline.flights.state_of(slot, now);
+    timeline.flights.count_contact_work(slot, now);
     timeline.begin_flight(slot, position, velocity, now);
     predict(timeline, context, slot, now);
 }

@@ -69,6 +69,12 @@ impl Timeline {
         !self.flights.rotations.is_empty()
     }
 
+    /// Gives the work that persistent contacts have done up to `time` \[s\] since it was taken last: that of
+    /// friction and that of colliders that move \[J\].
+    pub fn take_contact_work(&mut self, time: f64) -> [f64; 2] {
+        self.flights.take_contact_work(time)
+    }
+
     /// What is stepped, to go on with where the flights are dropped.
     pub fn into_zone(self) -> Zone {
         self.zone
@@ -147,6 +153,7 @@ impl Timeline {
             self.begin_flight(slot, position, velocity, time);
         }
         self.flights.rotations.iter_mut().for_each(|rotation| rotation.set_time(now, time));
+        self.flights.restart_contact_work();
     }
 
     /// Gives a sphere that is at a position \[m\] with a velocity \[m/s\] another neighbour region, and

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::contact_work::ContactWork;
 use crate::detect::contact::Bodies;
 
 /// Spheres held together by persistent contacts. Their forces hold until `renewal` or until an event
@@ -36,6 +37,8 @@ pub(crate) struct Supported {
     pub acceleration: DVec3,
     /// How it turns, where friction acts: angular velocity \[rad/s\] and angular acceleration \[rad/s²\].
     pub rotation: Option<[DVec3; 2]>,
+    /// Which work its contacts do.
+    pub contact_work: ContactWork,
 }
 
 impl Cluster {

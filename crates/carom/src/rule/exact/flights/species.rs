@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use super::contact_work::ContactWork;
 use crate::forces;
 use crate::system::System;
 
@@ -29,6 +30,8 @@ pub(crate) struct Species {
     pub level: u32,
     /// The cluster whose persistent contacts act on the sphere. Such a sphere is a species of its own.
     pub cluster: Option<u32>,
+    /// Which work those do.
+    pub contact_work: ContactWork,
     /// The number of this species, or of what the sphere is without contact forces and out of a zone.
     pub free: u32,
     /// Whether these spheres are in a stepped zone.
@@ -94,6 +97,7 @@ impl SpeciesOfSpheres {
                     drag_rate,
                     level,
                     cluster: None,
+                    contact_work: ContactWork::None,
                     free: number,
                     is_stepped: false,
                 });

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::body::Body;
 use super::clusters::{Cluster, Clusters, Support, Supported};
+use super::contact_work::{ContactWork, WorkDone};
 use super::rotation::Rotation;
 use super::species::{Species, SpeciesOfSpheres};
 use crate::bodies::Motion;
@@ -34,6 +35,8 @@ pub(crate) struct Flights {
     pub hold_forces: bool,
     /// Whether some of them have no closed form, so that they change with where spheres are.
     pub forces_vary: bool,
+    /// What persistent contacts have done since the last report.
+    contact_work: WorkDone,
 }
 
 impl Flights {
@@ -67,6 +70,7 @@ impl Flights {
             rotations: Vec::new(),
             hold_forces,
             forces_vary,
+            contact_work: WorkDone::NONE,
         }
     }
 
@@ -164,11 +168,50 @@ impl Flights {
         self.species[free as usize].acceleration = acceleration;
     }
 
+    /// Counts the work of the persistent contacts of a sphere in its flight up to `time` \[s\], where that
+    /// flight ends. Their force is constant over it.
+    pub fn count_contact_work(&mut self, slot: u32, time: f64) {
+        let species = self.species_of(slot);
+        if species.contact_work == ContactWork::None {
+            return;
+        }
+        let from = self.bodies[slot as usize].time.max(self.contact_work.until);
+        let change = species.acceleration - self.free_species_of(slot).acceleration;
+        let way = self.state_of(slot, time).0 - self.state_of(slot, from).0;
+        let along_way = species.mass * change.dot(way);
+        match species.contact_work {
+            ContactWork::None => {}
+            ContactWork::Friction { moment } => {
+                let [before, after] = [from, time].map(|at| self.angular_velocity_of(slot, at));
+                let turning = 0.5 * moment * (after - before).dot(after + before);
+                self.contact_work.friction += along_way + turning;
+            }
+            ContactWork::Colliders => self.contact_work.colliders += along_way,
+        }
+    }
+
+    /// Gives the work that persistent contacts have done up to `time` \[s\] since it was taken last: that of
+    /// friction and that of colliders that move \[J\].
+    pub fn take_contact_work(&mut self, time: f64) -> [f64; 2] {
+        let members = self.clusters.iter().flat_map(|cluster| &cluster.members);
+        let all: Vec<u32> = members.copied().collect();
+        all.into_iter().for_each(|slot| self.count_contact_work(slot, time));
+        let WorkDone { friction, colliders, .. } = self.contact_work;
+        self.contact_work = WorkDone { until: time, ..WorkDone::NONE };
+        [friction, colliders]
+    }
+
+    /// Notes that all flights begin at another time: the work up to now is in a report.
+    pub fn restart_contact_work(&mut self) {
+        self.contact_work = WorkDone::NONE;
+    }
+
     /// Takes away the contact forces on a sphere at `time` \[s\], and its cluster; tells whether there was
     /// one.
     pub fn set_free(&mut self, slot: u32, time: f64) -> bool {
         let species = *self.species_of(slot);
         let Some(cluster) = species.cluster else { return false };
+        self.count_contact_work(slot, time);
         self.clusters.remove(cluster);
         self.spare_species.push(self.bodies[slot as usize].species);
         self.bodies[slot as usize].species = species.free;
@@ -224,12 +267,12 @@ impl Flights {
         let Support { members, contacts, renewal } = support;
         let slots = members.iter().map(|member| member.slot).collect();
         let cluster = self.clusters.add(Cluster { members: slots, contacts, renewal });
-        for Supported { slot, acceleration, rotation } in members {
+        for Supported { slot, acceleration, rotation, contact_work } in members {
             if let Some(rotation) = rotation {
                 self.rotate(slot, rotation, time);
             }
-            let species =
-                Species { acceleration, cluster: Some(cluster), ..*self.species_of(slot) };
+            let free = *self.species_of(slot);
+            let species = Species { acceleration, cluster: Some(cluster), contact_work, ..free };
             let number = match self.spare_species.pop() {
                 Some(number) => {
                     self.species[number as usize] = species;

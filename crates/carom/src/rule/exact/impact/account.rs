@@ -18,11 +18,13 @@ pub(super) fn account_of([before, after]: [&[DVec3]; 2], masses: &[f64]) -> Impa
         let terms = masses.iter().zip(velocities).map(|(m, v)| 0.5 * m * v.length_squared());
         terms.collect::<Sum>().value()
     };
-    let sizes = masses.iter().zip(before).map(|(m, v)| m * v.norm());
+    let size = |velocities: &[DVec3]| {
+        masses.iter().zip(velocities).map(|(m, v)| m * v.norm()).collect::<Sum>().value()
+    };
     ImpactGroup {
         momentum_before: momentum(before),
         momentum_after: momentum(after),
-        momentum_scale: sizes.collect::<Sum>().value(),
+        momentum_scale: size(before).max(size(after)),
         energy_before: energy(before),
         energy_after: energy(after),
         ..ImpactGroup::default()

@@ -258,7 +258,8 @@ fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
     for (touch, &impulse) in group.touches.iter().zip(&friction.impulses) {
         if touch.first.is_none() {
             account.momentum_after -= impulse;
-            account.energy_after -= impulse.dot(friction::surface_velocity(touch, &group.members));
+            let velocity = friction::surface_velocity(touch, &group.members);
+            account.collider_work += impulse.dot(velocity);
         }
     }
     let mut impacts: Vec<Impact> = Vec::new();
@@ -271,7 +272,7 @@ fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
         }
         if matches!(touch.bodies, Bodies::Surface { .. }) {
             account.momentum_after -= impulse * touch.normal;
-            account.energy_after -= impulse * touch.normal.dot(touch.surface_velocity);
+            account.collider_work += impulse * touch.normal.dot(touch.surface_velocity);
         }
         let between = BodyPair::of(touch.bodies, context.system);
         let point = periodic::wrapped(touch.point, context.period);
@@ -294,6 +295,7 @@ fn record(context: &mut StepContext, group: &Group, answer: &Answer) {
         });
     }
     if !impacts.is_empty() {
+        account.energy_after -= account.collider_work;
         context.record(impacts, account);
     }
 }

@@ -51,6 +51,7 @@ pub(crate) fn renew(timeline: &mut Timeline, system: &System, start: f64) {
             timeline.flights.set_free_acceleration(slot, uniform);
             continue;
         }
+        timeline.flights.count_contact_work(slot, start);
         if is_all {
             begin_under(timeline, system, slot, uniform, [start, end]);
         } else {

@@ -11,7 +11,7 @@ use crate::flight::Flight;
 use crate::norm::Norm;
 use crate::respond::friction_of;
 use crate::rule::exact::contacts::{Corner, MOST_PLANES, Member, Plane, beyond};
-use crate::rule::exact::flights::{AxisMotion, Supported};
+use crate::rule::exact::flights::{AxisMotion, ContactWork, Supported};
 use crate::surface::Form;
 use crate::system::System;
 
@@ -25,6 +25,8 @@ pub(crate) struct PlanarSupport {
     pub acceleration: DVec3,
     /// \[rad/s²\]
     pub angular_acceleration: DVec3,
+    /// Moment of inertia \[kg m²\].
+    moment: f64,
     /// How long that holds \[s\]; infinite if longer than the given duration.
     pub valid_for: f64,
     /// Which contacts persist, in the order of the planes; the others part.
@@ -35,7 +37,8 @@ impl PlanarSupport {
     /// The sphere at `slot`, so supported.
     pub fn supported(&self, slot: u32) -> Supported {
         let rotation = Some([self.angular_velocity, self.angular_acceleration]);
-        Supported { slot, acceleration: self.acceleration, rotation }
+        let contact_work = ContactWork::Friction { moment: self.moment };
+        Supported { slot, acceleration: self.acceleration, rotation, contact_work }
     }
 }
 
@@ -86,6 +89,7 @@ pub(crate) fn support(
         angular_velocity,
         acceleration,
         angular_acceleration: DVec3::ZERO,
+        moment: system.spheres.moment_of_inertia(member.index as usize),
         valid_for: f64::INFINITY,
         persists,
     };

@@ -17,7 +17,7 @@ use crate::respond::{friction_of, restitution_of};
 use crate::rule::exact::contact_scale::ContactScale;
 use crate::rule::exact::contacts::{Group, Member, Touch};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::flights::{Support, Supported};
+use crate::rule::exact::flights::{ContactWork, Support, Supported};
 use crate::work::Work;
 
 /// Spheres in persistent contact whose speed is below this part of the speeds they came with are at
@@ -187,6 +187,8 @@ fn connected(
             root[a.max(b)] = a.min(b);
         }
     }
+    let does_work = touches.iter().any(Touch::does_work);
+    let contact_work = if does_work { ContactWork::Colliders } else { ContactWork::None };
     let mut supports: BTreeMap<usize, Support> = BTreeMap::new();
     let of = |supports: &mut BTreeMap<usize, Support>, place: usize| {
         let empty = || Support { members: Vec::new(), contacts: Vec::new(), renewal };
@@ -199,7 +201,8 @@ fn connected(
         let root = of(&mut supports, place);
         if let Some(support) = supports.get_mut(&root) {
             let acceleration = accelerations.each[place];
-            support.members.push(Supported { slot: member.slot, acceleration, rotation: None });
+            let (slot, rotation) = (member.slot, None);
+            support.members.push(Supported { slot, acceleration, rotation, contact_work });
         }
     }
     for touch in touches {

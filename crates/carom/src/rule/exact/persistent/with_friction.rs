@@ -12,7 +12,7 @@ use crate::norm::Norm;
 use crate::respond::friction_of;
 use crate::rule::exact::contacts::{Corner, Group, Member, Plane, Touch};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::flights::{Support, Supported};
+use crate::rule::exact::flights::{ContactWork, Support, Supported};
 
 /// Normals that differ by less are one \[rad\]: rounding.
 const SAME_NORMAL: f64 = 1e-9;
@@ -113,11 +113,13 @@ fn over_curve(
     let member = &mut group.members[place];
     let piece = rolling_over::roll_over(context, member, &own[0], friction, group.time)?;
     *member = piece.member;
+    let moment = context.system.spheres.moment_of_inertia(member.index as usize);
     Ok(Support {
         members: vec![Supported {
             slot: member.slot,
             acceleration: piece.acceleration,
             rotation: Some([member.angular_velocity, piece.angular_acceleration]),
+            contact_work: ContactWork::Friction { moment },
         }],
         contacts: own.iter().map(|touch| touch.bodies).collect(),
         renewal: group.time + piece.valid_for,

@@ -162,7 +162,7 @@ fn leave(
             let lift = -overlap.distance * overlap.normal;
             position += lift;
             let work = -species.mass * species.acceleration.dot(lift);
-            context.report.contact_account.correction_work += work;
+            context.report.energy_account.correction += work;
         }
     }
     timeline.flights.leave_zone(slot, [position, velocity], now);

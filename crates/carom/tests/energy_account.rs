@@ -1,0 +1,229 @@
+//! The energy account: what contacts, moving colliders, corrections and emitters did to the energy of a
+//! world, under every rule.
+
+mod common;
+
+use carom::{
+    Collider, Contact, DQuat, DVec3, Emitter, EnergyAccount, Exact, Gravity, Pose, Rule, Shape,
+    Sphere, ViscousDrag, Wind, World,
+};
+use common::{G, Numbers, assert_close, bisect, discrete, vec, world};
+
+const DOWN: DVec3 = DVec3::new(0.0, -G, 0.0);
+const FRAME: f64 = 1.0 / 60.0;
+
+fn exact() -> Rule {
+    Exact::default().into()
+}
+
+fn contact() -> Rule {
+    Contact::default().into()
+}
+
+fn heavy_world(rule: Rule) -> World {
+    let mut world = world(rule);
+    world.add_force(Gravity::new(DOWN)).unwrap();
+    world
+}
+
+fn floor() -> Collider {
+    at_origin(Shape::HalfSpace)
+}
+
+fn at_origin(shape: Shape) -> Collider {
+    Collider::new(shape, Pose::at(DVec3::ZERO))
+}
+
+/// The accounts of so many frames together, and what is left of the change of energy.
+fn run(world: &mut World, frames: usize, dt: f64) -> (EnergyAccount, f64) {
+    let before = world.total_energy();
+    let mut sum = EnergyAccount::default();
+    for _ in 0..frames {
+        sum += world.step(dt).unwrap().energy_account;
+    }
+    (sum, world.total_energy() - before - sum.total())
+}
+
+/// A ball that slides and rolls over a floor into others, bounces, and a box that a ball falls into.
+fn busy_world(rule: Rule) -> World {
+    let mut world = heavy_world(rule);
+    world.add_collider(floor().with_restitution(0.6).with_friction(0.3)).unwrap();
+    let turned = Pose { position: vec(4.0, 0.5, 0.0), rotation: DQuat::from_rotation_z(0.3) };
+    let size = vec(2.0, 1.0, 2.0);
+    world.add_collider(Collider::new(Shape::Box { size }, turned).with_restitution(0.7)).unwrap();
+    let ball = |x: f64, y: f64| Sphere::new(vec(x, y, 0.0), 0.1).with_restitution(0.8);
+    world.add_sphere(ball(0.0, 0.1).with_velocity(vec(3.0, 0.0, 0.0))).unwrap();
+    world.add_sphere(ball(1.0, 0.1).with_friction(0.2)).unwrap();
+    world.add_sphere(ball(2.0, 1.5).with_angular_velocity(vec(3.0, 2.0, 30.0))).unwrap();
+    world.add_sphere(ball(4.0, 2.0)).unwrap();
+    world
+}
+
+#[test]
+fn under_exact_and_gravity_impacts_and_friction_are_all_that_takes_energy() {
+    let mut world = busy_world(exact());
+    let largest = world.total_energy();
+    let (account, remainder) = run(&mut world, 240, FRAME);
+    // One in a million of sliding paths over edges is the error of their pieces.
+    assert!(remainder.abs() < 1e-9 * largest, "{remainder} of {largest}: {account:?}");
+    assert!(account.contacts < -0.2 * largest, "{account:?}");
+    assert_eq!((account.colliders, account.correction, account.emission), (0.0, 0.0, 0.0));
+}
+
+#[test]
+fn the_account_does_not_depend_on_how_frames_cut_the_motion() {
+    let [fine, coarse] = [1.0 / 240.0, 1.0 / 4.0].map(|dt| {
+        let mut world = busy_world(exact());
+        run(&mut world, (4.0 / dt) as usize, dt).0
+    });
+    assert_close(fine.contacts, coarse.contacts, 1e-12 * fine.contacts.abs());
+}
+
+#[test]
+fn what_rests_takes_nothing() {
+    for rule in [exact(), contact()] {
+        let mut world = heavy_world(rule);
+        world.add_collider(floor().with_friction(0.5)).unwrap();
+        for x in 0..5 {
+            let place = vec(0.2 * f64::from(x), 0.1, 0.0);
+            world.add_sphere(Sphere::new(place, 0.1).with_restitution(0.9)).unwrap();
+        }
+        // In a sub-step a ball gains a speed of 0.02 m/s, which the floor takes.
+        let (account, remainder) = run(&mut world, 120, FRAME);
+        assert!(account.contacts.abs() < 1e-15, "{rule:?}: {account:?}");
+        assert!(remainder.abs() < 1e-15, "{rule:?}: {remainder}");
+    }
+}
+
+#[test]
+fn a_ball_that_slides_until_it_rolls_loses_two_sevenths_of_its_energy() {
+    for (rule, tolerance) in [(exact(), 1e-12), (contact(), 1e-2)] {
+        let mut world = heavy_world(rule);
+        world.add_collider(floor().with_friction(0.4)).unwrap();
+        let ball = Sphere::new(vec(0.0, 0.1, 0.0), 0.1).with_mass(2.0);
+        world.add_sphere(ball.with_velocity(vec(1.0, 0.0, 0.0))).unwrap();
+        let (account, remainder) = run(&mut world, 60, FRAME);
+        assert_close(account.contacts, -2.0 / 7.0, tolerance);
+        assert_close(remainder, 0.0, tolerance);
+    }
+}
+
+#[test]
+fn a_belt_gives_what_its_ball_gets_and_friction_takes_half() {
+    for (rule, tolerance) in [(exact(), 2e-3), (contact(), 2e-3)] {
+        let mut world = heavy_world(rule);
+        let belt = floor().with_friction(0.4).moving(vec(1.0, 0.0, 0.0), DVec3::ZERO);
+        world.add_collider(belt).unwrap();
+        world.add_sphere(Sphere::new(vec(0.0, 0.1, 0.0), 0.1).with_mass(0.2)).unwrap();
+        let (account, remainder) = run(&mut world, 60, FRAME);
+        // It comes to roll on the belt, with 2/7 of its speed.
+        assert_close(account.colliders, 0.2 * 2.0 / 7.0, tolerance * 0.06);
+        assert_close(account.contacts, -0.1 * 2.0 / 7.0, tolerance * 0.03);
+        assert_close(remainder, 0.0, tolerance * 0.06);
+    }
+}
+
+#[test]
+fn a_wall_does_the_work_of_its_impulse() {
+    // Under `bisect` a collider passes into a ball at rest.
+    for rule in [exact(), contact(), discrete()] {
+        let mut world = world(rule);
+        let wall = floor();
+        let rotation = DQuat::from_rotation_z(-std::f64::consts::FRAC_PI_2);
+        let pose = Pose { position: vec(-0.5, 0.0, 0.0), rotation };
+        let (wall, speed) = (wall.with_pose(pose), 2.0);
+        world.add_collider(wall.moving(vec(speed, 0.0, 0.0), DVec3::ZERO)).unwrap();
+        let ball = Sphere::new(DVec3::ZERO, 0.1).with_mass(3.0).with_restitution(0.5);
+        world.add_sphere(ball).unwrap();
+        let (account, remainder) = run(&mut world, 30, FRAME);
+        // From rest to (1 + e) w: the impulse is m (1 + e) w, and its work that times w.
+        let given = 3.0 * 1.5 * speed * speed;
+        let is_given = (account.colliders - given).abs() < 1e-14 * given;
+        assert!(is_given, "{rule:?}: {account:?}, {remainder}");
+        assert_close(account.contacts, -0.5 * 3.0 * 0.75 * speed * speed, 1e-14 * given);
+        assert_close(remainder, 0.0, 1e-14 * given);
+    }
+}
+
+#[test]
+fn a_wall_that_strikes_a_ball_at_rest_keeps_the_ledger() {
+    let mut world = world(exact());
+    let rotation = DQuat::from_rotation_z(-std::f64::consts::FRAC_PI_2);
+    let pose = Pose { position: vec(-0.5, 0.0, 0.0), rotation };
+    let wall = floor().with_pose(pose);
+    world.add_collider(wall.moving(vec(2.0, 0.0, 0.0), DVec3::ZERO)).unwrap();
+    world.add_sphere(Sphere::new(DVec3::ZERO, 0.1)).unwrap();
+    let report = world.step(0.5).unwrap();
+    let [group] = &report.groups[..] else { panic!("{report:?}") };
+    assert!(group.momentum_error() < 1e-15 && group.energy_error() < 1e-15, "{group:?}");
+}
+
+#[test]
+fn bounces_take_what_restitution_demands_under_every_rule() {
+    for (rule, tolerance) in
+        [(exact(), 1e-13), (contact(), 1e-9), (discrete(), 0.1), (bisect(), 0.05)]
+    {
+        let mut world = heavy_world(rule);
+        world.add_collider(floor()).unwrap();
+        let ball = Sphere::new(vec(0.0, 1.1, 0.0), 0.1).with_mass(2.0).with_restitution(0.9);
+        world.add_sphere(ball).unwrap();
+        // Falls 1 m, in 0.45 s.
+        let (account, _) = run(&mut world, 30, FRAME);
+        let demanded = -2.0 * G * (1.0 - 0.81);
+        assert_close(account.contacts, demanded, tolerance * demanded.abs());
+    }
+}
+
+#[test]
+fn an_elastic_gas_closes_its_account_under_the_rules_with_impacts() {
+    let mut numbers = Numbers(3);
+    let states: Vec<[DVec3; 2]> = (0..30).map(|_| [numbers.vector(), numbers.vector()]).collect();
+    for rule in [exact(), bisect()] {
+        let mut world = world(rule);
+        let size = DVec3::splat(4.0);
+        let open = carom::Sides::NONE;
+        world.add_collider(at_origin(Shape::Container { size, open })).unwrap();
+        for [place, velocity] in &states {
+            let sphere = Sphere::new(1.8 * *place, 0.05).with_velocity(3.0 * *velocity);
+            world.add_sphere(sphere).unwrap();
+        }
+        let largest = world.total_energy();
+        let (account, remainder) = run(&mut world, 100, FRAME);
+        assert!(account.contacts.abs() < 1e-12 * largest, "{rule:?}: {account:?}");
+        assert!(remainder.abs() < 1e-12 * largest, "{rule:?}: {remainder}");
+    }
+}
+
+#[test]
+fn emitted_and_retired_balls_are_an_entry() {
+    for rule in [exact(), contact(), discrete(), bisect()] {
+        let mut world = heavy_world(rule);
+        let thrown = Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(1.0, 5.0, 0.0)).with_mass(2.0);
+        let emitter = Emitter::new(thrown.with_angular_velocity(vec(0.0, 9.0, 0.0)), 0.3);
+        let emitter = emitter.with_position(vec(0.0, 3.0, 0.0)).with_max_spheres(4);
+        world.add_emitter(emitter).unwrap();
+        let (account, remainder) = run(&mut world, 180, FRAME);
+        let kinetic = 0.5 * 2.0 * 26.0 + 0.5 * (0.4 * 2.0 * 0.01) * 81.0;
+        let each = kinetic + 2.0 * G * 3.0;
+        let count = 10.0;
+        // Without impacts or integration every ball keeps what it came with.
+        let kept = 4.0 * each;
+        assert_close(account.emission, kept, 0.05 * count * each);
+        assert!(remainder.abs() < 0.05 * each * count, "{rule:?}: {remainder}");
+        if matches!(rule, Rule::Exact(_) | Rule::Contact(_)) {
+            assert_close(account.emission, kept, 1e-12 * count * each);
+            assert!(remainder.abs() < 1e-12 * each * count, "{rule:?}: {remainder}");
+        }
+    }
+}
+
+#[test]
+fn what_drag_and_wind_do_is_left_over() {
+    let mut world = world(exact());
+    world.add_force(ViscousDrag::new(0.5)).unwrap();
+    world.add_force(Wind::new(vec(2.0, 0.0, 0.0), 0.5)).unwrap();
+    world.add_sphere(Sphere::new(DVec3::ZERO, 0.1)).unwrap();
+    let (account, remainder) = run(&mut world, 60, FRAME);
+    assert_eq!(account, EnergyAccount::default());
+    assert_close(remainder, world.kinetic_energy(), 1e-15);
+}
