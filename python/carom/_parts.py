@@ -765,11 +765,14 @@ class Contact(Part):
         sub_steps: Sub-steps of a frame, >= 1: overlaps fall with the square of their length.
         sweeps: Sweeps over all contacts in a sub-step, >= 1.
         converged: Whether sweeps go on until the solution has converged: slow, to compare with.
+        sleep_speed: Speed below which a ball that bears or is borne may fall asleep, as a part of
+            sqrt(a r), the speed after falling through half its radius, >= 0; with 0 none sleeps.
     """
 
     sub_steps: Count = 8
     sweeps: Count = 2
     converged: bool = False
+    sleep_speed: NonNegative = 0.02
 
 
 @dataclass(frozen=True)

@@ -94,6 +94,7 @@ fn contact(parameters: &Contact) -> carom::Contact {
         .with_sub_steps(parameters.sub_steps)
         .with_sweeps(parameters.sweeps)
         .with_converged(parameters.converged)
+        .with_sleep_speed(parameters.sleep_speed)
 }
 
 fn integrator(integrator: Integrator) -> carom::Integrator {

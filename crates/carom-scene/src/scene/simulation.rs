@@ -287,7 +287,7 @@ pub struct Discrete {
 }
 
 /// Parameters of the rule `contact`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Contact {
     /// Sub-steps of a frame, >= 1: overlaps fall with the square of their length.
@@ -298,11 +298,21 @@ pub struct Contact {
     pub sweeps: u32,
     /// Whether sweeps go on until the solution has converged: slow, to compare with.
     pub converged: bool,
+    /// Speed below which a ball that bears or is borne may fall asleep, as a part of `sqrt(a r)`, the speed after
+    /// falling through half its radius, >= 0; with 0 none sleeps.
+    #[schemars(range(min = 0.0))]
+    #[serde(skip_serializing_if = "is_default_sleep_speed")]
+    pub sleep_speed: f64,
+}
+
+fn is_default_sleep_speed(sleep_speed: &f64) -> bool {
+    *sleep_speed == Contact::default().sleep_speed
 }
 
 impl Default for Contact {
     fn default() -> Self {
-        let carom::Contact { sub_steps, sweeps, converged, .. } = carom::Contact::default();
-        Self { sub_steps, sweeps, converged }
+        let carom::Contact { sub_steps, sweeps, converged, sleep_speed, .. } =
+            carom::Contact::default();
+        Self { sub_steps, sweeps, converged, sleep_speed }
     }
 }
