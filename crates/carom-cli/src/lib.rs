@@ -11,6 +11,8 @@ mod choice;
 mod compare;
 mod config;
 mod contact_totals;
+mod energy_balance;
+mod escapes;
 mod failure;
 mod gas;
 mod grade;

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-use carom::{BodyPair, DVec3, StageCounts, World};
+use carom::{BodyPair, ColliderId, DVec3, EnergyAccount, StageCounts, World};
 use carom_scene::scene::{ImpactLaw, Integrator, Rule, WindBack};
 use carom_session::{Replay, SessionError};
 use serde::Serialize;
@@ -11,6 +11,8 @@ use serde::Serialize;
 use crate::advice::{Conduct, advice, unread};
 use crate::breach::{Course, breaches};
 use crate::contact_totals::ContactTotals;
+use crate::energy_balance::{EnergyBalance, remainder_of};
+use crate::escapes::Escapes;
 use crate::stage_work::StageWork;
 use crate::written::written;
 use crate::zone_totals::ZoneTotals;
@@ -44,15 +46,19 @@ pub struct Observer {
     /// In any group of impacts, under rules that keep a ledger.
     largest_momentum_error: f64,
     largest_energy_error: f64,
+    energy: EnergyAccount,
     /// Under the rule `contact`, and in zones.
     contact: ContactTotals,
     zones: ZoneTotals,
     /// Whether a ball was emitted into another one.
     emitted_into_another: bool,
+    escapes: Escapes,
 }
 
 impl Observer {
     pub fn new(world: &World) -> Self {
+        let mut escapes = Escapes::default();
+        escapes.look(world);
         Self {
             began: Instant::now(),
             stepping: Duration::ZERO,
@@ -70,9 +76,11 @@ impl Observer {
             largest_relative_overlap: 0.0,
             largest_momentum_error: 0.0,
             largest_energy_error: 0.0,
+            energy: EnergyAccount::default(),
             contact: ContactTotals::default(),
             zones: ZoneTotals::default(),
             emitted_into_another: false,
+            escapes,
         }
     }
 
@@ -90,6 +98,7 @@ impl Observer {
         self.left_out += report.left_out.len() as u64;
         self.unfinished_islands += u64::from(report.unfinished_islands);
         self.work += report.work;
+        self.energy += report.energy_account;
         self.contact.add(report);
         self.zones.add(report);
         for group in &report.groups {
@@ -99,12 +108,14 @@ impl Observer {
         let prevents_overlaps = matches!(replay.simulation().rule, Rule::Exact | Rule::Contact);
         let is_seldom = prevents_overlaps && world.spheres().len() > FEW;
         if !is_seldom || self.frames.is_multiple_of(FRAMES_PER_LOOK) {
-            self.look_for_overlaps(world);
+            self.look_at_places(world);
         }
         Ok(())
     }
 
-    fn look_for_overlaps(&mut self, world: &World) {
+    /// Looks for overlaps, and for balls that have left closed containers.
+    fn look_at_places(&mut self, world: &World) {
+        self.escapes.look(world);
         let overlaps = world.overlaps(0.0);
         if overlaps.is_empty() {
             return;
@@ -155,6 +166,7 @@ pub struct Summary {
     work: StageWork<u64>,
     energy_at_start: f64,
     energy_at_end: f64,
+    energy_balance: EnergyBalance,
     momentum_at_start: [f64; 3],
     momentum_at_end: [f64; 3],
     /// At the ends of frames.
@@ -215,12 +227,20 @@ impl Conduct {
 impl Summary {
     pub fn new(replay: &Replay, mut observer: Observer) -> Self {
         let (world, simulation) = (replay.world(), replay.simulation());
-        observer.look_for_overlaps(world);
+        observer.look_at_places(world);
         let is_bisect = simulation.rule == Rule::Bisect;
         let is_exact = simulation.rule == Rule::Exact;
         let is_contact = simulation.rule == Rule::Contact;
+        let energy_at_end = world.total_energy();
         let advice = advice(Conduct::of(replay, &observer));
-        let broken = breaches(Course::of(replay, &observer));
+        let mut broken = breaches(Course::of(replay, &observer));
+        let name_of = |id: ColliderId| match replay.scene().colliders.get(id.number() as usize) {
+            Some(collider) if !collider.name.is_empty() => collider.name.clone(),
+            _ => id.to_string(),
+        };
+        // Where somebody moves balls on the way, they may be anywhere.
+        let has_edits = replay.edits() > 0;
+        broken.extend(observer.escapes.breach(name_of).filter(|_| !has_edits));
         Self {
             scene: replay.scene().name.clone(),
             rule: simulation.rule,
@@ -246,7 +266,12 @@ impl Summary {
             unfinished_islands: observer.unfinished_islands,
             work: observer.work.into(),
             energy_at_start: observer.energy_at_start,
-            energy_at_end: world.total_energy(),
+            energy_at_end,
+            energy_balance: EnergyBalance::new(
+                observer.energy,
+                energy_at_end - observer.energy_at_start,
+                remainder_of(replay.scene(), world, replay.edits()),
+            ),
             momentum_at_start: observer.momentum_at_start.to_array(),
             momentum_at_end: world.momentum().to_array(),
             largest_overlap: observer.largest_overlap,
@@ -306,10 +331,7 @@ impl Summary {
                 " ({emitted} emitted, {retired} retired, {left_out} left out: no room at the emitter)"
             ),
         };
-        let mut energy = energy_change(self.energy_at_start, self.energy_at_end);
-        if self.emitted > 0 {
-            energy.push_str(", what was emitted included");
-        }
+        let energy = energy_change(self.energy_at_start, self.energy_at_end);
         let mut rows = vec![
             ("scene", self.scene.clone()),
             ("rule", self.rule()),
@@ -331,8 +353,9 @@ impl Summary {
         }
         if let Some(contact) = &self.contact {
             // Before the momentum.
-            rows.splice(6..6, contact.rows(self.zones.is_some()));
+            rows.splice(6..6, contact.rows());
         }
+        rows.splice(6..6, self.energy_balance.rows());
         if let (Some(momentum), Some(energy)) =
             (self.largest_momentum_error, self.largest_energy_error)
         {
