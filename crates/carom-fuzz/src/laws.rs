@@ -10,8 +10,9 @@ use crate::target::PATIENCE;
 /// Frames that a world is taken.
 const FRAMES: usize = 64;
 
-/// Part of the energy that a frame of `exact` may add: to this, pieces of path along curved surfaces keep it.
-const EXACT_GAIN: f64 = 1e-7;
+/// Part of the energy by which the account of a frame of `exact` may be open: the square of the angle by which a normal
+/// turns in a piece of path along a curve.
+const OPEN_ACCOUNT: f64 = 1e-6;
 
 /// That of `contact`, besides what a field does in a sub-step to a sphere that meets several bodies in it: that moves by its
 /// last velocity, and its energy in the field is right in first order.
@@ -103,13 +104,19 @@ fn run(scene: &Scene, world: &mut World, frames: usize, before: Seen) -> Result<
         })?;
         let in_zone = report.zone_account.joined > 0 || report.zone_account.spheres > 0;
         seen.zone |= in_zone;
-        let corrected = report.contact_account.correction_work;
+        let account = report.energy_account;
         seen.contact |= !world.contacts().is_empty();
         let at = format!("at {} s", world.time());
         let now = world.total_energy();
-        scale = scale.max(world.kinetic_energy());
+        let given = [account.contacts, account.colliders, account.emission];
+        scale = given.iter().fold(scale.max(world.kinetic_energy()), |most, it| most.max(it.abs()));
         law(now.is_finite(), || format!("has energy {now} {at}"))?;
-        let gain = now - energy - corrected.max(0.0);
+        let rest = now - energy - account.total();
+        let is_closed = keeps.account.is_none_or(|most| rest.abs() <= most * scale);
+        law(in_zone || was_stepped || is_closed, || {
+            format!("has {rest:e} J too much for its account {account:?}, its energy being {scale:e} J, {at}")
+        })?;
+        let gain = now - energy - account.correction.max(0.0);
         // A frame after one of stepped spheres may end what that began.
         let uncertain = keeps.speed_error * momenta(world);
         let is_kept = keeps.gain.is_none_or(|most| gain <= most * scale + uncertain);
@@ -124,6 +131,8 @@ fn run(scene: &Scene, world: &mut World, frames: usize, before: Seen) -> Result<
 
 /// What the rule of a scene keeps.
 struct Keeps {
+    /// Part of the energy by which the account of a frame may be open.
+    account: Option<f64>,
     /// Part of the energy that a frame may add.
     gain: Option<f64>,
     /// By which change of its speed \[m/s\] the energy of a sphere may be wrong besides.
@@ -145,13 +154,13 @@ impl Keeps {
         // Where an impact cuts the time for which they are held, springs keep energy to the second order only.
         let is_constant =
             |force: &Force| matches!(force, Force::Gravity { .. } | Force::Constant { .. });
-        let keeps_energy = scene.simulation.boundary == Boundary::default()
+        let has_account = scene.simulation.boundary == Boundary::default()
             && scene.springs.is_empty()
-            && scene.emitters.is_empty()
             && scene.forces.iter().all(is_constant);
+        let keeps_energy = has_account && scene.emitters.is_empty();
         Self {
+            account: (rule == Rule::Exact && has_account).then_some(OPEN_ACCOUNT),
             gain: match rule {
-                Rule::Exact if is_kept && keeps_energy => Some(EXACT_GAIN),
                 Rule::Contact if is_kept && keeps_energy => Some(CONTACT_GAIN),
                 _ => None,
             },

@@ -1,0 +1,107 @@
+//! The work of frames, counted: nothing that a world may hold makes a frame go on without end.
+
+mod common;
+
+use carom::{
+    Buoyancy, Collider, ConstantForce, Contact, DQuat, DVec3, Emitter, Exact, Gravity,
+    MutualGravity, PointAttractor, Pose, QuadraticDrag, Rule, Shape, Sides, Sphere, ViscousDrag,
+    Vortex, Wind, World,
+};
+use common::{G, bisect, discrete, vec, world};
+
+const FRAME: f64 = 1.0 / 60.0;
+
+fn rules() -> [Rule; 4] {
+    [Exact::default().into(), Contact::default().into(), bisect(), discrete()]
+}
+
+/// The work of so many frames: events and solver iterations under `exact`, sweeps over contacts, and tests of
+/// pairs.
+fn work_of(world: &mut World, frames: usize) -> u64 {
+    let mut done = 0;
+    for _ in 0..frames {
+        let report = world.step(FRAME).unwrap();
+        let work = report.work;
+        done += work.events + work.solver_iterations + work.pair_tests + work.sweeps;
+        done += report.impacts.len() as u64;
+    }
+    done
+}
+
+#[test]
+fn every_force_lets_emitters_fill_an_empty_world() {
+    let add: [fn(&mut World); 10] = [
+        |_| {},
+        |world| drop(world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap()),
+        |world| drop(world.add_force(ConstantForce::new(vec(1.0, 2.0, 0.0))).unwrap()),
+        |world| drop(world.add_force(ViscousDrag::new(0.5)).unwrap()),
+        |world| drop(world.add_force(QuadraticDrag::new(1.2)).unwrap()),
+        |world| drop(world.add_force(Wind::new(vec(3.0, 0.0, 1.0), 0.5)).unwrap()),
+        |world| drop(world.add_force(Vortex::new(DVec3::ZERO, 2.0, 0.5)).unwrap()),
+        |world| drop(world.add_force(Buoyancy::new(1000.0, 0.5)).unwrap()),
+        |world| drop(world.add_force(PointAttractor::new(vec(0.0, -1.0, 0.0), 5.0)).unwrap()),
+        |world| drop(world.add_force(MutualGravity::new(0.1)).unwrap()),
+    ];
+    for rule in rules() {
+        for (number, add_force) in add.iter().enumerate() {
+            for max_spheres in [None, Some(3)] {
+                let mut world = world(rule);
+                add_force(&mut world);
+                let thrown = Sphere::new(DVec3::ZERO, 0.1).with_velocity(vec(1.0, 3.0, 0.5));
+                let emitter = Emitter::new(thrown, 0.1).with_max_spheres(max_spheres);
+                world.add_emitter(emitter).unwrap();
+                let work = work_of(&mut world, 120);
+                // Twenty balls, in each frame their neighbours and some events at each of four force ticks.
+                let most = 120 * 20 * 60;
+                assert!(work < most, "force {number}, {rule:?}, {max_spheres:?}: {work}");
+                assert_eq!(world.spheres().len(), max_spheres.unwrap_or(20) as usize);
+            }
+        }
+    }
+}
+
+/// The shapes with their tops at height 0, beside each other at x = 0.
+fn flush(left: bool) -> [Collider; 5] {
+    let side = if left { -1.0 } else { 1.0 };
+    let at = |y: f64| Pose::at(vec(side, y, 0.0));
+    let size = vec(2.0, 1.0, 2.0);
+    let (rotated, open) = (DQuat::from_rotation_x(std::f64::consts::PI), Sides::NONE);
+    [
+        Collider::new(Shape::Rectangle { size_x: 2.0, size_z: 2.0 }, at(0.0)),
+        Collider::new(Shape::Box { size }, at(-0.5)),
+        Collider::new(Shape::Box { size }, at(-0.5).rotated(rotated)),
+        Collider::new(Shape::Container { size, open }, at(-0.5)),
+        Collider::new(Shape::HalfSpace, at(0.0)),
+    ]
+}
+
+#[test]
+fn every_shape_beside_every_other_lets_balls_bounce_and_roll_across_the_seam() {
+    for rule in [Rule::from(Exact::default()), Contact::default().into()] {
+        for left in flush(true) {
+            for right in flush(false) {
+                for (restitution, friction) in [(0.0, 0.3), (0.5, 0.3), (0.9, 0.0), (0.5, 0.0)] {
+                    let mut world = world(rule);
+                    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+                    for collider in [left, right] {
+                        let collider = collider.with_restitution(restitution);
+                        world.add_collider(collider.with_friction(friction)).unwrap();
+                    }
+                    let ball = Sphere::new(vec(-0.5, 0.1, 0.0), 0.1);
+                    world.add_sphere(ball.with_velocity(vec(0.7, 0.0, 0.1))).unwrap();
+                    let fall = vec(0.01, 0.5, 0.5);
+                    world.add_sphere(ball.with_position(fall)).unwrap();
+                    world.add_sphere(ball.with_position(vec(0.0, 0.3, -0.5))).unwrap();
+                    let work = work_of(&mut world, 90);
+                    // In each frame eight sub-steps with up to 17 sweeps, or some events of each ball.
+                    let most = 90 * 3 * 60;
+                    let shapes = (left.shape, right.shape);
+                    assert!(work < most, "{shapes:?}, {restitution}, {friction}: {work}");
+                    let heights = world.spheres().positions().iter().map(|it| it.y);
+                    let lowest = heights.fold(f64::INFINITY, f64::min);
+                    assert!(lowest > 0.1 - 1e-4, "{shapes:?}, {restitution}: {lowest}");
+                }
+            }
+        }
+    }
+}
