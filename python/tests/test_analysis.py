@@ -6,8 +6,11 @@ Random points and walks have fixed seeds; their tolerances are some four standar
 import doctest
 import importlib
 import importlib.util
+import os
 import pkgutil
 import re
+import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -581,6 +584,78 @@ def test_impacts_after_the_last_recorded_state_do_not_count() -> None:
     one, other = (analysis.virial_pressure(it, volume=7.2**3) for it in (run, same))
     assert one == other
     assert analysis.collision_frequency(run) == analysis.collision_frequency(same)
+
+
+def test_a_run_whose_states_span_no_time_has_no_rate() -> None:
+    run = carom.load("gas").run(frames=0)
+    with pytest.raises(carom.CaromError, match=r"^run: its one recorded state spans no time"):
+        analysis.virial_pressure(run, volume=1.0)
+    with pytest.raises(carom.CaromError, match=r"^impacts: its one recorded state spans no time"):
+        analysis.collision_frequency(run)
+
+
+HASH = """
+import hashlib, sys
+import numpy as np
+import carom
+from carom import analysis
+
+numbers = np.random.default_rng(1)
+box = (10.0, 10.0, 10.0)
+points = numbers.uniform(0, 10, (3, 3000, 3))
+impacts = np.zeros(100_000, carom.IMPACT)
+impacts["impulse"] = numbers.uniform(0, 1, len(impacts))
+time = np.arange(100_000.0)
+run = carom.Trajectory(
+    time=np.arange(3.0),
+    ids=np.arange(3000, dtype=np.uint64),
+    radii=np.full(3000, 0.1),
+    masses=numbers.uniform(1, 2, 3000),
+    impacts=impacts[:0],
+    positions=points,
+    velocities=points,
+)
+results = [
+    analysis.radial_distribution(points, box, r_max=4).g,
+    analysis.structure_factor(points, box, q_max=6).s,
+    analysis.mean_square_displacement(points, box),
+    analysis.velocity_autocorrelation(points),
+    analysis.diffusion_coefficient(time, time + numbers.uniform(0, 1, len(time))),
+    analysis.green_kubo_diffusion(time, numbers.uniform(0, 1, len(time))),
+    analysis.temperature(points, numbers.uniform(1, 2, 3000)),
+    analysis.temperature(numbers.uniform(0, 1, (2, 200_000, 3)), numbers.uniform(1, 2, 200_000)),
+    analysis.speed_histogram(points, 1.0).maxwell,
+    analysis.mean_free_path(points, 1.0),
+    analysis.virial_pressure(run, 1000.0).pressure,
+    analysis.pressure_from_impacts(
+        impacts,
+        center_distance=numbers.uniform(0.5, 1, len(impacts)),
+        kinetic_energy=1.0,
+        duration=1.0,
+        volume=1.0,
+    ).pressure,
+    analysis.percus_yevick_radial_distribution(np.linspace(1, 4, 100), 0.3),
+]
+for result in results:
+    print(hashlib.sha256(np.asarray(result).tobytes()).hexdigest())
+"""
+
+
+def test_results_have_the_same_bits_whatever_the_number_of_threads() -> None:
+    # Where a library of linear algebra takes sums, it divides them among its threads.
+    names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+    one, two = (
+        subprocess.run(
+            [sys.executable, "-c", HASH],
+            env={**os.environ, **dict.fromkeys(names, threads)},
+            capture_output=True,
+            check=True,
+            text=True,
+        ).stdout.split()
+        for threads in ("1", "2")
+    )
+    assert one == two
+    assert len(one) == 13
 
 
 def test_a_box_is_the_boundary_of_a_scene_too() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from operator import index
-from typing import Literal, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -53,14 +53,37 @@ def path(values: Trajectory | ArrayLike, name: Literal["positions", "velocities"
     return vectors
 
 
-def recorded_impacts(run: Trajectory) -> NDArray[np.void]:
-    """The impacts until the last recorded state, after which there may be others."""
-    end = run.time[-1] if len(run) else -math.inf
+class RecordedImpacts(NamedTuple):
+    """Impacts, and the time in which they came."""
+
+    impacts: NDArray[np.void]
+    """Those between the first recorded state and the last."""
+    duration: float
+    """From the first recorded state to the last [s], > 0."""
+
+
+def recorded_impacts(run: Trajectory, name: str) -> RecordedImpacts:
+    """The impacts of a run between its first recorded state and its last.
+
+    A run goes on after its last recorded state where the number of frames is no multiple of
+    ``every``; impacts after it are left out, for the duration ends there.
+
+    Args:
+        run: The run.
+        name: What errors call it.
+
+    Raises:
+        CaromError: If impacts were not recorded, or the states span no time.
+    """
     impacts: NDArray[np.void] | None = getattr(run, "impacts", None)
     if impacts is None:
-        raise CaromError("impacts: were not recorded by the run", "impacts")
-    until: NDArray[np.void] = impacts[impacts["time"] <= end]
-    return until
+        raise CaromError("impacts: were not recorded by the run: see impacts=True", "impacts")
+    duration = float(np.ptp(run.time)) if len(run) else 0.0
+    if not duration > 0:
+        states = "one recorded state spans" if len(run) == 1 else f"{len(run)} recorded states span"
+        problem = f"its {states} no time: a rate needs two, at different times (see every=)"
+        raise CaromError(f"{name}: {problem}", name)
+    return RecordedImpacts(impacts[impacts["time"] <= run.time[-1]], duration)
 
 
 def box_sides(box: Box | None) -> Floats:
@@ -134,6 +157,12 @@ def same_shape(time: ArrayLike, values: ArrayLike, name: str) -> tuple[Floats, F
             f"{name}: must have the shape of time, {times.shape}, not {numbers.shape}", name
         )
     return times, numbers
+
+
+def lengths(vectors: Floats) -> Floats:
+    """The lengths of vectors, shape (...,)."""
+    norms: Floats = np.sqrt((vectors**2).sum(axis=-1))
+    return norms
 
 
 def is_there(vectors: Floats) -> NDArray[np.bool_]:

@@ -38,10 +38,11 @@ def collision_frequency(
         duration: In what time the impacts came [s]; for records only.
 
     Returns:
-        Collisions of a sphere in a second [1/s], NaN without spheres or time.
+        Collisions of a sphere in a second [1/s], NaN without spheres.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that makes no sense, and for a run without impacts or without two
+            recorded states.
 
     >>> import carom, numpy
     >>> from carom import analysis
@@ -54,8 +55,7 @@ def collision_frequency(
             if value is not None:
                 raise CaromError(f"{name}: is that of the run, and must not be given, too", name)
         spheres = _mean_count(impacts)
-        elapsed = float(np.ptp(impacts.time)) if len(impacts) else 0.0
-        impacts = arguments.recorded_impacts(impacts)
+        impacts, elapsed = arguments.recorded_impacts(impacts, "impacts")
     else:
         for name, value in (("count", count), ("duration", duration)):
             if value is None:
@@ -63,7 +63,7 @@ def collision_frequency(
             arguments.positive(value, name)
         spheres, elapsed = float(count or 0), float(duration or 0)
     between = len(impacts_between_spheres(impacts))
-    return 2 * between / (spheres * elapsed) if spheres * elapsed > 0 else float("nan")
+    return 2 * between / (spheres * elapsed) if spheres > 0 else float("nan")
 
 
 def _mean_count(run: Trajectory) -> float:
@@ -97,5 +97,5 @@ def mean_free_path(velocities: Trajectory | ArrayLike, frequency: float) -> floa
     """
     vectors = arguments.frames(velocities, "velocities")
     frequency = arguments.positive(frequency, "frequency")
-    speeds = np.linalg.norm(vectors[arguments.is_there(vectors)], axis=-1)
+    speeds = arguments.lengths(vectors[arguments.is_there(vectors)])
     return float(speeds.mean() / frequency) if len(speeds) else float("nan")

@@ -135,4 +135,4 @@ def diffusion_coefficient(
     if keep.sum() < 2:
         raise CaromError("begin: from there to the end must be at least two lags", "begin")
     x, y = times[keep] - times[keep].mean(), squares[keep] - squares[keep].mean()
-    return float((x @ y) / (x @ x) / (2 * dimensions))
+    return float((x * y).sum() / (x**2).sum() / (2 * dimensions))

@@ -44,22 +44,23 @@ def virial_pressure(run: Trajectory, volume: float) -> VirialPressure:
         volume: Volume of the box [m³].
 
     Returns:
-        Pressure; NaN for a run without spheres or time.
+        Pressure; NaN for a run in which there are no spheres or none moves.
 
     Raises:
-        CaromError: For a value that makes no sense.
+        CaromError: For a value that makes no sense, and for a run without impacts or without two
+            recorded states.
     """
     if not isinstance(run, Trajectory):
         raise CaromError("run: must be a carom.Trajectory; or see pressure_from_impacts", "run")
-    between = impacts_between_spheres(arguments.recorded_impacts(run))
-    if not len(run) or not len(run.ids):
+    impacts, duration = arguments.recorded_impacts(run, "run")
+    between = impacts_between_spheres(impacts)
+    volume = arguments.positive(volume, "volume")
+    if not len(run.ids):
         return VirialPressure(float("nan"), float("nan"), len(between))
     squares = np.nan_to_num((arguments.frames(run, "velocities") ** 2).sum(axis=2))
-    energy = float(0.5 * (squares @ run.masses).mean())
+    energy = float(0.5 * (squares * run.masses).sum(axis=1).mean())
     radii = [run.radii[np.searchsorted(run.ids, between[it])] for it in ("sphere_1", "sphere_2")]
-    duration = float(np.ptp(run.time))
-    volume = arguments.positive(volume, "volume")
-    if energy <= 0 or duration <= 0:
+    if energy <= 0:
         return VirialPressure(float("nan"), float("nan"), len(between))
     return pressure_from_impacts(
         between,
@@ -110,7 +111,7 @@ def pressure_from_impacts(
     energy = arguments.positive(kinetic_energy, "kinetic_energy")
     duration = arguments.positive(duration, "duration")
     volume = arguments.positive(volume, "volume")
-    virial = float(distance @ between["impulse"]) / duration
+    virial = float((distance * between["impulse"]).sum()) / duration
     compressibility = 1 + virial / (2 * energy)
     pressure = compressibility * 2 * energy / (3 * volume)
     return VirialPressure(compressibility, pressure, len(between))

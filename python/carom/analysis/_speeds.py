@@ -57,7 +57,7 @@ def temperature(velocities: Trajectory | ArrayLike, masses: ArrayLike) -> Floats
     vectors = arguments.frames(velocities, "velocities")
     weights = arguments.per_sphere(masses, "masses", vectors.shape[1])
     count = arguments.is_there(vectors).sum(axis=1)
-    energies = np.nan_to_num((vectors**2).sum(axis=2)) @ weights
+    energies = (np.nan_to_num((vectors**2).sum(axis=2)) * weights).sum(axis=1)
     with np.errstate(invalid="ignore"):
         return np.where(count > 0, energies / (3 * count), np.nan)
 
@@ -109,7 +109,7 @@ def speed_histogram(
     bins = arguments.bin_count(bins)
     weights = arguments.per_sphere(masses, "masses", vectors.shape[1])
     there = arguments.is_there(vectors)
-    speeds = np.linalg.norm(vectors[there], axis=-1)
+    speeds = arguments.lengths(vectors[there])
     edges = np.linspace(0, speeds.max(initial=0.0) or 1.0, bins + 1)
     counts = np.histogram(speeds, edges)[0]
     kinds, number = np.unique(np.broadcast_to(weights, there.shape)[there], return_counts=True)
