@@ -10,7 +10,7 @@ from typing_extensions import disjoint_base
 
 from carom._parts import Finish
 from carom._pictures import View
-from carom._trajectory import Recorded, RunRecord
+from carom._trajectory import RunRecord, Selection
 
 __all__ = [
     "HAS_WINDOW",
@@ -253,8 +253,7 @@ class Engine:
         frames: int,
         dt: float | None,
         every: int,
-        quantities: list[Recorded] | None,
-        is_single: bool,
+        selection: Selection,
     ) -> RunRecord: ...
     def _simulation_json(self) -> str: ...
     def _forces_json(self) -> str: ...

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from operator import index as as_index
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from carom._carom import Engine
 from carom._points import spread
 from carom._tables import IMPACT
-from carom._trajectory import Recorded, RunRecord, Trajectory
+from carom._trajectory import RunRecord, Selection, Trajectory
 from carom.errors import CaromError
 
 if TYPE_CHECKING:
@@ -82,32 +82,30 @@ class Functions:
         frames: int,
         dt: float | None,
         every: int,
-        quantities: list[Recorded] | None,
-        is_single: bool,
+        selection: Selection,
     ) -> Trajectory:
         """Takes frames, and records states and impacts as `World.run` does."""
-        number, rhythm = count("frames", frames), count("every", every)
-        if rhythm == 0:
-            raise CaromError("every: must be at least 1, not 0", "every")
         with self._lock:
             before = world.snapshot()
-            states = [world._record(0, dt, 1, quantities, is_single)]
+            single = selection._replace(has_impacts=False)
+            states = [world._record(0, dt, 1, single)]
             impacts: list[NDArray[np.void]] = []
 
             def look(frame: int) -> None:
-                impacts.append(world.impacts)
-                if (frame + 1) % rhythm == 0:
-                    states.append(world._record(0, dt, 1, quantities, is_single))
+                if selection.has_impacts:
+                    impacts.append(world.impacts)
+                if (frame + 1) % every == 0:
+                    states.append(world._record(0, dt, 1, single))
 
             stopped = None
             try:
-                self._go(world, dt, number, look)
+                self._go(world, dt, frames, look)
             except KeyboardInterrupt as error:
                 stopped = error
             except BaseException:
                 world.restore(before)
                 raise
-        trajectory = _joined(states, impacts)
+        trajectory = _joined(states, impacts if selection.has_impacts else None)
         if stopped is not None:
             stopped.trajectory = trajectory  # type: ignore[attr-defined]
             raise stopped
@@ -197,24 +195,25 @@ def count(name: str, given: object) -> int:
     return number
 
 
-def _joined(states: list[RunRecord], impacts: list[NDArray[np.void]]) -> Trajectory:
+def _joined(states: list[RunRecord], impacts: list[NDArray[np.void]] | None) -> Trajectory:
     """A trajectory of single states, each as the engine records it."""
     known: dict[int, tuple[float, float]] = {}
     for state in states:
         ids, radii, masses = (values.tolist() for values in state[1:4])
         known.update(zip(ids, zip(radii, masses, strict=True), strict=True))
     all_ids = np.array(sorted(known), dtype=np.uint64)
-    motion: dict[str, NDArray[np.float64]] = {}
+    motion: dict[str, NDArray[Any]] = {}
     for number, (name, first) in enumerate(states[0][5]):
         shape = (len(states), len(all_ids), first.shape[2])
         motion[name] = np.full(shape, np.nan, first.dtype)
         for place, state in enumerate(states):
             motion[name][place, np.searchsorted(all_ids, state[1])] = state[5][number][1][0]
+    if impacts is not None:
+        motion["impacts"] = np.concatenate([np.empty(0, IMPACT), *impacts])
     return Trajectory(
         time=np.concatenate([state[0] for state in states]),
         ids=all_ids,
         radii=np.array([known[number][0] for number in all_ids.tolist()]),
         masses=np.array([known[number][1] for number in all_ids.tolist()]),
-        impacts=np.concatenate(impacts) if impacts else np.empty(0, IMPACT),
         **motion,
     )

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom._functions import count
 from carom._tables import IMPACT
-from carom._trajectory import Recorded, Trajectory
+from carom._trajectory import Recorded, Selection, Trajectory
 from carom.errors import CaromError
 
 if TYPE_CHECKING:
@@ -30,23 +30,51 @@ _BLOCK_BYTES = 32 * 2**20
 """States are copied in blocks of so much: enough to cost nothing, and no matter beside them."""
 
 
-def run_into(world: World, out: Out, frames: int, dt: float | None, every: int) -> Trajectory:
-    """Takes frames, and records them as `World.run` does, into arrays with a row for each state."""
-    frames, every = count("frames", frames), count("every", every)
-    if every == 0:
+def check_rhythm(frames: object, every: object) -> tuple[int, int]:
+    """How many frames a run takes, and after how many of them each state is recorded.
+
+    Raises:
+        CaromError: If only the state at the beginning would be recorded of frames that are taken.
+        TypeError: For something else than whole numbers.
+    """
+    number, rhythm = count("frames", frames), count("every", every)
+    if rhythm == 0:
         raise CaromError("every: must be at least 1, not 0", "every")
+    if 0 < number < rhythm:
+        problem = f"must be at most {number}, the number of frames, not {rhythm}"
+        lost = "no state after the first would be recorded"
+        raise CaromError(f"every: {problem}: {lost}", "every")
+    return number, rhythm
+
+
+def check_choice(name: str, value: object) -> bool:
+    """A truth value that was given under a name.
+
+    Raises:
+        TypeError: For something else.
+    """
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name}: must be True or False, not {type(value).__name__}")
+    return bool(value)
+
+
+def run_into(
+    world: World, out: Out, frames: int, dt: float | None, every: int, has_impacts: bool
+) -> Trajectory:
+    """Takes frames, and records them as `World.run` does, into arrays with a row for each state."""
     rows = frames // every + 1
     _check(out, rows, len(world))
     size = sum(array[0].nbytes for array in out.values())
     block = every * max(1, _BLOCK_BYTES // max(size, 1))
-    before, ids, names = world.snapshot(), world.ids.copy(), list(out)
+    before, ids = world.snapshot(), world.ids.copy()
+    selection = Selection(list(out), False, has_impacts)
     time = np.empty(rows)
     impacts = [np.empty(0, IMPACT)]
     row, stopped = 0, None
     for begin in range(0, max(frames, 1), block):
         length = min(block, frames - begin)
         try:
-            piece = world.run(frames=length, dt=dt, every=every, quantities=names)
+            piece = world._run(length, dt, every, selection)
         except KeyboardInterrupt as error:
             stopped = error
             piece = error.trajectory  # type: ignore[attr-defined]
@@ -63,17 +91,20 @@ def run_into(world: World, out: Out, frames: int, dt: float | None, every: int) 
         time[row:end] = piece.time[first:]
         for name, array in out.items():
             array[row:end] = getattr(piece, name)[first:]
-        impacts.append(piece.impacts)
+        if has_impacts:
+            impacts.append(piece.impacts)
         row = end
         if stopped is not None:
             break
+    recorded: dict[str, Any] = {name: array[:row] for name, array in out.items()}
+    if has_impacts:
+        recorded["impacts"] = np.concatenate(impacts)
     trajectory = Trajectory(
         time=time[:row],
         ids=ids,
         radii=world.radii.copy(),
         masses=world.masses.copy(),
-        impacts=np.concatenate(impacts),
-        **{name: array[:row] for name, array in out.items()},  # type: ignore[arg-type]
+        **recorded,
     )
     if stopped is not None:
         stopped.trajectory = trajectory  # type: ignore[attr-defined]

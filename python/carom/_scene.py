@@ -84,7 +84,7 @@ class Scene(parts.Part):
     origin: str = ""
     simulation: parts.Simulation = field(default_factory=parts.Simulation)
     forces: Sequence[parts.Force] = ()
-    spheres: Sequence[parts.Sphere] = ()
+    spheres: Sequence[parts.SizedSphere] = ()
     generators: Sequence[parts.Generator] = ()
     springs: Sequence[parts.Spring] = ()
     colliders: Sequence[parts.Collider] = ()
@@ -240,6 +240,7 @@ class Scene(parts.Part):
         quantities: Recorded | Sequence[Recorded] | None = None,
         dtype: DTypeLike | None = None,
         out: Out | None = None,
+        impacts: bool = True,
     ) -> Trajectory:
         """Runs the scene from its start, and records what happens: see `World.run`."""
         return self.world().run(
@@ -250,6 +251,7 @@ class Scene(parts.Part):
             quantities=quantities,
             dtype=dtype,
             out=out,
+            impacts=impacts,
         )
 
     # Pictures

@@ -6,7 +6,7 @@ import os
 import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,18 @@ _AXES = _PARTS[:3]
 
 Recorded: TypeAlias = Literal["positions", "velocities", "orientations", "angular_velocities"]
 """What a run can record of each state."""
+
+
+class Selection(NamedTuple):
+    """What a run records."""
+
+    quantities: list[Recorded] | None
+    """Of each state; ``None``: those that change."""
+    is_single: bool
+    """Whether numbers of states are rounded to single precision."""
+    has_impacts: bool
+    """Whether impacts are recorded, too."""
+
 
 RunRecord: TypeAlias = tuple[
     NDArray[np.float64],
@@ -63,7 +75,7 @@ def _not_recorded() -> Any:
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Trajectory:
-    """States of all spheres over time, and every impact between them. Arrays are C-ordered.
+    """States of all spheres over time, and every impact. Arrays are C-ordered.
 
     Positions, velocities and impacts that were not recorded are not there: to read them raises an
     `AttributeError` that says so.
@@ -76,7 +88,8 @@ class Trajectory:
         ids: Ids of the n spheres that are there at any of these times, ascending, shape (n,).
         radii: Radii [m], shape (n,).
         masses: Masses [kg], shape (n,).
-        impacts: Every impact of the run, recorded state or not, records of `carom.IMPACT`.
+        impacts: Every impact of the run, those after its last recorded state among them, records
+            of `carom.IMPACT`: 128 bytes for each.
         orientations: How spheres are turned, quaternions x, y, z, w, shape (t, n, 4); NaN where a
             sphere is not there. None where they were not recorded: unless asked for, where no
             sphere turned at the beginning, and no friction could make one turn.

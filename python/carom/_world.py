@@ -19,11 +19,11 @@ from carom._contact_account import ContactAccount
 from carom._energy_account import EnergyAccount
 from carom._functions import ForceFunction, Functions
 from carom._points import Points
-from carom._recording import Out, run_into
+from carom._recording import Out, check_choice, check_rhythm, run_into
 from carom._stage_counts import StageCounts
 from carom._strict import Strict
 from carom._text import read_part, read_parts, toml_of, toml_value
-from carom._trajectory import Recorded, Trajectory
+from carom._trajectory import Recorded, Selection, Trajectory
 from carom._zone_account import ZoneAccount
 from carom.errors import CaromError, UnknownError
 
@@ -166,6 +166,7 @@ class World(Strict, Engine):
         quantities: Recorded | Sequence[Recorded] | None = None,
         dtype: DTypeLike | None = None,
         out: Out | None = None,
+        impacts: bool = True,
     ) -> Trajectory:
         """Runs on, and records what happens.
 
@@ -177,13 +178,17 @@ class World(Strict, Engine):
             seconds: How long [s], up to whole frames; the scene's own duration unless given.
             frames: How many frames instead.
             dt: Length of a frame [s]; the scene's own unless given.
-            every: States are recorded after every so many frames, and at the beginning.
+            every: States are recorded after every so many frames, and at the beginning; at most as
+                many as there are frames.
             quantities: What is recorded of each state; unless given, positions, velocities and,
                 where spheres may turn, orientations and angular velocities.
             dtype: Of what is recorded; float64 unless given, ``"float32"`` takes half the memory.
             out: Arrays to record into, by name, instead of quantities and dtype: a row for each
                 state, float64 or float32. With those of ``numpy.lib.format.open_memmap`` a run may
                 be larger than memory. Spheres must neither come nor go.
+            impacts: Whether impacts are recorded: 128 bytes for each one, in memory in any case,
+                whatever ``out`` and ``every`` are. `carom.analysis` takes rates and pressures from
+                them.
 
         Raises:
             CaromError: For a number that makes no sense.
@@ -199,25 +204,30 @@ class World(Strict, Engine):
             frames = self._count_frames(seconds, dt)
         elif seconds is not None:
             raise TypeError("seconds and frames: give one of them")
+        frames, every = check_rhythm(frames, every)
+        has_impacts = check_choice("impacts", impacts)
         if out is not None:
             if quantities is not None or dtype is not None:
                 raise TypeError("out: goes without quantities and dtype, for it says both")
-            return run_into(self, out, frames, dt, every)
+            return run_into(self, out, frames, dt, every, has_impacts)
         kind = np.dtype(np.float64 if dtype is None else dtype)
         if kind not in (np.float64, np.float32):
             raise CaromError(f"dtype: must be float64 or float32, not {kind}", "dtype")
         one = [quantities] if isinstance(quantities, str) else quantities
         names: list[Recorded] | None = None if one is None else list(one)
+        return self._run(frames, dt, every, Selection(names, kind == np.float32, has_impacts))
+
+    def _run(self, frames: int, dt: float | None, every: int, selection: Selection) -> Trajectory:
+        """Takes frames, and records them; they may end before the second state."""
         if self._functions is not None:
-            is_single = kind == np.float32
-            return self._functions.record(self, frames, dt, every, names, is_single)
+            return self._functions.record(self, frames, dt, every, selection)
         time, ids, radii, masses, words, motion, stopped = self._record(
-            frames, dt, every, names, kind == np.float32
+            frames, dt, every, selection
         )
-        impacts = tables.records(words, tables.IMPACT)
-        trajectory = Trajectory(
-            time=time, ids=ids, radii=radii, masses=masses, impacts=impacts, **dict(motion)
-        )
+        recorded: dict[str, Any] = dict(motion)
+        if selection.has_impacts:
+            recorded["impacts"] = tables.records(words, tables.IMPACT)
+        trajectory = Trajectory(time=time, ids=ids, radii=radii, masses=masses, **recorded)
         if stopped is not None:
             stopped.trajectory = trajectory  # type: ignore[attr-defined]
             raise stopped

@@ -72,7 +72,7 @@ def structure(
     """g(r) up to 4 diameters, or half the box, over states that are four collisions apart."""
     world = fluid(packing_fraction, cells)
     dt = 1 / collision_rate(packing_fraction)
-    run = world.run(frames=4 * states, dt=dt, every=4)
+    run = world.run(frames=4 * states, dt=dt, every=4, impacts=False)
     side = box_side(packing_fraction, len(world))
     # Bins begin at contact: 40 for a diameter.
     r_max = min(4.0, np.floor(20 * side) / 40)
@@ -88,7 +88,7 @@ def memory(cells: int = 20, collisions: int = 2000) -> tuple[NDArray[np.float64]
     for _ in range(BLOCKS):
         # Velocities of short runs, for those of a long one fill the memory.
         runs = [
-            world.run(frames=PER_COLLISION * 100, dt=dt)
+            world.run(frames=PER_COLLISION * 100, dt=dt, impacts=False)
             for _ in range(max(1, collisions // (100 * BLOCKS)))
         ]
         found = [analysis.velocity_autocorrelation(run, lags=lags) for run in runs]

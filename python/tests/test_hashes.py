@@ -29,7 +29,7 @@ def test_every_built_in_scene_has_a_native_hash() -> None:
 @pytest.mark.parametrize("name", native_hashes())
 def test_a_built_in_scene_ends_in_the_native_state(name: str) -> None:
     world = carom.load(name).world()
-    world.run(seconds=10, every=1000)
+    world.step(frames=round(10 / world.frame_time))
     assert world.state_hash == native_hashes()[name]
 
 

@@ -104,6 +104,31 @@ def test_a_run_records_what_is_asked_for() -> None:
         scene.run(frames=1, dtype=int)
 
 
+def test_a_run_without_impacts_moves_the_same_and_keeps_none(tmp_path: Path) -> None:
+    scene = carom.load("gas")
+    whole, run = scene.run(frames=20), scene.run(frames=20, impacts=False)
+    assert len(whole.impacts) > 0
+    assert not hasattr(run, "impacts") and "impacts" not in repr(run)
+    assert (run.positions == whole.positions).all()
+    positions = np.empty_like(whole.positions)
+    into = scene.run(frames=20, out={"positions": positions}, impacts=False)
+    assert not hasattr(into, "impacts") and (positions == whole.positions).all()
+    world = scene.world()
+    world.add_force(lambda world: 0 * world.positions)
+    assert not hasattr(world.run(frames=2, impacts=False), "impacts")
+    run.save(tmp_path / "run.npz")
+    assert not hasattr(carom.Trajectory.load(tmp_path / "run.npz"), "impacts")
+    with pytest.raises(carom.CaromError, match=r"^impacts: were not recorded.*impacts=True"):
+        carom.analysis.collision_frequency(run)
+    with pytest.raises(carom.CaromError, match=r"^impacts: were not recorded.*impacts=True"):
+        carom.analysis.virial_pressure(run, 1.0)
+
+
+def test_a_run_of_no_frames_records_the_state_of_now() -> None:
+    run = carom.load("cradle").run(frames=0, every=10)
+    assert len(run) == 1 and len(run.impacts) == 0
+
+
 @pytest.mark.parametrize("name", ["simtest4", "billiards"])
 def test_a_trajectory_is_saved_and_loaded_to_the_bit(name: str, tmp_path: Path) -> None:
     run = carom.load(name).run(seconds=3)

@@ -16,6 +16,8 @@ pub struct Selection {
     pub quantities: Option<Vec<Quantity>>,
     /// Whether numbers are rounded to single precision.
     pub is_single: bool,
+    /// Whether impacts are recorded, too.
+    pub has_impacts: bool,
 }
 
 /// Rows of states, one for each recorded frame.
@@ -31,8 +33,9 @@ pub struct Recording {
     members: Vec<Arc<[SphereId]>>,
     /// Radius \[m\] and mass \[kg\] of every sphere of any row, as it was last.
     known: BTreeMap<SphereId, [f64; 2]>,
-    /// Every impact of every frame, recorded or not.
+    /// Every impact of every frame, recorded or not, if impacts are recorded.
     pub impacts: Table,
+    has_impacts: bool,
 }
 
 /// The rows with a place in each for every sphere of any of them.
@@ -97,6 +100,7 @@ impl Recording {
             members,
             known: BTreeMap::new(),
             impacts: Table::default(),
+            has_impacts: selection.has_impacts,
         })
     }
 
@@ -123,13 +127,15 @@ impl Recording {
         Ok(())
     }
 
-    /// Appends the impacts of a frame that started at `start` \[s\].
+    /// Appends the impacts of a frame that started at `start` \[s\], if impacts are recorded.
     ///
     /// # Errors
     /// [`Failure`] if there is no memory for them.
     pub fn push_impacts(&mut self, start: f64, impacts: &[Impact]) -> Result<(), Failure> {
-        self.impacts.reserve_impacts(impacts.len()).map_err(no_room)?;
-        self.impacts.push_impacts(start, impacts);
+        if self.has_impacts {
+            self.impacts.reserve_impacts(impacts.len()).map_err(no_impact_room)?;
+            self.impacts.push_impacts(start, impacts);
+        }
         Ok(())
     }
 
@@ -162,6 +168,10 @@ const WITHOUT_SPIN: [Quantity; 2] = [Quantity::Positions, Quantity::Velocities];
 
 fn no_room(_: TryReserveError) -> Failure {
     Failure::memory("there is no memory for so many states: record fewer (every=10)")
+}
+
+fn no_impact_room(_: TryReserveError) -> Failure {
+    Failure::memory("there is no memory for so many impacts: leave them out (impacts=False)")
 }
 
 impl Numbers {

@@ -57,17 +57,16 @@ impl Engine {
         Ok(whole_frames(seconds, inner.frame_time(dt))?)
     }
 
-    /// Takes `frames` frames of `dt` [s], and records the state now and after every `every` of them: these
-    /// quantities, or those that change; in single precision if that is said.
-    #[pyo3(name = "_record", signature = (frames, dt, every, quantities, is_single))]
+    /// Takes `frames` frames of `dt` [s], and records the state now and after every `every` of them, as far as it
+    /// is selected.
+    #[pyo3(name = "_record", signature = (frames, dt, every, selection))]
     fn record<'py>(
         &self,
         py: Python<'py>,
         frames: &Bound<'py, PyAny>,
         dt: Option<&Bound<'py, PyAny>>,
         every: &Bound<'py, PyAny>,
-        quantities: Option<Vec<String>>,
-        is_single: bool,
+        selection: Named,
     ) -> PyResult<Arrays<'py>> {
         let frames = arguments::count("frames", frames)?;
         let dt = arguments::optional_number("dt", dt)?;
@@ -75,8 +74,7 @@ impl Engine {
         if every == 0 {
             return Err(Failure::value("every", "must be at least 1, not 0").into());
         }
-        let quantities = quantities.map(|names| names.iter().map(|name| recorded(name)).collect());
-        let selection = Selection { quantities: quantities.transpose()?, is_single };
+        let selection = selection.selection()?;
         let rhythm = Rhythm { dt, every };
         let (mut recording, before) = {
             let inner = &*self.lock(py)?;
@@ -96,6 +94,22 @@ impl Engine {
             stopped = stopped.or(py.check_signals().err());
         }
         arrays_of(py, recording, stopped)
+    }
+}
+
+/// [`Selection`] by the attributes of Python's `Selection`.
+#[derive(FromPyObject)]
+struct Named {
+    quantities: Option<Vec<String>>,
+    is_single: bool,
+    has_impacts: bool,
+}
+
+impl Named {
+    fn selection(self) -> Result<Selection, Failure> {
+        let known = |names: Vec<String>| names.iter().map(|name| recorded(name)).collect();
+        let quantities = self.quantities.map(known).transpose()?;
+        Ok(Selection { quantities, is_single: self.is_single, has_impacts: self.has_impacts })
     }
 }
 
