@@ -39,6 +39,14 @@ class Numbers(NamedTuple):
     are_whole: bool = False
 
 
+class Whole(NamedTuple):
+    """Says that a field takes a part only if nothing is missing in it."""
+
+    problem: str
+    """What is wrong with one in which something is missing."""
+    holds: Callable[[Any], bool]
+
+
 class ColorText:
     """Says that a field takes a colour as text, too, like ``"red"``."""
 
@@ -66,12 +74,14 @@ class _Kind:
             `CaromError` for one of this kind that makes no sense.
         names: The texts among which a value is chosen.
         remedy: What to write instead of a value of another kind, if that is clear.
+        problem: What is missing in a value of this kind, if anything is.
     """
 
     words: str
     keep: Callable[[Any], Any]
     names: tuple[str, ...] = ()
     remedy: Callable[[Any], str | None] = lambda value: None
+    problem: Callable[[Any], str | None] = lambda value: None
 
 
 _OTHER = object()
@@ -162,6 +172,8 @@ def _kept(kinds: Sequence[_Kind], value: Any, where: str) -> Any:
     for kind in kinds:
         kept = kind.keep(value)
         if kept is not _OTHER:
+            if problem := kind.problem(kept):
+                raise CaromError(f"{where}: {problem}", where)
             return kept
     words = " or ".join(kind.words for kind in kinds)
     names = [name for kind in kinds for name in kind.names]
@@ -207,7 +219,9 @@ def _kind(hint: Any, where: str) -> _Kind | None:
     if get_origin(hint) is Sequence:
         elements = _kinds(get_args(hint)[0], where)
         return _sequence(elements, where) if elements else None
-    return _part((hint,)) if _is_part(hint) else None
+    if not _is_part(hint):
+        return None
+    return _part((hint,), [it for it in extras if isinstance(it, Whole)])
 
 
 # Numbers
@@ -365,7 +379,7 @@ def _is_part(hint: Any) -> bool:
     return isinstance(hint, type) and issubclass(hint, Part)
 
 
-def _part(kinds: tuple[type, ...]) -> _Kind:
+def _part(kinds: tuple[type, ...], needs: Sequence[Whole] = ()) -> _Kind:
     by_tag = {getattr(kind, "tag", None): kind.__name__ for kind in kinds}
 
     def remedy(value: Any) -> str | None:
@@ -376,9 +390,15 @@ def _part(kinds: tuple[type, ...]) -> _Kind:
             found = value.__name__
         return f"write carom.{found}(...)" if found else None
 
+    def keep(value: Any) -> Any:
+        return value if isinstance(value, kinds) else _OTHER
+
+    def problem(part: Any) -> str | None:
+        return next((it.problem for it in needs if not it.holds(part)), None)
+
     names = [f"carom.{kind.__name__}" for kind in kinds]
     words = f"a {names[0]}" if len(names) == 1 else f"a {listed(names)}"
-    return _Kind(words, lambda value: value if isinstance(value, kinds) else _OTHER, remedy=remedy)
+    return _Kind(words, keep, remedy=remedy, problem=problem)
 
 
 def listed(names: Iterable[str]) -> str:

@@ -22,10 +22,12 @@ from carom._checks import (
     Numbers,
     Requirement,
     Turn,
+    Whole,
     checks_of,
     listed,
     wrong_value,
 )
+from carom.errors import CaromError
 
 
 def _are_finite(values: Sequence[float]) -> bool:
@@ -180,7 +182,8 @@ class Sphere(Part):
     Attributes:
         position: Centre [m]; in a generator or an emitter an offset from the place it gives.
         velocity: Velocity [m/s]; in an emitter in the emitter's frame.
-        radius: Radius [m], > 0. Give this or ``diameter``.
+        radius: Radius [m], > 0. Every sphere needs this or ``diameter``, but for those of a
+            `RandomFill` with a ``radius_range``.
         diameter: Diameter [m], > 0.
         mass: Mass [kg], > 0; 1 unless this or ``density`` is given.
         density: Density [kg/m³], > 0.
@@ -216,6 +219,27 @@ class Sphere(Part):
     inertia_factor: Positive = 0.4
     color: Color | None = None
     finish: Finish = "satin"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _expect_one(self, "radius", "diameter")
+        _expect_one(self, "mass", "density")
+
+
+def _expect_one(part: Part, first: str, second: str) -> None:
+    """Refuses a part in which two fields say the same thing."""
+    if getattr(part, first) is not None and getattr(part, second) is not None:
+        where = f"{type(part).__name__}.{second}"
+        raise CaromError(f"{where}: `{first}` says it already", where)
+
+
+def _has_size(sphere: Sphere) -> bool:
+    return sphere.radius is not None or sphere.diameter is not None
+
+
+_NO_SIZE = "needs `radius` or `diameter`"
+SizedSphere: TypeAlias = Annotated[Sphere, Whole(_NO_SIZE, _has_size)]
+"""A sphere with a radius or a diameter."""
 
 
 @dataclass(frozen=True)
@@ -532,7 +556,7 @@ class Emitter(Part):
         count: How many spheres it emits in all, those left out among them; ``None``: no end.
     """
 
-    sphere: Sphere
+    sphere: SizedSphere
     period: Annotated[float, _PERIOD]
     position: Vector = _ORIGIN
     rotation: Quaternion = _UNTURNED
@@ -540,6 +564,14 @@ class Emitter(Part):
     needs_room: bool | None = None
     name: str = ""
     count: Count | None = None
+
+
+def _expect_makings(generator: Row | Lattice | StaggeredRows | Ring) -> None:
+    """Refuses a generator that makes neither spheres nor colliders, or both."""
+    if generator.sphere is None and generator.collider is None:
+        where = type(generator).__name__
+        raise CaromError(f"{where}: needs `sphere` or `collider`", where)
+    _expect_one(generator, "sphere", "collider")
 
 
 @dataclass(frozen=True)
@@ -559,8 +591,12 @@ class Row(Part):
     count: Count
     start: Vector
     step: Vector
-    sphere: Sphere | None = None
+    sphere: SizedSphere | None = None
     collider: Collider | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _expect_makings(self)
 
 
 @dataclass(frozen=True)
@@ -582,8 +618,12 @@ class Lattice(Part):
     counts: ThreeCounts
     start: Vector
     spacing: Vector
-    sphere: Sphere | None = None
+    sphere: SizedSphere | None = None
     collider: Collider | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _expect_makings(self)
 
 
 @dataclass(frozen=True)
@@ -611,8 +651,12 @@ class StaggeredRows(Part):
     start: Vector
     step: Vector
     row_step: Vector
-    sphere: Sphere | None = None
+    sphere: SizedSphere | None = None
     collider: Collider | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _expect_makings(self)
 
 
 @dataclass(frozen=True)
@@ -633,7 +677,7 @@ class ClosePacking(Part):
     tag: ClassVar[str] = "close-packing"
     counts: ThreeCounts
     start: Vector
-    sphere: Sphere
+    sphere: SizedSphere
     spacing: Positive | None = None
     stacking: Literal["hcp", "fcc"] = "hcp"
 
@@ -657,9 +701,13 @@ class Ring(Part):
     count: Count
     center: Vector
     radius: Positive
-    sphere: Sphere | None = None
+    sphere: SizedSphere | None = None
     axis: Direction = (0.0, 1.0, 0.0)
     collider: Collider | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _expect_makings(self)
 
 
 @dataclass(frozen=True)
@@ -684,6 +732,12 @@ class RandomFill(Part):
     sphere: Sphere
     speed: NonNegative = 0.0
     radius_range: RadiusRange | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.radius_range is None and not _has_size(self.sphere):
+            problem = f"{_NO_SIZE}, or give `radius_range`"
+            raise CaromError(f"RandomFill.sphere: {problem}", "RandomFill.sphere")
 
 
 Generator: TypeAlias = Row | Lattice | StaggeredRows | ClosePacking | Ring | RandomFill

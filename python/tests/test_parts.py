@@ -144,6 +144,16 @@ def test_a_value_of_another_kind(part: Callable[[], object], message: str) -> No
         (lambda: make.Exact(impact_law="newton"), "Exact.impact_law: must be 'reflection', "),
         (lambda: make.Container((1, 1, 1), "roof"), "Container.open: must be 'left', "),
         (lambda: make.Container((1, 1, 1), ["top", "botom"]), "did you mean 'bottom'?"),
+        (lambda: make.Sphere(radius=1, diameter=2), "Sphere.diameter: `radius` says it already"),
+        (
+            lambda: make.Sphere(radius=1, mass=1, density=2),
+            "Sphere.density: `mass` says it already",
+        ),
+        (lambda: make.Row(2, (0, 0, 0), (1, 0, 0)), "Row: needs `sphere` or `collider`"),
+        (
+            lambda: make.Ring(2, (0, 0, 0), 1, BALL, collider=carom.Collider(carom.Ball(1))),
+            "Ring.collider: `sphere` says it already",
+        ),
     ],
 )
 def test_a_value_that_makes_no_sense(part: Callable[[], object], message: str) -> None:
@@ -151,6 +161,45 @@ def test_a_value_that_makes_no_sense(part: Callable[[], object], message: str) -
         part()
     assert caught.value.field is not None
     assert str(caught.value).startswith(f"{caught.value.field}: ")
+
+
+SIZELESS = carom.Sphere(position=(0, 1, 0), density=1000)
+NO_SIZE = "needs `radius` or `diameter`"
+
+
+@pytest.mark.parametrize(
+    ("part", "message"),
+    [
+        (lambda: make.Scene(name="x", spheres=[BALL, SIZELESS]), f"Scene.spheres[1]: {NO_SIZE}"),
+        (lambda: make.Emitter(SIZELESS, 1), f"Emitter.sphere: {NO_SIZE}"),
+        (lambda: make.Row(2, (0, 0, 0), (1, 0, 0), SIZELESS), f"Row.sphere: {NO_SIZE}"),
+        (lambda: make.Lattice((2, 1, 1), (0, 0, 0), (1, 1, 1), SIZELESS), "Lattice.sphere: needs"),
+        (
+            lambda: make.StaggeredRows(1, (2,), (0, 0, 0), (1, 0, 0), (0, 0, 1), SIZELESS),
+            f"StaggeredRows.sphere: {NO_SIZE}",
+        ),
+        (lambda: make.ClosePacking((1, 1, 1), (0, 0, 0), SIZELESS), "ClosePacking.sphere: needs"),
+        (lambda: make.Ring(2, (0, 0, 0), 1, SIZELESS), f"Ring.sphere: {NO_SIZE}"),
+        (
+            lambda: make.RandomFill(1, (0, 0, 0), (9, 9, 9), 1, SIZELESS),
+            f"RandomFill.sphere: {NO_SIZE}, or give `radius_range`",
+        ),
+    ],
+)
+def test_a_sphere_without_a_size_is_no_part_of_a_scene(
+    part: Callable[[], object], message: str
+) -> None:
+    with pytest.raises(carom.CaromError, match=re.escape(message)) as caught:
+        part()
+    assert str(caught.value).startswith(f"{caught.value.field}: ")
+
+
+def test_a_random_filling_with_a_range_of_radii_needs_no_other_size() -> None:
+    fill = carom.RandomFill(
+        3, (0, 0, 0), (9, 9, 9), 1, carom.Sphere(density=1000), radius_range=(0.1, 0.2)
+    )
+    radii = carom.Scene(name="grains", generators=[fill]).world().radii
+    assert len(radii) == 3 and (radii >= 0.1).all() and (radii <= 0.2).all()
 
 
 def test_replacing_a_field_checks_it() -> None:

@@ -374,7 +374,7 @@ def test_without_graphics_a_notebook_shows_no_picture(monkeypatch: pytest.Monkey
     monkeypatch.setattr(engine, "Painter", refuse)
     assert lone((0, 0, 0))._repr_png_() is None
     assert lone((0, 0, 0)).world()._repr_png_() is None
-    broken = carom.Scene(name="broken", spheres=[carom.Sphere()])
+    broken = carom.Scene(name="broken", spheres=[carom.Sphere(radius=1)] * 2)
     assert broken._repr_png_() is None
 
 
@@ -402,4 +402,4 @@ def test_a_window_that_cannot_be_opened_says_why(
         lone((0, 0, 0)).view()
     assert len(str(caught.value)) > 20
     with pytest.raises(carom.SceneError):
-        carom.Scene(name="broken", spheres=[carom.Sphere()]).view()
+        carom.Scene(name="broken", spheres=[carom.Sphere(radius=1)] * 2).view()
