@@ -1,7 +1,7 @@
 //! What can be wrong with a link.
 
 use carom_scene::scene::Rule;
-use carom_scene::{SceneError, legible};
+use carom_scene::{Fault, SceneError, legible};
 use thiserror::Error;
 
 use super::packed::PackedError;
@@ -84,7 +84,48 @@ pub enum LinkError {
         /// What is wrong with them.
         problem: String,
     },
-    /// Something is wrong with its scene, or an override of it.
+    /// Something is wrong with its scene, or an override of it. What it quotes of the link is shortened.
     #[error(transparent)]
-    Scene(#[from] SceneError),
+    Scene(SceneError),
+}
+
+impl From<SceneError> for LinkError {
+    fn from(error: SceneError) -> Self {
+        Self::Scene(brief(error))
+    }
+}
+
+/// The error of a scene with short quotations: all that it quotes was written by the author of the link.
+fn brief(error: SceneError) -> SceneError {
+    match error {
+        SceneError::Invalid(fault) => SceneError::Invalid(brief_fault(fault)),
+        SceneError::Overridden { overrides, fault } => SceneError::Overridden {
+            overrides: quoted(&overrides),
+            fault: Box::new(brief_fault(*fault)),
+        },
+        SceneError::Unknown { name, nearest } => {
+            SceneError::Unknown { name: quoted(&name), nearest }
+        }
+        SceneError::BadOverride { text, problem } => {
+            SceneError::BadOverride { text: quoted(&text), problem: brief_problem(&problem) }
+        }
+        other => other,
+    }
+}
+
+fn brief_fault(fault: Fault) -> Fault {
+    Fault {
+        source_name: quoted(&fault.source_name),
+        line: fault.line,
+        field: quoted(&fault.field),
+        problem: brief_problem(&fault.problem),
+        nearest: fault.nearest.map(|it| quoted(&it)),
+    }
+}
+
+/// What is wrong, in at most some lines of a window.
+pub fn brief_problem(problem: &str) -> String {
+    /// In characters.
+    const LONGEST: usize = 160;
+    legible(problem, LONGEST)
 }

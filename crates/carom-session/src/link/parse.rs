@@ -3,10 +3,11 @@
 use std::str::FromStr;
 use std::sync::Arc;
 
+use carom_scene::Override;
 use percent_encoding::percent_decode_str;
 
 use super::camera::LinkCamera;
-use super::error::{LinkError, quoted};
+use super::error::{LinkError, brief_problem, quoted};
 use super::packed::unpack;
 use super::rule::rule_override;
 use super::run::{Link, LinkSource};
@@ -67,7 +68,7 @@ fn link(text: &str) -> Result<Link, LinkError> {
             "t" => ("t", &mut once.t),
             "camera" => ("camera", &mut once.camera),
             "set" => {
-                overrides.push(decoded("set", value)?.parse()?);
+                overrides.push(decoded("set", value)?.parse::<Override>()?);
                 continue;
             }
             _ => return Err(LinkError::Unknown { part: quoted(name) }),
@@ -110,7 +111,8 @@ fn source(once: &Once) -> Result<LinkSource, LinkError> {
 
 fn edits(packed: &str) -> Result<Vec<PastChange>, LinkError> {
     let text = unpacked("edits", packed)?;
-    written::from_toml(&text).map_err(|problem| LinkError::Edits { problem })
+    written::from_toml(&text)
+        .map_err(|problem| LinkError::Edits { problem: brief_problem(&problem) })
 }
 
 fn time(text: &str) -> Result<f64, LinkError> {
