@@ -249,11 +249,11 @@ pub struct Run {
     /// Write only every N-th frame of the trajectory.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     pub every: u64,
-    /// Write every impact to a .csv file.
+    /// Write every impact to a .csv file; `-` as by --out.
     #[arg(long, value_name = "PATH")]
     pub impacts: Option<PathBuf>,
     /// Write the ledger to a .csv file: every impact with the momentum and energy of its group
-    /// before and after. Kept by the rule `exact` only.
+    /// before and after; `-` as by --out. Kept by the rule `exact` only.
     #[arg(long, value_name = "PATH")]
     pub ledger: Option<PathBuf>,
     /// Whether files that are there are replaced.

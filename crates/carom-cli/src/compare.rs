@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use carom::World;
 use carom_scene::Library;
+use carom_scene::unfinished::create_folders_of;
 use serde::Serialize;
 
 use crate::args::Compare;
@@ -122,7 +123,8 @@ struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     fn create(path: &'a Path, rules: &[String]) -> Result<Self, Failure> {
-        let file = File::create(path).map_err(|error| cannot_write(path, &error))?;
+        let file = create_folders_of(path).and_then(|()| File::create(path));
+        let file = file.map_err(|error| cannot_write(path, &error))?;
         let mut rows = Self { path, out: BufWriter::new(file) };
         let mut header = "t".to_owned();
         for rule in rules {

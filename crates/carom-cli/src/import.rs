@@ -8,6 +8,7 @@ use carom_gltf::Imported;
 use carom_scene::Scene;
 use carom_scene::import::Omission;
 use carom_scene::scene::Rule;
+use carom_scene::unfinished::create_folders_of;
 use carom_unity::{ImportError, Mapping, Options, Project};
 
 use crate::args::Import;
@@ -112,7 +113,8 @@ fn list(path: &Path, omissions: &[Omission]) {
 
 fn write(file: &Path, scene: &Scene, replacing: Replacing) -> Result<(), Failure> {
     replacing.check([file])?;
-    std::fs::write(file, scene.to_toml()).map_err(|error| unwritable(file, &error))
+    let written = create_folders_of(file).and_then(|()| std::fs::write(file, scene.to_toml()));
+    written.map_err(|error| unwritable(file, &error))
 }
 
 fn unwritable(path: &Path, error: &io::Error) -> Failure {

@@ -4,6 +4,8 @@ use std::fs::OpenOptions;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
+use carom_scene::unfinished::create_folders_of;
+
 use crate::args::New;
 use crate::failure::Failure;
 use crate::replacing::already_there;
@@ -44,7 +46,8 @@ fn write(file: &Path, content: &str, replaces: bool) -> Result<(), Failure> {
     } else {
         options.create_new(true);
     }
-    let mut writing = options.open(file).map_err(|error| match error.kind() {
+    let opened = create_folders_of(file).and_then(|()| options.open(file));
+    let mut writing = opened.map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => already_there(file),
         _ => Failure::Fault(format!("cannot write {}: {error}", file.display())),
     })?;

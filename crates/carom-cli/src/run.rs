@@ -27,7 +27,9 @@ pub fn run(library: &Library, args: &Run, links: Budget) -> Result<(), Failure> 
     let series = args.out.as_deref().into_iter().flat_map(series);
     let tables = [&args.out, &args.impacts, &args.ledger].into_iter().flatten().cloned();
     let files: Vec<PathBuf> = tables.chain(series).collect();
-    args.replacing.check(files.iter().map(PathBuf::as_path))?;
+    // What the shell has the standard output written to is its own affair.
+    let named = files.iter().map(PathBuf::as_path).filter(|file| !is_standard(file));
+    args.replacing.check(named)?;
     let interrupted = interruption()?;
     if !args.watch {
         return once(library, args, links, &interrupted);
@@ -86,7 +88,7 @@ fn once(
         (None, scene) => begin(library, scene.as_deref().unwrap_or_default(), args)?,
     };
 
-    let mut outputs = Outputs::create(args, &replay)?;
+    let mut outputs = Outputs::create(args, &replay, frames)?;
     replay.set_stop_request(Some(StopRequest::from(interrupted.clone())));
     let mut observer = Observer::new(replay.world());
     let progress = Progress::new(frames);
@@ -112,7 +114,8 @@ fn once(
     both(result, finished)?;
     check_energy(replay.world())?;
     let summary = Summary::new(&replay, observer);
-    if is_standard(args.out.as_deref()) {
+    let tables = [&args.out, &args.impacts, &args.ledger].into_iter().flatten();
+    if tables.into_iter().any(|table| is_standard(table)) {
         summary.print(&mut io::stderr().lock(), args.json)?;
     } else {
         summary.print(&mut io::stdout().lock(), args.json)?;
@@ -156,9 +159,12 @@ fn series(out: &Path) -> Vec<PathBuf> {
     if is_one { vec![out.with_extension("pvd"), first] } else { Vec::new() }
 }
 
-/// Whether this stands for the standard output.
-fn is_standard(path: Option<&Path>) -> bool {
-    path.is_some_and(|path| path.as_os_str() == STANDARD)
+/// Whether this stands for the standard output: `-`, or the name that the system has for it. Opened by that
+/// name, a file behind it would be written from its beginning, under the summary.
+fn is_standard(path: &Path) -> bool {
+    let names: &[&str] =
+        if cfg!(unix) { &["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] } else { &[] };
+    path.as_os_str() == STANDARD || names.iter().any(|name| path.as_os_str() == *name)
 }
 
 /// Whether a trajectory of this name is an animation.
@@ -168,7 +174,7 @@ fn is_animation(path: &Path) -> bool {
 
 /// The file of a trajectory; what its ending means, `recording` says, but for animations.
 fn trajectory(path: &Path, replay: &Replay) -> Result<Trajectory, Failure> {
-    if is_standard(Some(path)) {
+    if is_standard(path) {
         return Ok(Trajectory::csv(io::stdout(), STANDARD));
     }
     if is_animation(path) {
@@ -182,8 +188,25 @@ fn trajectory(path: &Path, replay: &Replay) -> Result<Trajectory, Failure> {
     Ok(Trajectory::create(path)?)
 }
 
+fn impact_table(path: &Path) -> Result<ImpactTable, RecordingError> {
+    if is_standard(path) {
+        return ImpactTable::csv(io::stdout(), STANDARD);
+    }
+    ImpactTable::create(path)
+}
+
+fn ledger_table(path: &Path) -> Result<LedgerTable, RecordingError> {
+    if is_standard(path) {
+        return LedgerTable::csv(io::stdout(), STANDARD);
+    }
+    LedgerTable::create(path)
+}
+
 /// Where a file is or will be, the same for all paths to it.
 fn place_of(file: &Path) -> PathBuf {
+    if is_standard(file) {
+        return PathBuf::from(STANDARD);
+    }
     let folder = match file.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
@@ -211,7 +234,8 @@ struct Outputs {
 }
 
 impl Outputs {
-    fn create(args: &Run, replay: &Replay) -> Result<Self, Failure> {
+    /// Creates the files of a run of so many frames.
+    fn create(args: &Run, replay: &Replay, frames: u64) -> Result<Self, Failure> {
         let files =
             [("--out", &args.out), ("--impacts", &args.impacts), ("--ledger", &args.ledger)];
         let named = files.iter().filter_map(|(name, file)| Some((*name, file.as_deref()?)));
@@ -227,14 +251,21 @@ impl Outputs {
                 return Err(Failure::Usage(text));
             }
         }
+        if named.iter().any(|(name, _)| *name == "--out") && args.every > frames && frames > 0 {
+            let text = format!(
+                "--every {}: the run has {frames} frames, and would write none",
+                args.every
+            );
+            return Err(Failure::Usage(text));
+        }
         if args.ledger.is_some() && replay.simulation().rule != Rule::Exact {
             let message = "--ledger needs the rule exact: the other rules keep no ledger";
             return Err(Failure::Usage(message.to_owned()));
         }
         // The trajectory last: one that is dropped leaves an unfinished file.
         Ok(Self {
-            impacts: args.impacts.as_deref().map(ImpactTable::create).transpose()?,
-            ledger: args.ledger.as_deref().map(LedgerTable::create).transpose()?,
+            impacts: args.impacts.as_deref().map(impact_table).transpose()?,
+            ledger: args.ledger.as_deref().map(ledger_table).transpose()?,
             trajectory: args.out.as_deref().map(|path| trajectory(path, replay)).transpose()?,
             every: args.every,
         })

@@ -265,6 +265,8 @@ fn bad_usage_ends_with_code_2_and_says_what_was_meant() {
         &["run", "simtest1", "--impacts", "impacts.npz"],
         &["run", "simtest1", "--seconds", "1", "--frames", "2"],
         &["run", "simtest1", "--every", "0"],
+        &["run", "simtest1", "--frames", "3", "--every", "4", "--out", "same.csv"],
+        &["run", "simtest1", "--out", "-", "--impacts", "-"],
         &["run", "simtest1", "--set", "novalue"],
         &["fly"],
     ] {
@@ -295,7 +297,8 @@ fn what_a_rule_does_not_read_is_named() {
 #[test]
 fn what_goes_wrong_on_the_way_ends_with_code_1_and_one_line() {
     let folder = tempfile::tempdir().unwrap();
-    let nowhere = path(&folder, "missing/t.csv");
+    std::fs::write(path(&folder, "file"), "").unwrap();
+    let nowhere = path(&folder, "file/t.csv");
     let text = bad_line(&["run", "simtest1", "--out", &nowhere], 1);
     assert!(text.contains(&format!("cannot write {nowhere}")), "{text}");
     assert!(bad_line(&["run", "simtest1", "--impacts", &nowhere], 1).contains("cannot write"));
@@ -605,7 +608,8 @@ fn a_new_scene_runs_and_replaces_nothing_unless_told() {
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "mine");
     good(&["new", &file, "--force"]);
     assert!(good(&["check", &file]).contains("ok"));
-    bad_line(&["new", &path(&folder, "missing/scene")], 1);
+    // Below a file there is no folder.
+    assert!(bad_line(&["new", &format!("{file}/scene")], 1).contains("is not a folder"));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Child, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use command::{bad_line, carom, good, path};
+use command::{bad, bad_line, carom, good, path};
 
 /// Longer than anything here takes on a machine that is shared.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -57,6 +57,85 @@ fn a_dash_writes_the_trajectory_to_the_standard_output_and_the_summary_beside_it
     let piped = command::run(&[&run[..], &["-"]].concat());
     assert_eq!(text(&piped.stdout), std::fs::read_to_string(&file).unwrap());
     assert!(text(&piped.stderr).contains("state hash"), "{}", text(&piped.stderr));
+}
+
+#[test]
+fn every_table_goes_to_the_standard_output_by_each_of_its_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = ["run", "tutorial4", "--rule", "exact", "--seconds", "2"];
+    for option in ["--out", "--impacts", "--ledger"] {
+        let file = path(&folder, "t.csv");
+        good(&[&run[..], &[option, &file, "--force"]].concat());
+        let table = std::fs::read_to_string(&file).unwrap();
+        assert!(table.lines().count() > 3, "{option}");
+        let names: &[&str] = if cfg!(unix) { &["-", "/dev/stdout"] } else { &["-"] };
+        for name in names {
+            let piped = command::run(&[&run[..], &[option, name]].concat());
+            assert_eq!(text(&piped.stdout), table, "{option} {name}");
+            assert!(text(&piped.stderr).contains("state hash"), "{option} {name}");
+        }
+        // A file that the shell has opened is the shell's to replace.
+        let shell_file = path(&folder, "shell.csv");
+        let mut command = carom();
+        command.args(run).args([option, names[names.len() - 1]]);
+        command.stdout(std::fs::File::create(&shell_file).unwrap());
+        assert!(command.output().unwrap().status.success(), "{option}");
+        assert_eq!(std::fs::read_to_string(&shell_file).unwrap(), table, "{option}");
+    }
+}
+
+#[test]
+fn missing_folders_are_made_for_every_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = ["run", "tutorial1", "--rule", "exact", "--frames", "2"];
+    for (option, name) in [
+        ("--out", "a/t.csv"),
+        ("--out", "b/t.npz"),
+        ("--out", "c/t.pvd"),
+        ("--out", "d/t.glb"),
+        ("--impacts", "e/of/t.csv"),
+        ("--ledger", "f/t.csv"),
+    ] {
+        let file = path(&folder, name);
+        good(&[&run[..], &[option, &file]].concat());
+        assert!(Path::new(&file).is_file(), "{name}");
+    }
+    let file = path(&folder, "g/apart.csv");
+    good(&["compare", "tutorial1", "--seconds", "0.1", "--out", &file]);
+    assert!(Path::new(&file).is_file());
+    let file = path(&folder, "h/new.toml");
+    good(&["new", &file]);
+    assert!(Path::new(&file).is_file());
+}
+
+#[test]
+fn a_picture_is_no_scene_and_the_error_says_what_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let files: [(&str, &[u8], &str); 4] = [
+        ("photo.jpg", b"\xff\xd8\xff\xe0\0\x10JFIF\0", "it begins like a JPEG picture"),
+        ("photo.toml", b"\x89PNG\r\n\x1a\n\0\0", "it begins like a PNG picture"),
+        ("wide.toml", b"\xff\xfen\0a\0", "it is text in UTF-16: save it in UTF-8"),
+        ("latin1.toml", b"name = 'fl\xe4che'", "it is not text in UTF-8 (byte 11 of it is 0xe4)"),
+    ];
+    for (name, bytes, what) in files {
+        let file = path(&folder, name);
+        std::fs::write(&file, bytes).unwrap();
+        for command in ["run", "check"] {
+            let told = bad(&[command, &file], 1);
+            let expected = format!("cannot read {file}: it is not a scene file: {what}");
+            assert!(told.contains(&expected), "{told}");
+        }
+        // By its name alone, in the folder where one is.
+        let beside = carom().args(["run", name]).current_dir(folder.path()).output().unwrap();
+        assert!(text(&beside.stderr).contains(what), "{}", text(&beside.stderr));
+        let mut piped = carom();
+        piped.args(["run", "-"]).stdin(std::fs::File::open(&file).unwrap());
+        let piped = piped.output().unwrap();
+        assert!(text(&piped.stderr).contains(what), "{}", text(&piped.stderr));
+        let including = path(&folder, "including.toml");
+        std::fs::write(&including, format!("include = {name:?}\n")).unwrap();
+        assert!(bad(&["check", &including], 1).contains(what));
+    }
 }
 
 #[test]

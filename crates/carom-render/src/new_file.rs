@@ -4,7 +4,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use carom_scene::unfinished::create_beside;
+use carom_scene::unfinished::{create_beside, create_folders_of};
 
 /// A file under a temporary name in the same folder, until [`Self::complete`]. Dropped before, it
 /// is removed; what bore the name before stays as it was.
@@ -25,9 +25,7 @@ impl NewFile {
             let file = OpenOptions::new().write(true).open(&path)?;
             return Ok(Self { file, path, unfinished: None });
         }
-        if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder)?;
-        }
+        create_folders_of(&path)?;
         let (file, unfinished) = create_beside(&path)?;
         Ok(Self { file, path, unfinished: Some(unfinished) })
     }

@@ -43,6 +43,19 @@ pub fn create_beside(path: &Path) -> io::Result<(File, PathBuf)> {
     Err(io::Error::new(io::ErrorKind::AlreadyExists, text))
 }
 
+/// Creates the folders above a file that are missing.
+///
+/// # Errors
+/// If one cannot be created, like one below a file.
+pub fn create_folders_of(path: &Path) -> io::Result<()> {
+    let Some(folder) = path.parent() else { return Ok(()) };
+    fs::create_dir_all(folder).map_err(|error| {
+        let file = folder.ancestors().find(|it| it.exists() && !it.is_dir());
+        // The system would say that something exists.
+        file.map_or(error, |file| io::Error::other(format!("{} is not a folder", file.display())))
+    })
+}
+
 /// The file that an unfinished one was to become: its name without `.N.unfinished`.
 pub fn target_of(unfinished: &Path) -> Option<PathBuf> {
     let name = unfinished.file_name()?.to_str()?.strip_suffix(UNFINISHED)?;
@@ -98,9 +111,7 @@ impl Unfinished {
             let stream = Some(OpenOptions::new().write(true).open(&target)?);
             return Ok(Self { file: tempfile::tempfile()?, place: None, target, stream });
         }
-        if let Some(folder) = target.parent() {
-            fs::create_dir_all(folder)?;
-        }
+        create_folders_of(&target)?;
         let (file, place) = create_beside(&target)?;
         Ok(Self { file, place: Some(place), target, stream: None })
     }
@@ -162,7 +173,8 @@ impl Unfinished {
             return close(&mut self.file, stream);
         };
         let closing = closing(place, &self.target);
-        let closed = File::create(&closing).map_err(E::from).and_then(|target| {
+        let created = create_folders_of(&closing).and_then(|()| File::create(&closing));
+        let closed = created.map_err(E::from).and_then(|target| {
             let written = close(&mut self.file, target.try_clone()?)?;
             // Some file systems tell of a full disk no sooner.
             target.sync_data()?;
@@ -214,6 +226,16 @@ mod tests {
             assert_eq!(target(other), None, "{other}");
         }
         assert_eq!(target(".0.unfinished"), None);
+    }
+
+    #[test]
+    fn a_folder_below_a_file_is_refused_by_the_name_of_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        fs::write(&file, "").unwrap();
+        let error = create_folders_of(&file.join("a/b/t.csv")).unwrap_err();
+        assert_eq!(error.to_string(), format!("{} is not a folder", file.display()));
+        assert!(create_folders_of(Path::new("t.csv")).is_ok());
     }
 
     #[test]

@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 
 use carom_grade::{Course, Graded, Grader, Recorded, Verdict};
 use carom_scene::Library;
+use carom_scene::unfinished::create_folders_of;
 
 pub use args::Grade;
 
@@ -148,7 +149,8 @@ impl<'a> Reports<'a> {
     fn write(&self, course: &Course, recorded: &Recorded, graded: &Graded) -> Result<(), Failure> {
         let Some(file) = self.file(&recorded.path) else { return Ok(()) };
         let page = carom_grade::page(course, recorded, graded);
-        std::fs::write(&file, page).map_err(|error| unwritable(&file, &error))
+        let written = create_folders_of(&file).and_then(|()| std::fs::write(&file, page));
+        written.map_err(|error| unwritable(&file, &error))
     }
 }
 

@@ -5,6 +5,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use carom_grade::{Grader, Mistake, Mistakes};
+use carom_scene::unfinished::create_folders_of;
 use serde::Serialize;
 
 use super::args::Grade;
@@ -51,6 +52,7 @@ pub fn write(grader: &Grader, args: &Grade) -> Result<(), Failure> {
     }
     args.replacing.check([args.out.as_path()])?;
     let failed = |error: io::Error| unwritable(&args.out, &error);
-    let mut file = BufWriter::new(File::create(&args.out).map_err(failed)?);
+    let file = create_folders_of(&args.out).and_then(|()| File::create(&args.out));
+    let mut file = BufWriter::new(file.map_err(failed)?);
     tracks.write(&mut file).and_then(|()| file.flush()).map_err(failed)
 }

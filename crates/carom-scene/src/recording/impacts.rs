@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use carom::{BodyPair, Impact};
 
 use super::error::{RecordingError, unwritable};
-use super::table_file::{TableFile, csv_file, digits};
+use super::table_file::{TableFile, digits, headed};
 
 /// Columns: time \[s\]; kind and number of body 1 (`sphere` or `collider`) and number of body 2, a
 /// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; impulse along the normal, and of friction
@@ -42,7 +42,20 @@ impl ImpactTable {
     /// # Errors
     /// For a place that cannot be written to.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
-        let writer = csv_file(path, &HEADER).map_err(|source| unwritable(path, source))?;
+        let file = TableFile::create(path).map_err(|source| unwritable(path, source))?;
+        Self::of(file, path)
+    }
+
+    /// Writes CSV to `out`, which errors call `name`.
+    ///
+    /// # Errors
+    /// If it takes nothing.
+    pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Result<Self, RecordingError> {
+        Self::of(TableFile::new(Box::new(out)), Path::new(name))
+    }
+
+    fn of(file: TableFile, path: &Path) -> Result<Self, RecordingError> {
+        let writer = headed(file, &HEADER).map_err(|source| unwritable(path, source))?;
         Ok(Self { path: path.to_owned(), writer })
     }
 

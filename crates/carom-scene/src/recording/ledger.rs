@@ -7,7 +7,7 @@ use carom::{LedgerEntry, StepReport};
 
 use super::error::{RecordingError, unwritable};
 use super::impacts::impact_fields;
-use super::table_file::{TableFile, csv_file, digits};
+use super::table_file::{TableFile, digits, headed};
 
 /// Columns: those of the impacts up to the normal; speeds of approach and separation \[m/s\] and
 /// impulse \[N s\]; that of friction \[N s\]; the law, the number of the group in the run and how many impacts it has; momentum
@@ -59,7 +59,20 @@ impl LedgerTable {
     /// # Errors
     /// For a place that cannot be written to.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
-        let writer = csv_file(path, &HEADER).map_err(|source| unwritable(path, source))?;
+        let file = TableFile::create(path).map_err(|source| unwritable(path, source))?;
+        Self::of(file, path)
+    }
+
+    /// Writes CSV to `out`, which errors call `name`.
+    ///
+    /// # Errors
+    /// If it takes nothing.
+    pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Result<Self, RecordingError> {
+        Self::of(TableFile::new(Box::new(out)), Path::new(name))
+    }
+
+    fn of(file: TableFile, path: &Path) -> Result<Self, RecordingError> {
+        let writer = headed(file, &HEADER).map_err(|source| unwritable(path, source))?;
         Ok(Self { path: path.to_owned(), writer, groups: 0 })
     }
 

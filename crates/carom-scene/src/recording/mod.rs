@@ -69,7 +69,8 @@ impl std::fmt::Debug for Trajectory {
 }
 
 impl Trajectory {
-    /// Creates the file; its ending tells the format: `.csv`, `.npz`, or `.pvd` / `.vtp`.
+    /// Creates the file, and the folders above it that are missing. Its ending tells the format: `.csv`, `.npz`, or
+    /// `.pvd` / `.vtp`; a pipe or a device with another one gets CSV.
     ///
     /// # Errors
     /// For another ending, or a place that cannot be written to.
@@ -79,6 +80,8 @@ impl Trajectory {
             "csv" => csv_table::CsvTable::create(path).map(|format| Box::new(format) as _),
             "npz" => npz::Npz::create(path).map(|format| Box::new(format) as _),
             "pvd" | "vtp" => vtk::Series::create(path).map(|format| Box::new(format) as _),
+            // A pipe or a device is often named by the system, without an ending.
+            _ if is_stream(path) => csv_table::CsvTable::create(path).map(|it| Box::new(it) as _),
             _ => return Err(RecordingError::UnknownFormat { path: path.to_owned() }),
         };
         let format = format.map_err(|source| unwritable(path, source))?;
@@ -120,4 +123,9 @@ impl Trajectory {
         let Self { path, format, .. } = self;
         format.finish().map_err(|source| unwritable(&path, source))
     }
+}
+
+/// Whether a path leads to a pipe, a device or the like.
+fn is_stream(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir())
 }

@@ -5,6 +5,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::Path;
 
+use crate::unfinished::create_folders_of;
 #[cfg(unix)]
 use crate::unfinished::lock;
 
@@ -21,7 +22,9 @@ pub(super) struct TableFile {
 }
 
 impl TableFile {
+    /// Opens a file, and creates it and the folders above it where they are missing.
     pub fn create(path: &Path) -> io::Result<Self> {
+        create_folders_of(path)?;
         // Its old content stays until it is known that no other run writes it.
         let file = OpenOptions::new().write(true).create(true).truncate(false).open(path)?;
         // Pipes and devices have neither a lock nor a length.
@@ -82,9 +85,9 @@ impl Write for TableFile {
     }
 }
 
-/// Creates a CSV file with this header.
-pub(super) fn csv_file(path: &Path, header: &[&str]) -> io::Result<csv::Writer<TableFile>> {
-    let mut writer = csv::Writer::from_writer(TableFile::create(path)?);
+/// Writes CSV with this header to a file.
+pub(super) fn headed(file: TableFile, header: &[&str]) -> io::Result<csv::Writer<TableFile>> {
+    let mut writer = csv::Writer::from_writer(file);
     writer.write_record(header)?;
     writer.flush()?;
     Ok(writer)
@@ -113,6 +116,13 @@ mod tests {
         drop(first);
         TableFile::create(&path).unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "");
+    }
+
+    #[test]
+    fn missing_folders_of_a_table_are_made() {
+        let folder = tempfile::tempdir().unwrap();
+        TableFile::create(&folder.path().join("of/runs/t.csv")).unwrap();
+        assert!(folder.path().join("of/runs/t.csv").is_file());
     }
 
     #[test]

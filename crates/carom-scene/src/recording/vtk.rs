@@ -13,6 +13,7 @@ use vtkio::model::{
 use super::each_second::EachSecond;
 use super::format::Format;
 use super::rotation::{angular_velocity, orientation};
+use crate::unfinished::create_folders_of;
 
 /// The file `NAME.pvd`, and `000000.vtp`, `000001.vtp`, ... in the folder `NAME_frames` beside it.
 pub(super) struct Series {
@@ -32,6 +33,7 @@ impl Series {
             clock: EachSecond::new(),
             has_rotation: false,
         };
+        create_folders_of(&series.path)?;
         series.write_list()?;
         std::fs::create_dir_all(series.path.with_file_name(series.folder()))?;
         Ok(series)
