@@ -174,6 +174,16 @@ def test_folders_of_scenes_are_searched(tmp_path: Path, monkeypatch: pytest.Monk
     assert carom.load("my own").name == "mine"
 
 
+def test_a_picture_is_said_to_be_no_scene(tmp_path: Path) -> None:
+    photo = tmp_path / "photo.jpg"
+    photo.write_bytes(b"\xff\xd8\xff\xe0\0\x10JFIF\0")
+    words = r"photo\.jpg: it is not a scene file: it begins like a JPEG picture, and is not text"
+    with pytest.raises(carom.SceneError, match=words):
+        carom.Scene.from_file(photo)
+    with pytest.raises(carom.SceneError, match=words):
+        carom.load(str(photo))
+
+
 TITLED = 'name = "{}"\ntitle = "{}"\n'
 
 

@@ -1,9 +1,10 @@
 //! What a command reads from the standard input, where `-` names it.
 
+use std::fmt::Display;
 use std::io::{self, Read};
 use std::sync::OnceLock;
 
-use carom_scene::Budget;
+use carom_scene::{Budget, NotText, text_of};
 
 use crate::failure::Failure;
 
@@ -20,11 +21,17 @@ pub fn text() -> Result<&'static str, Failure> {
         return Ok(text);
     }
     let most = Budget::FILE.bytes;
-    let mut text = String::new();
-    let read = io::stdin().lock().take(most + 1).read_to_string(&mut text);
-    read.map_err(|error| Failure::Fault(format!("cannot read the standard input: {error}")))?;
-    if text.len() as u64 > most {
-        return Err(Failure::Fault(format!("{NAME} is longer than {most} bytes")));
-    }
+    let mut bytes = Vec::new();
+    let read = io::stdin().lock().take(most + 1).read_to_end(&mut bytes);
+    let refused =
+        |error: &dyn Display| Failure::Fault(format!("cannot read the standard input: {error}"));
+    read.map_err(|error| refused(&error))?;
+    let is_longer = bytes.len() as u64 > most;
+    let text = match text_of(bytes) {
+        Err(NotText::Byte { .. }) | Ok(_) if is_longer => {
+            return Err(Failure::Fault(format!("{NAME} is longer than {most} bytes")));
+        }
+        read => read.map_err(|error| refused(&error))?,
+    };
     Ok(TEXT.get_or_init(|| text))
 }

@@ -39,6 +39,7 @@ mod overrides;
 mod palette;
 mod parameters;
 pub mod part;
+mod plain_text;
 #[cfg(feature = "recording")]
 pub mod recording;
 mod requirement;
@@ -64,6 +65,7 @@ pub use library::{Entry, Library, Source};
 pub use overrides::Override;
 pub use palette::{Coat, Paint, Palette};
 pub use parameters::Parameter;
+pub use plain_text::{NotText, text_of};
 pub use scene::Scene;
 pub use schema::json_schema;
 pub use text::SceneText;

@@ -150,7 +150,7 @@ impl Library {
 
     /// The scene with a name or title (in any case), or in the file of this path, with some
     /// values changed. Where no scene has the name `drop`, it is that in the file `drop.toml` of the current
-    /// folder.
+    /// folder, or in the file `drop`.
     ///
     /// # Errors
     /// [`SceneError::Unknown`] with the name or title that it is a word of, or else the nearest one; or what
@@ -192,8 +192,8 @@ impl Library {
             }
             known.extend([own.name, own.title]);
         }
-        let file = PathBuf::from(format!("{name}.toml"));
-        if !name.is_empty() && file.is_file() {
+        let files = [format!("{name}.toml"), name.to_owned()].map(PathBuf::from);
+        if let Some(file) = files.into_iter().find(|file| !name.is_empty() && file.is_file()) {
             return Ok((self.read(&file, overrides)?, Source::File(file)));
         }
         let beside = files_in(Path::new(".")).unwrap_or_default();

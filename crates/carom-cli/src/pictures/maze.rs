@@ -1,10 +1,11 @@
 //! The command `maze`, and mazes by name.
 
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::Path;
 
 use carom_maze::random_text;
-use carom_scene::Library;
+use carom_scene::{Library, text_of};
 
 use super::args;
 use crate::config::Config;
@@ -44,8 +45,9 @@ pub fn find(library: &Library, name: &str) -> Result<carom_maze::Maze, Failure> 
     if !name.ends_with(".txt") {
         return Ok(carom_maze::Maze::from_scene(&library.find(name, &[])?.0)?);
     }
-    let text = std::fs::read_to_string(name)
-        .map_err(|error| Failure::Fault(format!("cannot read {name}: {error}")))?;
+    let unreadable = |error: &dyn Display| Failure::Fault(format!("cannot read {name}: {error}"));
+    let bytes = std::fs::read(name).map_err(|error| unreadable(&error))?;
+    let text = text_of(bytes).map_err(|error| unreadable(&error))?;
     let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
     Ok(carom_maze::Maze::from_text(&text, &stem)?)
 }

@@ -1,9 +1,10 @@
 //! What Python says of a maze and of how it is played.
 
-use std::fs;
+use std::{fs, io};
 
 use carom::{Discrete, Rule};
 use carom_maze::{Arena, BUILT_IN_DRAWINGS, EpisodeOptions, Maze, Rewards, Start};
+use carom_scene::text_of;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -100,7 +101,8 @@ fn named(name: &str) -> Result<Maze, Failure> {
     if name.contains('\n') {
         return Ok(Maze::from_text(name, "drawing")?);
     }
-    let text = fs::read_to_string(name).map_err(|error| {
+    let text = fs::read(name).and_then(|bytes| text_of(bytes).map_err(io::Error::other));
+    let text = text.map_err(|error| {
         let built_in: Vec<String> =
             BUILT_IN_DRAWINGS.iter().map(|(name, _)| format!("\"{name}\"")).collect();
         let built_in = built_in.join(", ");

@@ -9,6 +9,7 @@ use toml::{Table, Value};
 use super::source::SourceText;
 use crate::budget::Budget;
 use crate::error::{SceneError, did_you_mean};
+use crate::plain_text::{NotText, text_of};
 use crate::table::INCLUDE;
 
 /// Files of one scene at most: a slip, or somebody's joke, would read files without end.
@@ -114,12 +115,18 @@ fn read(path: &Path, most: u64) -> io::Result<String> {
 
 /// The text of a file, or a pipe, that has no more than so many bytes. Devices have no end.
 pub(super) fn read_within(path: &Path, most: u64) -> io::Result<String> {
-    let mut text = String::new();
-    File::open(path)?.take(most.saturating_add(1)).read_to_string(&mut text)?;
-    if text.len() as u64 > most {
-        return Err(io::Error::other(format!("it is longer than {most} bytes")));
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    let is_longer = bytes.len() as u64 > most;
+    match text_of(bytes) {
+        Err(error @ NotText::OfKind { .. }) => Err(no_scene(error)),
+        _ if is_longer => Err(io::Error::other(format!("it is longer than {most} bytes"))),
+        read => read.map_err(no_scene),
     }
-    Ok(text)
+}
+
+fn no_scene(error: NotText) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, format!("it is not a scene file: {error}"))
 }
 
 /// Fields of a table that say the same thing in two ways.

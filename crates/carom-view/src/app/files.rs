@@ -3,12 +3,15 @@
 use std::path::Path;
 
 use carom_maze::Maze;
-use carom_scene::Source;
+use carom_scene::{Source, text_of};
 use egui::{Align2, Color32, FontId, Id, LayerId, Order, Stroke, StrokeKind};
 
 use super::{App, Screen};
 use crate::host::ReadFile;
 use crate::written_scene::WrittenScene;
+
+/// What files can be opened.
+const OPENS: &str = "a scene (TOML) or a maze (text)";
 
 impl App {
     /// Opens files that were dropped on the window: scenes, or mazes drawn with characters.
@@ -18,12 +21,17 @@ impl App {
         }
         for ReadFile { path, content } in self.inbox.take() {
             match content {
-                Ok(content) => self.open_text(&String::from_utf8_lossy(&content), &path),
-                Err(error) => {
-                    self.notices.complain(format!("cannot read {}: {error}", path.display()));
-                }
+                Ok(content) => match text_of(content) {
+                    Ok(text) => self.open_text(&text, &path),
+                    Err(error) => self.complain_of(&path, &format_args!("{error}; open {OPENS}")),
+                },
+                Err(error) => self.complain_of(&path, &error),
             }
         }
+    }
+
+    fn complain_of(&mut self, path: &Path, error: &dyn std::fmt::Display) {
+        self.notices.complain(format!("cannot read {}: {error}", path.display()));
     }
 
     /// Shows where a file would go that is held over the window.
@@ -37,7 +45,7 @@ impl App {
         let stroke = Stroke::new(3.0, self.context.global_style().visuals.selection.stroke.color);
         painter.rect(place, 8, Color32::from_black_alpha(150), stroke, StrokeKind::Inside);
         let font = FontId::proportional(26.0);
-        let text = "Drop it here: a scene (TOML) or a maze (text)";
+        let text = format!("Drop it here: {OPENS}");
         painter.text(place.center(), Align2::CENTER_CENTER, text, font, Color32::WHITE);
     }
 

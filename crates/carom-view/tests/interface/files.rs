@@ -119,6 +119,20 @@ fn a_dropped_scene_opens_and_a_broken_one_is_told_with_its_line() {
 }
 
 #[test]
+fn a_dropped_photo_is_told_to_be_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut desk = watching("simtest1");
+    for name in ["photo.jpg", "photo.toml", "photo.txt"] {
+        let photo = folder.path().join(name);
+        std::fs::write(&photo, b"\xff\xd8\xff\xe0\0\x10JFIF\0").expect("written");
+        drop_file(&mut desk, &photo);
+        let told = format!("{name}: it begins like a JPEG picture, and is not text");
+        assert!(desk.query_by_label_contains(&told).is_some(), "{name}");
+    }
+    assert_eq!(scene(&desk).view().scene.name, "simtest1", "nothing is lost");
+}
+
+#[test]
 fn a_broken_scene_in_the_chooser_says_what_is_wrong() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("broken.toml"), "name = 3\n").expect("written");

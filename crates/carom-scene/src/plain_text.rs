@@ -1,0 +1,122 @@
+//! Files that are to be text, and what they are if they are not.
+
+use thiserror::Error;
+
+/// Why the bytes of a file are not read as text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum NotText {
+    /// They begin as files of another kind do.
+    #[error("it begins like {kind}, and is not text")]
+    OfKind {
+        /// The kind, with its article.
+        kind: &'static str,
+    },
+    /// They are text in another encoding.
+    #[error("it is text in UTF-16: save it in UTF-8")]
+    Utf16,
+    /// A byte that text in UTF-8 does not have.
+    #[error("it is not text in UTF-8 (byte {position} of it is {byte:#04x})")]
+    Byte {
+        /// Which one, from 1.
+        position: usize,
+        /// Its value.
+        byte: u8,
+    },
+}
+
+/// What a kind of file begins with, from some byte on.
+struct Beginning {
+    offset: usize,
+    bytes: &'static [u8],
+    kind: &'static str,
+}
+
+const fn begins(offset: usize, bytes: &'static [u8], kind: &'static str) -> Beginning {
+    Beginning { offset, bytes, kind }
+}
+
+/// Kinds of files that people have beside their scenes. Where several fit, the first counts.
+const BEGINNINGS: [Beginning; 13] = [
+    begins(0, b"\x89PNG", "a PNG picture"),
+    begins(0, b"\xff\xd8\xff", "a JPEG picture"),
+    begins(0, b"GIF8", "a GIF picture"),
+    begins(8, b"WEBP", "a WebP picture"),
+    begins(4, b"ftyphei", "a HEIC picture"),
+    begins(4, b"ftypavif", "an AVIF picture"),
+    begins(4, b"ftyp", "a film (MP4)"),
+    begins(0, b"II*\0", "a TIFF picture"),
+    begins(0, b"MM\0*", "a TIFF picture"),
+    begins(0, b"%PDF-", "a PDF document"),
+    begins(0, b"PK\x03\x04", "a ZIP archive (.npz is one)"),
+    begins(0, b"\x1f\x8b", "a compressed file (gzip)"),
+    begins(0, b"glTF", "an animation or a scene in glTF (.glb)"),
+];
+
+/// The kind of a file that is not text, by what it begins with.
+fn kind_of(bytes: &[u8]) -> Option<NotText> {
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Some(NotText::Utf16);
+    }
+    let begins =
+        |it: &&Beginning| bytes.get(it.offset..).is_some_and(|rest| rest.starts_with(it.bytes));
+    let found = BEGINNINGS.iter().find(begins);
+    found.map(|it| NotText::OfKind { kind: it.kind })
+}
+
+/// Takes the bytes of a file for text in UTF-8.
+///
+/// ```
+/// use carom_scene::text_of;
+///
+/// assert_eq!(text_of(b"radius = 1".to_vec())?, "radius = 1");
+/// let error = text_of(b"\x89PNG\r\n\x1a\n\0\0".to_vec()).unwrap_err();
+/// assert_eq!(error.to_string(), "it begins like a PNG picture, and is not text");
+/// # Ok::<(), carom_scene::NotText>(())
+/// ```
+///
+/// # Errors
+/// [`NotText`], for a byte of zero, too, which no text has.
+pub fn text_of(bytes: Vec<u8>) -> Result<String, NotText> {
+    if let Some(kind) = kind_of(&bytes) {
+        return Err(kind);
+    }
+    let at = |index: usize, bytes: &[u8]| NotText::Byte { position: index + 1, byte: bytes[index] };
+    if let Some(zero) = bytes.iter().position(|&byte| byte == 0) {
+        return Err(at(zero, &bytes));
+    }
+    String::from_utf8(bytes).map_err(|error| at(error.utf8_error().valid_up_to(), error.as_bytes()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_and_archives_are_named_and_not_read() {
+        for (bytes, kind) in [
+            (&b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"[..], "a PNG picture"),
+            (b"\xff\xd8\xff\xe0\0\x10JFIF", "a JPEG picture"),
+            (b"GIF89a", "a GIF picture"),
+            (b"RIFF\x10\0\0\0WEBPVP8 ", "a WebP picture"),
+            (b"\0\0\0\x18ftypheic", "a HEIC picture"),
+            (b"\0\0\0\x18ftypmp42", "a film (MP4)"),
+            (b"%PDF-1.7\n", "a PDF document"),
+            (b"PK\x03\x04\x14\0", "a ZIP archive (.npz is one)"),
+            (b"glTF\x02\0\0\0", "an animation or a scene in glTF (.glb)"),
+        ] {
+            assert_eq!(text_of(bytes.to_vec()), Err(NotText::OfKind { kind }));
+        }
+    }
+
+    #[test]
+    fn text_of_another_encoding_and_stray_bytes_are_told() {
+        let utf16: Vec<u8> = "\u{feff}name".encode_utf16().flat_map(u16::to_le_bytes).collect();
+        assert_eq!(text_of(utf16), Err(NotText::Utf16));
+        let latin1 = text_of(b"name = \"fl\xe4che\"".to_vec()).unwrap_err();
+        assert_eq!(latin1.to_string(), "it is not text in UTF-8 (byte 11 of it is 0xe4)");
+        assert_eq!(text_of(b"a\0".to_vec()), Err(NotText::Byte { position: 2, byte: 0 }));
+        for text in ["", "name = \"fläche\"", "GI = 1", "P"] {
+            assert_eq!(text_of(text.as_bytes().to_vec()).as_deref(), Ok(text));
+        }
+    }
+}
