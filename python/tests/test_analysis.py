@@ -245,7 +245,8 @@ def test_einstein_and_green_kubo_agree() -> None:
     # run's displacement but for 1e-3 of the trapezoidal rule, and for other weights at the ends.
     einstein = analysis.diffusion_coefficient(time[:201], msd, begin=1.5)
     assert einstein == pytest.approx(green_kubo[150:].mean(), rel=0.02)
-    # What simulations find by R. J. Speedy, Mol. Phys. 62, 509 (1987). Some 3 % is noise here.
+    # What simulations find by R. J. Speedy, Mol. Phys. 62, 509 (1987). Some 3 % is noise here, and
+    # neither is corrected for the size of its box.
     n = 6 * 0.3 / np.pi
     speedy = 3 / 8 / (n * np.sqrt(np.pi)) * (1 - n / 1.09) * (1 + n**2 * (0.4 - 0.83 * n**2))
     assert einstein == pytest.approx(speedy, rel=0.1)

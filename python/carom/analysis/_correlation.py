@@ -57,7 +57,7 @@ def green_kubo_diffusion(time: ArrayLike, autocorrelation: ArrayLike) -> Floats:
 
     ``D(t) = 1/3 ∫_0^t <v(s)·v(0)> ds`` by the trapezoidal rule: D. Frenkel and B. Smit,
     Understanding Molecular Simulation, 2nd ed. (2002), section 4.4. It is the diffusion coefficient
-    where it no longer grows.
+    where it no longer grows: that of the periodic box, as in `diffusion_coefficient`.
 
     Args:
         time: Lags [s], from 0, shape (t,).

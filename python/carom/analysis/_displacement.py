@@ -105,9 +105,10 @@ def diffusion_coefficient(
 
     A line is fitted to the mean square displacement by least squares; its slope is ``2 d D``: D.
     Frenkel and B. Smit, Understanding Molecular Simulation, 2nd ed. (2002), section 4.4. The fit is
-    to begin when motion is diffusive, after some ten collisions of a sphere. Between periodic
-    images, D is too small by about ``2.837 kT / (6π η L)``, with η the viscosity here: I.-C. Yeh
-    and G. Hummer, J. Phys. Chem. B 108, 15873 (2004).
+    to begin when motion is diffusive, after some ten collisions of a sphere. In a cubic periodic
+    box of side L, D is smaller than that of an infinite fluid by ``2.837297 kT / (6π η L)``, with η
+    the viscosity: I.-C. Yeh and G. Hummer, J. Phys. Chem. B 108, 15873 (2004). Add that before
+    comparing it with other sizes, or published values for an infinite fluid.
 
     Args:
         time: Lags [s], shape (t,).
