@@ -9,7 +9,7 @@ use super::sliding::time_on_face;
 use crate::detect::contact::Bodies;
 use crate::flight::Flight;
 use crate::norm::Norm;
-use crate::respond::friction_of;
+use crate::respond::{self, friction_of};
 use crate::rule::exact::contacts::{Corner, MOST_PLANES, Member, Plane, beyond};
 use crate::rule::exact::flights::{AxisMotion, ContactWork, Supported};
 use crate::surface::Form;
@@ -113,6 +113,7 @@ impl PlanarSupport {
             return Ok(());
         }
         let rolling = rolling_on(&pressed, contact_duration)?;
+        let rolling = self.beside_planes(&pressed, rolling, corner, contact_duration);
         (self.velocity, self.angular_velocity) = (rolling.velocity, rolling.angular_velocity);
         self.acceleration = rolling.acceleration;
         self.angular_acceleration = rolling.angular_acceleration;
@@ -131,6 +132,39 @@ impl PlanarSupport {
             *persists &= opening <= least;
         }
         Ok(())
+    }
+
+    /// How a sphere goes on that friction gives a velocity towards or away from planes that do not press on
+    /// it: it rolls along those that it would roll into, and parts from those that it rolls away from.
+    ///
+    /// A slip that friction ends within a contact's duration is gone at once, and may leave such a velocity. In
+    /// a persistent contact nothing would meet it.
+    fn beside_planes(
+        &mut self,
+        pressed: &[PressedSphere],
+        rolling: Rolling,
+        corner: &Corner,
+        contact_duration: f64,
+    ) -> Rolling {
+        let [sphere] = pressed else { return rolling };
+        let rounding = respond::rounding_of(rolling.velocity);
+        let (mut velocity, mut is_turned) = (rolling.velocity, false);
+        for (plane, persists) in corner.planes().zip(&mut self.persists) {
+            let parting = velocity.dot(plane.normal);
+            if plane.normal == sphere.normal || !*persists || parting == 0.0 {
+                continue;
+            }
+            if parting > rounding {
+                *persists = false;
+            } else {
+                velocity -= parting * plane.normal;
+                is_turned |= parting < -rounding;
+            }
+        }
+        if !is_turned {
+            return Rolling { velocity, ..rolling };
+        }
+        on_plane(&sphere.rolling_with(velocity), contact_duration)
     }
 
     /// Has it hold until the sphere may come to the end of a face, if that is within a `duration` \[s\].

@@ -99,6 +99,12 @@ impl PressedSphere {
         [self.velocity, self.angular_velocity, self.pull] == [DVec3::ZERO; 3]
     }
 
+    /// The sphere as it rolls with a velocity \[m/s\], and spins as before.
+    pub fn rolling_with(&self, velocity: DVec3) -> Self {
+        let spin = self.angular_velocity.dot(self.normal) * self.normal;
+        Self { velocity, angular_velocity: self.turning_with(velocity) + spin, ..*self }
+    }
+
     /// Velocity with which its surface slides along the plane \[m/s\].
     fn slip(&self) -> DVec3 {
         self.velocity - self.radius * self.angular_velocity.cross(self.normal)
