@@ -67,6 +67,7 @@ pub(crate) fn start(
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     (timeline.spring_rate, timeline.held_until) = (spring_rate, time);
     arrange(&mut timeline, system, time);
+    timeline.work.begin(&timeline.flights.bodies);
     predict_all(&mut timeline, system, time);
     timeline
 }
@@ -102,6 +103,7 @@ pub(crate) fn adopt<F: Fn(SphereId) -> f64>(
     flights.set_stepped(&zone.indices(&system.spheres.id));
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     arrange(&mut timeline, system, time);
+    timeline.work.begin(&timeline.flights.bodies);
     (timeline.force_tick, timeline.spring_rate) = (before.force_tick, before.spring_rate);
     timeline.next_emission = arrivals.next;
     if timeline.flights.hold_forces {
@@ -133,11 +135,7 @@ pub(crate) fn begin(
         held_forces::renew(timeline, system, frame[0]);
         check_accelerations(timeline, system).map_err(Unheld::NotFinite)?;
     }
-    let is_due = is_arrangement_due(timeline, system);
-    if is_due {
-        arrange(timeline, system, frame[0]);
-    }
-    if is_due || is_renewed || !timeline.moving_surfaces.is_empty() {
+    if is_renewed || !timeline.moving_surfaces.is_empty() {
         predict_all(timeline, system, frame[0]);
     } else {
         timeline.schedule.tidy();
@@ -273,6 +271,7 @@ fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
     let order = contents(&timeline.flights, system, time).curve_order();
     if order.windows(2).any(|pair| pair[0] > pair[1]) {
         timeline.flights.reorder(&order);
+        timeline.work.reorder(&order);
     }
     timeline.neighbours = Neighbours::new(contents(&timeline.flights, system, time));
     timeline.clearances.clear();
@@ -281,7 +280,6 @@ fn arrange(timeline: &mut Timeline, system: &System, time: f64) {
         timeline.clearances.resize(flights.bodies.len(), Clearance::NONE);
     }
     (timeline.events, timeline.cell_crossings) = (0, 0);
-    timeline.work.begin(&flights.bodies);
     stepped::find_near(timeline);
 }
 
@@ -297,15 +295,49 @@ fn contents<'a>(flights: &'a Flights, system: &System<'a>, time: f64) -> Content
     }
 }
 
-/// Whether the order of the spheres is out of date.
-fn is_arrangement_due(timeline: &Timeline, system: &System) -> bool {
-    let is_closed = system.settings.boundary.period().is_finite();
-    let (done, per_sphere) = match (is_closed, timeline.are_many()) {
-        (true, true) => (timeline.cell_crossings, CROSSINGS_PER_ARRANGEMENT),
-        (true, false) => (timeline.cell_crossings, CROSSINGS_OF_FEW),
-        (false, _) => (timeline.events, EVENTS_PER_ARRANGEMENT),
-    };
-    done > per_sphere * timeline.flights.bodies.len() as u64
+/// After how many events the order of the spheres is out of date, and after how many cell crossings.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ArrangementDue {
+    events: u64,
+    cell_crossings: u64,
+}
+
+impl ArrangementDue {
+    /// That of these spheres.
+    pub fn of(timeline: &Timeline, system: &System) -> Self {
+        let count = timeline.flights.bodies.len() as u64;
+        let is_closed = system.settings.boundary.period().is_finite();
+        match (is_closed, timeline.are_many()) {
+            (true, true) => Self::after_crossings(CROSSINGS_PER_ARRANGEMENT * count),
+            (true, false) => Self::after_crossings(CROSSINGS_OF_FEW * count),
+            (false, _) => Self { events: EVENTS_PER_ARRANGEMENT * count, cell_crossings: u64::MAX },
+        }
+    }
+
+    fn after_crossings(cell_crossings: u64) -> Self {
+        Self { events: u64::MAX, cell_crossings }
+    }
+}
+
+/// Arranges the spheres anew after the event at `now` \[s\], if that is due: whatever the frames, for meetings
+/// that were passed over are predicted once more.
+#[inline(always)]
+pub(super) fn arrange_if_due(
+    timeline: &mut Timeline,
+    system: &System,
+    due: ArrangementDue,
+    now: f64,
+) {
+    if timeline.events > due.events || timeline.cell_crossings > due.cell_crossings {
+        arrange_anew(timeline, system, now);
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn arrange_anew(timeline: &mut Timeline, system: &System, now: f64) {
+    arrange(timeline, system, now);
+    predict_all(timeline, system, now);
 }
 
 /// Predicts the next event of every sphere, as of `time` \[s\].

@@ -28,6 +28,18 @@ impl FrameWork {
         self.generations_before.extend(bodies.iter().map(|body| body.generation));
     }
 
+    /// Follows the spheres at the slots of an `order` into that order.
+    pub fn reorder(&mut self, order: &[u32]) {
+        if !self.generations_before.is_empty() {
+            let before = |&slot: &u32| self.generations_before[slot as usize];
+            self.generations_before = order.iter().map(before).collect();
+        }
+        if !self.of_groups.is_empty() {
+            let work = |&slot: &u32| self.of_groups[slot as usize];
+            self.of_groups = order.iter().map(work).collect();
+        }
+    }
+
     /// Does not count flights that all began anew at once, and were of these generations before.
     pub fn pass_over(&mut self, before: &[u32], bodies: &[Body]) {
         let generations = before.iter().zip(bodies).map(|(before, body)| (before, body.generation));

@@ -109,11 +109,16 @@ pub(crate) fn advance(
 ) -> Result<f64, Unfinished> {
     let mut context = StepContext::new(system, timeline.parameters, span, work, report);
     let before = WorkSoFar::of(timeline, work);
+    let due = frame::ArrangementDue::of(timeline, system);
     let mut end = span.end;
     loop {
         let (tick, force_tick) = (timeline.zone.next_tick(), timeline.next_force_tick());
         let now = match timeline.next(end.min(tick).min(force_tick)) {
-            Some((slot, next)) => happen(timeline, &mut context, slot, next)?,
+            Some((slot, next)) => {
+                let now = happen(timeline, &mut context, slot, next)?;
+                frame::arrange_if_due(timeline, system, due, now);
+                now
+            }
             // Zones are stepped under the forces of the time to come: at the end both wait for those.
             None if force_tick < end && force_tick <= tick => {
                 renew_forces(timeline, &mut context, force_tick)?
