@@ -147,6 +147,13 @@ fn bodies_of(timeline: &Timeline, sphere: u32, event: &Event) -> Option<Bodies> 
     }
 }
 
+/// The bodies of the meeting that a sphere has at this very time \[s\], if it has one then.
+pub(super) fn meeting_at(timeline: &Timeline, slot: u32, time: f64) -> Option<Bodies> {
+    let event = timeline.schedule.next_events(slot).first;
+    let is_due = event.time == time && !timeline.is_void(&event);
+    is_due.then(|| bodies_of(timeline, timeline.flights.index_of[slot as usize], &event))?
+}
+
 /// What a sphere meets first, as of `now` \[s\], but for these meetings.
 fn first_but(
     timeline: &Timeline,

@@ -19,13 +19,13 @@ use crate::rule::exact::periodic;
 use crate::rule::exact::timeline::Timeline;
 
 /// Gathers the spheres at `seeds`, whatever touches them at `time` \[s\], what touches that, and so
-/// on, clusters as a whole. `merged` contacts count as touching, too.
+/// on, clusters as a whole. `joined` contacts count as touching, too.
 pub(crate) fn gather(
     timeline: &Timeline,
     context: &StepContext,
     seeds: &[u32],
     surface: Option<u32>,
-    merged: &[Bodies],
+    joined: &[Bodies],
     time: f64,
 ) -> Group {
     let mut gathering =
@@ -37,7 +37,7 @@ pub(crate) fn gather(
     if let (Some(surface), [slot]) = (surface, seeds) {
         gathering.connect_surface(*slot, surface, true);
     }
-    for &bodies in merged {
+    for &bodies in joined {
         gathering.connect_bodies(bodies);
         for index in bodies.spheres() {
             gathering.join(timeline.flights.slot_of[index as usize]);

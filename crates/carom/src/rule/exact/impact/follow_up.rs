@@ -10,6 +10,7 @@ use crate::rule::exact::contact_scale::{ContactScale, RESOLVED_PATH};
 use crate::rule::exact::contacts::{Group, Member};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::neighbours::NeighbourBuffer;
+use crate::rule::exact::predict;
 use crate::rule::exact::timeline::Timeline;
 
 /// The contacts that the spheres `struck` in a group close within a contact duration of its impacts,
@@ -40,6 +41,33 @@ pub(super) fn follow_ups(
     found.sort_unstable();
     found.dedup();
     found
+}
+
+/// Impacts that are due at the instant of a group beside it: of spheres that are within the reach of those
+/// that the follow-up impacts `found` bring into it. Answered after it they would find these with other
+/// velocities, and what is symmetric would not stay so.
+pub(super) fn impacts_beside(timeline: &Timeline, group: &Group, found: &[Bodies]) -> Vec<Bodies> {
+    let mut beside = Vec::new();
+    let mut near = NeighbourBuffer::default();
+    let is_new = |index: &u32| group.place_of(*index).is_none();
+    for index in found.iter().flat_map(|bodies| bodies.spheres()).filter(is_new) {
+        let slot = timeline.flights.slot_of[index as usize];
+        let comes = Member::at(&timeline.flights, slot, group.time);
+        timeline.neighbours.find(slot, comes.species.level, &mut near);
+        for neighbour in near.others(slot) {
+            let other = Member::at(&timeline.flights, neighbour.slot(), group.time);
+            let shift = timeline.neighbours.shift_of(slot, neighbour);
+            let radius_sum = comes.species.radius + other.species.radius;
+            let gap = (other.position + shift - comes.position).norm() - radius_sum;
+            let is_near = gap <= RESOLVED_PATH * radius_sum && !other.species.is_stepped;
+            if is_near && is_new(&other.index) {
+                beside.extend(predict::meeting_at(timeline, neighbour.slot(), group.time));
+            }
+        }
+    }
+    beside.sort_unstable();
+    beside.dedup();
+    beside
 }
 
 /// A search for follow-up impacts of a group.

@@ -38,15 +38,17 @@ pub(super) fn answer(
     let work_before = context.work.done();
     let recorded = [context.report.impacts.len(), context.report.groups.len()];
     let mut allowance = None;
-    let mut merged = Vec::new();
+    let (mut merged, mut joined) = (Vec::new(), Vec::new());
     let (mut group, answer) = loop {
-        let mut group = gather(timeline, context, seeds, surface, &merged, time);
+        let mut group = gather(timeline, context, seeds, surface, &joined, time);
         let allowed = *allowance.get_or_insert_with(|| allow_work(timeline, context, &group));
         let answer = respond_to_impacts(timeline, context, &mut group, &merged);
         let found = follow_up::follow_ups(timeline, context, &group, &answer.struck(&group));
         if found.is_empty() || allowed == 0 || !context.work.spend(group.members.len() as u64) {
             break (group, answer);
         }
+        joined.extend(follow_up::impacts_beside(timeline, &group, &found));
+        joined.extend(found.iter().copied());
         merged.extend(found);
     };
     context.counts.groups += 1;
@@ -58,7 +60,7 @@ pub(super) fn answer(
     if context.has_zones() && allowance.is_some_and(|allowed| spent >= allowed) {
         context.report.impacts.truncate(recorded[0]);
         context.report.groups.truncate(recorded[1]);
-        let group = gather(timeline, context, seeds, surface, &merged, time);
+        let group = gather(timeline, context, seeds, surface, &joined, time);
         return stepped::make_zone(timeline, context, &group);
     }
     let Ok(supports) = found else {
@@ -92,10 +94,10 @@ fn gather(
     context: &StepContext,
     seeds: &[u32],
     surface: Option<u32>,
-    merged: &[Bodies],
+    joined: &[Bodies],
     time: f64,
 ) -> Group {
-    let mut group = contacts::gather(timeline, context, seeds, surface, merged, time);
+    let mut group = contacts::gather(timeline, context, seeds, surface, joined, time);
     piece_end::settle(timeline, context, &mut group);
     group
 }
