@@ -314,28 +314,22 @@ impl ArrangementDue {
         }
     }
 
+    /// Whether that is so now.
+    #[inline(always)]
+    pub fn is_now(self, timeline: &Timeline) -> bool {
+        timeline.events > self.events || timeline.cell_crossings > self.cell_crossings
+    }
+
     fn after_crossings(cell_crossings: u64) -> Self {
         Self { events: u64::MAX, cell_crossings }
     }
 }
 
-/// Arranges the spheres anew after the event at `now` \[s\], if that is due: whatever the frames, for meetings
+/// Arranges the spheres anew after the event at `now` \[s\] that makes it due: whatever the frames, for meetings
 /// that were passed over are predicted once more.
-#[inline(always)]
-pub(super) fn arrange_if_due(
-    timeline: &mut Timeline,
-    system: &System,
-    due: ArrangementDue,
-    now: f64,
-) {
-    if timeline.events > due.events || timeline.cell_crossings > due.cell_crossings {
-        arrange_anew(timeline, system, now);
-    }
-}
-
 #[cold]
 #[inline(never)]
-fn arrange_anew(timeline: &mut Timeline, system: &System, now: f64) {
+pub(super) fn arrange_anew(timeline: &mut Timeline, system: &System, now: f64) {
     arrange(timeline, system, now);
     predict_all(timeline, system, now);
 }

@@ -108,7 +108,7 @@ pub(crate) fn advance(
     until: Until,
 ) -> Result<f64, Unfinished> {
     let mut context = StepContext::new(system, timeline.parameters, span, work, report);
-    let before = WorkSoFar::of(timeline, work);
+    let mut before = WorkSoFar::of(timeline, work);
     let due = frame::ArrangementDue::of(timeline, system);
     let mut end = span.end;
     loop {
@@ -116,7 +116,10 @@ pub(crate) fn advance(
         let now = match timeline.next(end.min(tick).min(force_tick)) {
             Some((slot, next)) => {
                 let now = happen(timeline, &mut context, slot, next)?;
-                frame::arrange_if_due(timeline, system, due, now);
+                if due.is_now(timeline) {
+                    before.count_from_zero(timeline);
+                    frame::arrange_anew(timeline, system, now);
+                }
                 now
             }
             // Zones are stepped under the forces of the time to come: at the end both wait for those.
@@ -228,13 +231,19 @@ impl WorkSoFar {
         Self { events, cell_crossings, units: work.done() }
     }
 
+    /// Goes on where the timeline begins to count its events from zero.
+    fn count_from_zero(&mut self, timeline: &Timeline) {
+        self.events = self.events.wrapping_sub(timeline.events);
+        self.cell_crossings = self.cell_crossings.wrapping_sub(timeline.cell_crossings);
+    }
+
     /// The work of the stages since then.
     fn counts_since(&self, timeline: &Timeline, context: &StepContext) -> StageCounts {
-        let events = timeline.events - self.events;
+        let events = timeline.events.wrapping_sub(self.events);
         let units = context.work.done() - self.units;
         StageCounts {
             events,
-            cell_crossings: timeline.cell_crossings - self.cell_crossings,
+            cell_crossings: timeline.cell_crossings.wrapping_sub(self.cell_crossings),
             pair_tests: context.searches.iter().map(PairSearch::tests).sum(),
             solver_iterations: units - UNITS_PER_FLIGHT * (events + context.renewed),
             ..context.counts
