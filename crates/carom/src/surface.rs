@@ -56,14 +56,21 @@ impl SurfaceMotion {
 impl Surface {
     /// Geometry and motion of the surface after `h` \[s\].
     pub fn after(&self, h: f64) -> (Form, SurfaceMotion) {
-        if self.motion.is_at_rest() {
-            return (self.form, self.motion);
+        self.motion.carry(&self.form, h)
+    }
+}
+
+impl SurfaceMotion {
+    /// Geometry and motion after `h` \[s\] of a surface of this form that moves so.
+    pub fn carry(&self, form: &Form, h: f64) -> (Form, Self) {
+        if self.is_at_rest() {
+            return (*form, *self);
         }
-        let SurfaceMotion { origin, velocity, angular_velocity } = self.motion;
+        let Self { origin, velocity, angular_velocity } = *self;
         let pose = Pose::at(origin).moved(velocity, angular_velocity, h);
         let place = |point: DVec3| pose.position + pose.rotation * (point - origin);
         let turn = |direction: DVec3| pose.rotation * direction;
-        let form = match self.form {
+        let form = match *form {
             Form::Sphere { center, radius } => Form::Sphere { center: place(center), radius },
             Form::HalfSpace { point, normal } => {
                 Form::HalfSpace { point: place(point), normal: turn(normal) }
@@ -79,7 +86,7 @@ impl Surface {
                 Form::Box(SolidBox { center: place(b.center), axes: b.axes.map(turn), ..b })
             }
         };
-        (form, SurfaceMotion { origin: pose.position, ..self.motion })
+        (form, Self { origin: pose.position, ..*self })
     }
 }
 

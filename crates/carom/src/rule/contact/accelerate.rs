@@ -4,7 +4,7 @@ use fearless_simd::{Level, Simd, SimdMask, dispatch};
 
 use super::drift::Drift;
 use super::found::Found;
-use super::row::{self, Row};
+use super::row::{self, BOUNDLESS, Row};
 use super::slots::Run;
 use super::solver::Solver;
 use super::sub_step::SubStep;
@@ -70,7 +70,7 @@ fn accelerate_run<S: Simd>(simd: S, run: &mut Run, h: f64, drift: Drift) -> Foun
         change = change.max((now - before).length_squared());
         // A flight ends between where its first velocity takes it and where its last one does.
         let (position, _) = row::columns(simd, run.position, slot);
-        let (reference, margin) = row::columns(simd, run.reference, slot);
+        let (reference, margin) = row::columns_or(simd, run.reference, slot, BOUNDLESS);
         let (way, reach) = (position - reference - common, margin * margin);
         let first = (way + before * length).length_squared();
         let last = (way + now * length).length_squared();

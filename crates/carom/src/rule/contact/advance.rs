@@ -4,7 +4,7 @@ use fearless_simd::{Level, Simd, SimdMask, dispatch};
 use glam::DVec3;
 
 use super::accelerate;
-use super::row;
+use super::row::{self, BOUNDLESS};
 use super::slots::Run;
 use super::solver::{Bounce, Solver};
 use super::sub_step::SubStep;
@@ -13,13 +13,18 @@ use crate::lanes::{LANES, Lanes};
 use crate::real::Vector;
 use crate::system::System;
 
+/// An impact has made a sphere faster whose squared speed has grown by more than this factor: far more than
+/// rounding, and less than margins allow for.
+const FASTER: f64 = 1.01;
+
 /// Moves spheres and surfaces over the sub-step.
 ///
 /// A sphere that bears something moves by its last velocity. One that nothing touches flies on a parabola,
 /// and one that bounces on two, which meet at the impact.
 ///
 /// No sphere leaves the margin within which its neighbours are known: one that an impact has made so fast
-/// is late by the rest of its way.
+/// is late by the rest of its way. One that impacts have only turned round is not taken along by the motion
+/// that all have in common: that would take it through walls.
 pub(super) fn advance(system: &System, solver: &mut Solver, sub_step: &SubStep) {
     solver.drift = solver.drift.after(sub_step.h);
     let Solver { slots, slabs, bounces, drift, .. } = solver;
@@ -30,8 +35,14 @@ pub(super) fn advance(system: &System, solver: &mut Solver, sub_step: &SubStep) 
         let to = bounces.partition_point(|bounce| (bounce.slot as usize) < slab.end);
         let run = &mut run;
         dispatch!(Level::new(), simd => advance_run(simd, run, sub_step.h, flies));
-        shift_bounced(run, slab.start, &bounces[from..to]);
-        dispatch!(Level::new(), simd => stay_within_margin(simd, run, common));
+        let bounces = &bounces[from..to];
+        shift_bounced(run, slab.start, bounces);
+        let is_free = |slot: usize| {
+            let slot = (slab.start + slot) as u32;
+            let found = bounces.binary_search_by_key(&slot, |bounce| bounce.slot);
+            found.is_ok_and(|place| bounces[place].is_at_surface)
+        };
+        dispatch!(Level::new(), simd => stay_within_margin(simd, run, common, is_free));
         for (turn, spin) in run.turn.iter_mut().zip(&*run.spin) {
             *turn = turn.with_vector(turn.vector() + spin.vector());
         }
@@ -75,25 +86,32 @@ fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) {
     }
 }
 
-/// Has spheres stay within their margins beside the common way \[m\].
+/// Has spheres that an impact has made faster stay within their margins beside the common way \[m\], but for
+/// those that are free, by slot.
 #[inline(always)]
-fn stay_within_margin<S: Simd>(simd: S, run: &mut Run, common: DVec3) {
+fn stay_within_margin<S: Simd>(
+    simd: S,
+    run: &mut Run,
+    common: DVec3,
+    is_free: impl Fn(usize) -> bool,
+) {
     let commons = Vector::all(simd, common);
     for first in (0..run.position.len()).step_by(LANES) {
         let (position, _) = row::columns(simd, run.position, first);
-        let (reference, margin) = row::columns(simd, run.reference, first);
+        let (reference, margin) = row::columns_or(simd, run.reference, first, BOUNDLESS);
         let way = position - reference - commons;
         if !(margin * margin).is_less(way.length_squared()).any_true() {
             continue;
         }
         let last = run.position.len().min(first + LANES);
-        for (position, reference) in
-            run.position[first..last].iter_mut().zip(&run.reference[first..last])
-        {
+        for slot in first..last {
+            let (position, reference) = (&mut run.position[slot], &run.reference[slot]);
             let (origin, margin) = (reference.vector() + common, reference.number());
             let way = position.vector() - origin;
             let length_squared = way.length_squared();
-            if length_squared > margin * margin {
+            let [before, now] = [run.before[slot], run.velocity[slot]].map(|row| row.vector());
+            let is_faster = now.length_squared() > FASTER * before.length_squared();
+            if length_squared > margin * margin && is_faster && !is_free(slot) {
                 let end: DVec3 = origin + way * (margin / length_squared.sqrt());
                 *position = position.with_vector(end);
             }

@@ -11,7 +11,7 @@ use super::sub_step::SubStep;
 use super::surfaces::Place;
 use super::swept::FAR;
 use crate::contact_time;
-use crate::detect::sphere_surface;
+use crate::detect::{Separation, sphere_surface};
 use crate::flight::Flight;
 use crate::report::StepReport;
 
@@ -61,8 +61,8 @@ pub(super) fn note(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
             _ => None,
         };
         if let Some(own) = own {
-            let time = own.leg.first_met(slots, slabs, places);
-            let stopped = time.map(|time| own.leg.stopped(slots, time, sub_step, true));
+            let stop = own.leg.first_met(slots, slabs, places);
+            let stopped = stop.map(|stop| own.leg.stopped(slots, stop, sub_step, true));
             bounces.push(stopped.unwrap_or(own.bounce));
         }
     }
@@ -77,8 +77,8 @@ pub(super) fn note(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
             let leg = Leg::straight(slots, slot, sub_step);
             let is_pushed = || slots.velocity[slot].vector() != slots.accelerated(slot, sub_step.h);
             let goes_far = leg.goes_far(slots) && is_pushed();
-            let time = goes_far.then(|| leg.first_passed(slots, slabs, places))??;
-            Some(leg.stopped(slots, time, sub_step, false))
+            let stop = goes_far.then(|| leg.first_passed(slots, slabs, places))??;
+            Some(leg.stopped(slots, stop, sub_step, false))
         })
         .collect();
     bounces.extend(stopped);
@@ -134,8 +134,9 @@ fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Alone>
     };
     let (position, arriving) = start.after(time);
     let flight = Flight { position, velocity: arriving + own, ..start };
-    let leg = Leg { slot, flight, duration: sub_step.h - time };
-    Some(Alone { bounce: Bounce { slot: slot as u32, shift, velocity, is_alone: true }, leg })
+    let leg = Leg { slot, start: time, flight, duration: sub_step.h - time };
+    let (slot, is_at_surface) = (slot as u32, other.is_none());
+    Some(Alone { bounce: Bounce { slot, shift, velocity, is_alone: true, is_at_surface }, leg })
 }
 
 /// The change of velocity by an impulse \[m/s\]; `None` if something else changed the sphere's, too.
@@ -150,9 +151,26 @@ fn own_change(slots: &Slots, slot: usize, impulse: DVec3, sub_step: &SubStep) ->
 #[derive(Clone, Copy)]
 struct Leg {
     slot: usize,
+    /// When in the sub-step it begins \[s\].
+    start: f64,
     flight: Flight,
     /// \[s\]
     duration: f64,
+}
+
+/// Where a leg ends at a surface.
+#[derive(Clone, Copy)]
+struct Stop {
+    /// Since the leg began \[s\].
+    time: f64,
+    /// How the surface moves along its normal, and takes the sphere along \[m/s\].
+    carries: DVec3,
+}
+
+impl Stop {
+    fn first(stops: impl Iterator<Item = Self>) -> Option<Self> {
+        stops.min_by(|one, other| one.time.total_cmp(&other.time))
+    }
 }
 
 impl Leg {
@@ -160,7 +178,7 @@ impl Leg {
     fn straight(slots: &Slots, slot: usize, sub_step: &SubStep) -> Self {
         let [position, velocity] = [slots.position[slot], slots.velocity[slot]].map(Row::vector);
         let flight = Flight { position, velocity, acceleration: DVec3::ZERO, drag_rate: 0.0 };
-        Self { slot, flight, duration: sub_step.h }
+        Self { slot, start: 0.0, flight, duration: sub_step.h }
     }
 
     /// Whether the sphere goes so far that it may come past a surface.
@@ -168,50 +186,59 @@ impl Leg {
         self.duration * self.flight.velocity.length() > FAR * slots.position[self.slot].number()
     }
 
-    /// When the sphere comes to a surface at rest that bears nothing of it \[s\].
-    fn first_met(&self, slots: &Slots, slabs: &Slabs, places: &[Place]) -> Option<f64> {
+    /// Where the sphere comes to a surface that bears nothing of it.
+    fn first_met(&self, slots: &Slots, slabs: &Slabs, places: &[Place]) -> Option<Stop> {
         if !self.goes_far(slots) {
             return None;
         }
         let free = slabs.surfaces_of(self.slot).filter(|contact| contact.impulses.normal == 0.0);
-        let times = free.filter_map(|it| self.meets(slots, &places[it.surface as usize]));
-        times.min_by(f64::total_cmp)
+        Stop::first(free.filter_map(|it| self.meets(slots, &places[it.surface as usize])))
     }
 
-    /// When the sphere comes to a surface at rest that it would pass with its centre, also one that bears it: the
-    /// sweeps may leave it a part of its speed \[s\].
-    fn first_passed(&self, slots: &Slots, slabs: &Slabs, places: &[Place]) -> Option<f64> {
-        let times = slabs.surfaces_of(self.slot).filter_map(|contact| {
+    /// Where the sphere comes to a surface that it would pass with its centre, also one that bears it: the
+    /// sweeps may leave it a part of its speed.
+    fn first_passed(&self, slots: &Slots, slabs: &Slabs, places: &[Place]) -> Option<Stop> {
+        let stops = slabs.surfaces_of(self.slot).filter_map(|contact| {
             let place = &places[contact.surface as usize];
             if contact.impulses.normal == 0.0 {
                 return self.meets(slots, place);
             }
             let radius = slots.position[self.slot].number();
+            let (form, motion) = place.1.carry(&place.0, self.start);
             let Flight { position, velocity, .. } = self.flight;
-            let separation = sphere_surface(&place.0, position, radius)?;
-            let speed = -velocity.dot(separation.normal);
-            let is_passed = speed > 0.0 && self.duration * speed > separation.distance + radius;
-            let is_at_rest = place.1.is_at_rest();
-            (is_passed && is_at_rest).then(|| separation.distance.max(0.0) / speed)
+            let Separation { distance, normal, point } = sphere_surface(&form, position, radius)?;
+            let carries = motion.velocity_at(point).dot(normal) * normal;
+            let speed = -(velocity - carries).dot(normal);
+            let is_passed = speed > 0.0 && self.duration * speed > distance + radius;
+            is_passed.then(|| Stop { time: distance.max(0.0) / speed, carries })
         });
-        times.min_by(f64::total_cmp)
+        Stop::first(stops)
     }
 
-    /// When the sphere comes to a surface, if that is at rest \[s\].
-    fn meets(&self, slots: &Slots, (form, motion): &Place) -> Option<f64> {
-        let Self { slot, flight, duration } = self;
+    /// Where the sphere comes to a surface.
+    fn meets(&self, slots: &Slots, (form, motion): &Place) -> Option<Stop> {
+        let Self { slot, start, flight, duration } = self;
         let radius = slots.position[*slot].number();
-        let meets = || contact_time::sphere_surface(flight, radius, form, motion, *duration);
-        motion.is_at_rest().then(meets)?
+        let (form, motion) = motion.carry(form, *start);
+        let time = contact_time::sphere_surface(flight, radius, &form, &motion, *duration)?;
+        let carries = if motion.is_at_rest() {
+            DVec3::ZERO
+        } else {
+            let (form, motion) = motion.carry(&form, time);
+            let found = sphere_surface(&form, flight.after(time).0, radius);
+            found.map_or(DVec3::ZERO, |it| motion.velocity_at(it.point).dot(it.normal) * it.normal)
+        };
+        Some(Stop { time, carries })
     }
 
-    /// What becomes of the sphere if it stops after a `time` \[s\] of this leg, where nothing else touches it
-    /// in the sub-step or something does.
-    fn stopped(&self, slots: &Slots, time: f64, sub_step: &SubStep, is_alone: bool) -> Bounce {
-        let Self { slot, flight, .. } = self;
+    /// What becomes of the sphere if it stops on this leg, and goes along with what it stops at, where nothing
+    /// else touches it in the sub-step or something does.
+    fn stopped(&self, slots: &Slots, stop: Stop, sub_step: &SubStep, is_alone: bool) -> Bounce {
+        let Self { slot, flight, duration, .. } = self;
         let [start, last] = [slots.position[*slot], slots.velocity[*slot]].map(Row::vector);
-        let (end, velocity) = flight.after(time);
+        let (place, velocity) = flight.after(stop.time);
+        let end = place + (duration - stop.time) * stop.carries;
         let shift = end - start - sub_step.h * last;
-        Bounce { slot: *slot as u32, shift, velocity, is_alone }
+        Bounce { slot: *slot as u32, shift, velocity, is_alone, is_at_surface: true }
     }
 }

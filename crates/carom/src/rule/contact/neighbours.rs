@@ -38,7 +38,8 @@ pub(super) fn search(
     }
     let Solver { slots, slabs, watched, dormant, .. } = solver;
     solver.is_stale = false;
-    solver.drift = search.arrange(slots, [frame.h, sub_step.h]);
+    let are_surfaces = !system.surfaces.is_empty();
+    solver.drift = search.arrange(slots, [frame.h, sub_step.h], are_surfaces);
     divide(slots, slabs, search);
     if !dormant.is_empty() {
         let places = search.places();

@@ -15,6 +15,9 @@ pub(super) struct Row(pub [f64; 4]);
 /// What stands in lanes beyond the last row: at rest, with a mass.
 const BEYOND: Row = Row([0.0, 0.0, 0.0, 1.0]);
 
+/// What stands there among the places from which spheres may go so far: any distance is within reach.
+pub(super) const BOUNDLESS: Row = Row([0.0, 0.0, 0.0, f64::INFINITY]);
+
 impl Row {
     #[inline(always)]
     pub fn new(vector: DVec3, number: f64) -> Self {
@@ -47,7 +50,18 @@ pub(super) fn columns<S: Simd>(
     rows: &[Row],
     first: usize,
 ) -> (Vector<Lanes<S>>, Lanes<S>) {
-    let [a, b, c, d] = four(rows, first, BEYOND);
+    columns_or(simd, rows, first, BEYOND)
+}
+
+/// [`columns`], with this row in lanes beyond the last one.
+#[inline(always)]
+pub(super) fn columns_or<S: Simd>(
+    simd: S,
+    rows: &[Row],
+    first: usize,
+    beyond: Row,
+) -> (Vector<Lanes<S>>, Lanes<S>) {
+    let [a, b, c, d] = four(rows, first, beyond);
     let [x, y, z, number] = Lanes::transposed([
         Lanes::each(simd, a.0),
         Lanes::each(simd, b.0),

@@ -66,9 +66,15 @@ pub(super) struct Search {
 
 impl Search {
     /// Sorts spheres by space, and notes from where they may go how far, in frames of `frame` and sub-steps
-    /// of `h` \[s\]. Gives the motion that they have in common, beside which they may go so far.
-    pub fn arrange(&mut self, slots: &mut Slots, [frame, h]: [f64; 2]) -> Drift {
-        let drift = self.find_margins(slots, [frame, h]);
+    /// of `h` \[s\]. Gives the motion that they have in common, beside which they may go so far. Where there
+    /// are surfaces they may turn round.
+    pub fn arrange(
+        &mut self,
+        slots: &mut Slots,
+        [frame, h]: [f64; 2],
+        are_surfaces: bool,
+    ) -> Drift {
+        let drift = self.find_margins(slots, [frame, h], are_surfaces);
         let Self { grid, starts, margins, from, slot_of, cells, spare, .. } = self;
         let count = slots.len();
         let reach = |slot: usize| slots.position[slot].number() + margins[slot];
@@ -96,7 +102,7 @@ impl Search {
 
     /// How far each sphere may go beside the common motion: in the mean a given part of the radius, but
     /// farther the faster it is, for a few fast ones not to have all looked for again and again.
-    fn find_margins(&mut self, slots: &Slots, [frame, h]: [f64; 2]) -> Drift {
+    fn find_margins(&mut self, slots: &Slots, [frame, h]: [f64; 2], are_surfaces: bool) -> Drift {
         let count = slots.len().max(1) as f64;
         let velocity = slots.velocity.iter().map(|row| row.vector()).sum::<DVec3>() / count;
         let speed = |row: &Row| (row.vector() - velocity).length();
@@ -116,10 +122,11 @@ impl Search {
         self.margins.clear();
         self.margins.extend((0..slots.len()).map(|slot| {
             let bounded = wanted(slot).clamp(LEAST_MARGIN, most) * slots.position[slot].number();
-            // Within a sub-step it goes on by half of what it does in one, or turns round at an impact.
+            // Within a sub-step it goes on by half of what it does in one, or turns round at a surface.
             let row = &slots.velocity[slot];
             let beside = 1.5 * speed(row).max(mean_speed);
-            let fastest = beside.max(row.vector().length() + velocity.length());
+            let turned = row.vector().length() + velocity.length();
+            let fastest = if are_surfaces { beside.max(turned) } else { beside };
             bounded.max(FASTER * fastest * h)
         }));
         Drift::begin(velocity, lasting)

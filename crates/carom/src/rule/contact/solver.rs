@@ -68,6 +68,8 @@ pub(super) struct Bounce {
     pub velocity: DVec3,
     /// Whether nothing else touches it in the sub-step.
     pub is_alone: bool,
+    /// Whether it turns round at a surface, or stops there.
+    pub is_at_surface: bool,
 }
 
 /// Working memory of the rule, kept from step to step only to spare its allocation.

@@ -139,21 +139,20 @@ pub(super) fn prepare(
         for contact in &mut *of_sphere {
             contact.aim(run, &places[contact.surface as usize], sub_step);
         }
-        leave_first_bounce(of_sphere, places);
+        leave_first_bounce(of_sphere);
         of_sphere.iter_mut().for_each(|contact| contact.warm_start(run, sub_step));
     }
 }
 
-/// Frees a sphere that bounces and goes far from the surfaces at rest that it would come to after its first
-/// bounce, or past, if it went straight on: it goes elsewhere, and stops at the next of them.
-fn leave_first_bounce(of_sphere: &mut [SurfaceContact], places: &[Place]) {
+/// Frees a sphere that bounces and goes far from the surfaces that it would come to after its first bounce,
+/// or past, if it went straight on: it goes elsewhere, and stops at the next of them.
+fn leave_first_bounce(of_sphere: &mut [SurfaceContact]) {
     let bounces = of_sphere.iter().filter(|contact| contact.is_bounce());
     let Some(first) = bounces.map(|contact| contact.time).min_by(f64::total_cmp) else { return };
     for contact in of_sphere {
         let is_first = contact.is_bounce() && contact.time == first;
         let touches = contact.bias == 0.0 || contact.impulses.normal > 0.0;
-        let is_at_rest = places[contact.surface as usize].1.is_at_rest();
-        if !is_first && !touches && !contact.is_slow && is_at_rest {
+        if !is_first && !touches && !contact.is_slow {
             (contact.bias, contact.approach) = (FREE, 0.0);
         }
     }
