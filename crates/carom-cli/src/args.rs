@@ -263,7 +263,7 @@ pub struct Run {
     #[arg(long, short, conflicts_with = "link")]
     pub watch: bool,
     /// End with code 1 if the run did not keep what its rule keeps: balls overlap under `exact`, an impact
-    /// loses momentum, `bisect` gives up. The summary says so in any case.
+    /// loses momentum, balls are pressed through surfaces, `bisect` gives up. The summary says so in any case.
     #[arg(long)]
     pub strict: bool,
     /// Print the summary as JSON.

@@ -24,12 +24,14 @@ pub struct Course {
     pub momentum_error: f64,
     pub energy_error: f64,
     pub unfinished_islands: u64,
+    /// How often a ball was pressed into a surface by half its radius, where the scene begins without overlaps.
+    pub squeezed: u64,
 }
 
 /// What was not kept, a line each.
 pub fn breaches(course: Course) -> Vec<String> {
-    let Course { rule, overlap, may_overlap, momentum_error, energy_error, unfinished_islands } =
-        course;
+    let Course { rule, overlap, may_overlap, momentum_error, energy_error, .. } = course;
+    let Course { unfinished_islands, squeezed, .. } = course;
     let is_exact = rule == Rule::Exact;
     let mut breaches = Vec::new();
     if is_exact && !may_overlap && overlap > OVERLAP {
@@ -43,6 +45,12 @@ pub fn breaches(course: Course) -> Vec<String> {
     }
     if unfinished_islands > 0 {
         breaches.push(format!("{unfinished_islands} islands were left before they were settled"));
+    }
+    if squeezed > 0 {
+        breaches.push(format!(
+            "{squeezed} times, counted in each sub-step, a ball was pressed into a surface by half its radius: \
+             what presses leaves it no way out"
+        ));
     }
     breaches
 }
@@ -58,6 +66,7 @@ mod tests {
         momentum_error: 1e-15,
         energy_error: 1e-8,
         unfinished_islands: 0,
+        squeezed: 0,
     };
 
     #[test]
@@ -71,5 +80,9 @@ mod tests {
         assert_eq!(breaches(lossy).len(), 2);
         let unsettled = Course { rule: Rule::Bisect, unfinished_islands: 2, ..KEPT };
         assert_eq!(breaches(unsettled).len(), 1);
+        for rule in [Rule::Exact, Rule::Contact] {
+            let squeezed = Course { rule, squeezed: 3, may_overlap: true, ..KEPT };
+            assert_eq!(breaches(squeezed).len(), 1);
+        }
     }
 }

@@ -12,16 +12,19 @@ pub struct ContactTotals {
     residual: f64,
     /// Overlap before it was corrected, as a part of the sum of radii; the largest of all.
     largest_overlap: f64,
+    /// How often a ball was pressed into a surface by half its radius, in each sub-step; summed.
+    pub squeezed: u64,
 }
 
 impl ContactTotals {
     /// Takes in what a step reports.
     pub fn add(&mut self, report: &StepReport) {
-        let ContactAccount { limited_sub_steps, residual, largest_overlap, .. } =
+        let ContactAccount { limited_sub_steps, residual, largest_overlap, squeezed, .. } =
             report.contact_account;
         self.limited_sub_steps += u64::from(limited_sub_steps);
         self.residual = self.residual.max(residual);
         self.largest_overlap = self.largest_overlap.max(largest_overlap);
+        self.squeezed += u64::from(squeezed);
     }
 
     /// The lines of a summary.

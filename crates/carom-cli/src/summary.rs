@@ -200,6 +200,7 @@ impl Course {
             momentum_error: observer.largest_momentum_error,
             energy_error: observer.largest_energy_error,
             unfinished_islands: observer.unfinished_islands,
+            squeezed: if replay.simulation().allow_overlap { 0 } else { observer.contact.squeezed },
         }
     }
 }

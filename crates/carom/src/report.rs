@@ -140,6 +140,10 @@ pub struct ContactAccount {
     /// Spheres that sleep at the end of the step: at rest, with all that they touch, until something comes
     /// near or changes.
     pub asleep: u32,
+    /// How often a sphere was pressed into a surface by half its radius or more, counted in each sub-step: by
+    /// surfaces that leave it no way out, as between the jaws of a vice, or by others much heavier. No motion
+    /// keeps such bodies apart.
+    pub squeezed: u32,
 }
 
 /// The work of a step, counted by stage: integers that depend on the world alone, not on the machine

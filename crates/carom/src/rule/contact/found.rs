@@ -17,6 +17,8 @@ pub(super) struct Found {
     pub impulse: f64,
     /// Largest overlap, as a part of the sum of radii.
     pub overlap: f64,
+    /// Spheres that were pressed into a surface as far as it may be.
+    pub squeezed: u32,
     /// Whether a sphere may leave its margin.
     pub leaves: bool,
 }

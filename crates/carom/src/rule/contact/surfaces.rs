@@ -369,9 +369,10 @@ pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: b
 }
 
 /// Moves spheres that overlap surfaces out of them; velocities stay as they are. Gives the work against
-/// the forces that are linear \[J\], and the largest overlap as a part of the radius.
-pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Place]) -> (f64, f64) {
-    let (mut work, mut largest) = (0.0, 0.0_f64);
+/// the forces that are linear \[J\], the largest overlap as a part of the radius, and how many spheres were
+/// squeezed.
+pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Place]) -> Found {
+    let (mut work, mut largest, mut squeezed) = (0.0, 0.0_f64, 0);
     for contact in contacts {
         let slot = contact.slot as usize;
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
@@ -380,6 +381,7 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Plac
             || run.bears[slot] && contact.is_in_front(center)
             || contact.is_pushed_through(center, form);
         let start = if is_held { contact.kept_in_front(center, radius) } else { center };
+        squeezed += u32::from(start != center);
         let separation = sphere_surface(form, start, radius);
         let overlap = separation.map_or(0.0, |it| -it.distance - SLOP * radius).max(0.0);
         let out = separation.map_or(DVec3::ZERO, |it| RELAXATION * overlap * it.normal);
@@ -390,7 +392,7 @@ pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Plac
             largest = largest.max(overlap / radius);
         }
     }
-    (work, largest)
+    Found { energy: work, overlap: largest, squeezed, ..Found::default() }
 }
 
 impl SurfaceContact {

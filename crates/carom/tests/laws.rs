@@ -1,0 +1,275 @@
+//! Laws that need no reference: results do not depend on the unit of length, on who looks on, on the length of
+//! frames, or on which side a mirror shows. What they have caught: lengths written down in metres, meetings
+//! that were predicted anew at the start of frames, and impacts of one instant answered one after the other.
+
+mod common;
+
+use carom::{
+    Collider, Contact, DQuat, DVec3, Exact, Gravity, ImpactLaw, Pose, Rule, Settings, Shape, Sides,
+    Sphere, World,
+};
+use common::{G, Numbers, vec};
+
+const FRAME: f64 = 1.0 / 60.0;
+
+/// A half-space that faces this way, through a point \[m\].
+fn half_space(normal: DVec3, position: DVec3) -> Collider {
+    let rotation = DQuat::from_rotation_arc(DVec3::Y, normal);
+    Collider::new(Shape::HalfSpace, Pose { position, rotation })
+}
+
+fn closed_box(size: DVec3) -> Collider {
+    let shape = Shape::Container { size, open: Sides::default() };
+    Collider::new(shape, Pose::at(DVec3::ZERO))
+}
+
+/// Spheres at random in a cube of two metres, none of which touches another one; places \[m\], radii \[m\] and
+/// velocities of some metres per second.
+fn scattered(count: usize, radii: [f64; 2]) -> Vec<Sphere> {
+    let mut numbers = Numbers(21);
+    let mut spheres: Vec<Sphere> = Vec::new();
+    while spheres.len() < count {
+        let (place, radius) = (0.8 * numbers.vector(), numbers.between(radii[0], radii[1]));
+        let is_apart = |it: &Sphere| (it.position - place).length() > it.radius + radius + 0.01;
+        if spheres.iter().all(is_apart) {
+            // More or less to the middle.
+            let velocity = numbers.vector() - place;
+            spheres.push(Sphere::new(place, radius).with_velocity(velocity));
+        }
+    }
+    spheres
+}
+
+/// The sphere in a scene whose lengths are this many times as long.
+fn of_length(sphere: Sphere, length: f64) -> Sphere {
+    let larger = Sphere::new(length * sphere.position, length * sphere.radius);
+    larger.with_velocity(length * sphere.velocity)
+}
+
+/// Balls that fall on round things and come to rest, in a scene whose lengths are this many times as long.
+fn scene_of_length(rule: impl Into<Rule>, length: f64) -> World {
+    let mut world = World::new(Settings::default().with_rule(rule.into())).unwrap();
+    world.add_force(Gravity::new(vec(0.0, -G * length, 0.0))).unwrap();
+    for sphere in scattered(5, [0.1, 0.2]) {
+        world.add_sphere(of_length(sphere, length).with_restitution(0.5)).unwrap();
+    }
+    let walls = closed_box(length * DVec3::splat(2.0)).with_restitution(0.4).with_friction(0.3);
+    world.add_collider(walls).unwrap();
+    let dome = Pose::at(length * vec(0.0, -3.3, 0.0));
+    let dome = Collider::new(Shape::Sphere { radius: length * 2.5 }, dome);
+    world.add_collider(dome.with_restitution(0.6)).unwrap();
+    world
+}
+
+#[test]
+fn results_do_not_depend_on_the_unit_of_length() {
+    for rule in [Rule::Exact(Exact::default()), Rule::Contact(Contact::default())] {
+        let mut worlds = [-20, 0, 3, 5, 6, 9].map(|power| {
+            let length = libm::exp2(f64::from(power));
+            (length, scene_of_length(rule, length))
+        });
+        for frame in 0..180 {
+            let [expected, states @ ..] = worlds.each_mut().map(|(length, world)| {
+                world.step(FRAME).unwrap();
+                let spheres = world.spheres();
+                let states = spheres.positions().iter().zip(spheres.velocities());
+                // Powers of two round nothing.
+                states.map(|(x, v)| [*x / *length, *v / *length]).collect::<Vec<_>>()
+            });
+            assert!(states.iter().all(|state| *state == expected), "{rule:?}, frame {frame}");
+        }
+    }
+}
+
+/// A ball that falls beside others, so that lanes of the processor's vectors stay empty.
+#[test]
+fn a_long_fall_has_no_more_searches_than_a_short_one() {
+    let searches = [1.0, 1024.0].map(|length| {
+        let mut world = World::new(Settings::default().with_rule(Contact::default())).unwrap();
+        world.add_force(Gravity::new(vec(0.0, -G * length, 0.0))).unwrap();
+        for sphere in scattered(3, [0.1, 0.2]) {
+            world.add_sphere(of_length(sphere, length)).unwrap();
+        }
+        (0..30).map(|_| world.step(FRAME).unwrap().work.searches).sum::<u64>()
+    });
+    assert_eq!(searches[0], searches[1]);
+}
+
+#[test]
+fn who_looks_on_does_not_matter_to_balls_in_free_space() {
+    let common = vec(-37.0, 75.0, -3.5);
+    let worlds = [DVec3::ZERO, common].map(|common| {
+        let mut world = World::new(Settings::default().with_rule(Contact::default())).unwrap();
+        for sphere in scattered(9, [0.15, 0.3]) {
+            world.add_sphere(sphere.with_velocity(sphere.velocity + common)).unwrap();
+        }
+        let mut impacts = 0;
+        for _ in 0..60 {
+            impacts += world.step(FRAME).unwrap().impacts.len();
+        }
+        (world, impacts)
+    });
+    let [(still, impacts), (passing, of_passing)] = &worlds;
+    assert!(*impacts > 3, "{impacts}");
+    assert_eq!(impacts, of_passing);
+    for (one, other) in still.spheres().positions().iter().zip(passing.spheres().positions()) {
+        // Coordinates of 80 m are rounded in each sub-step, and impacts make more of it.
+        let apart = (*one + still.time() * common - *other).length();
+        assert!(apart < 1e-9, "{apart} m");
+    }
+}
+
+/// Two to five balls in a box, some of them rough, that come to rest there.
+fn balls_in_a_box(number: u64) -> World {
+    let mut numbers = Numbers(number);
+    let laws = [ImpactLaw::Simultaneous, ImpactLaw::Reflection, ImpactLaw::Sequential];
+    let exact = Exact::default().with_impact_law(laws[number as usize % 3]);
+    let mut world = World::new(Settings::default().with_rule(exact)).unwrap();
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    let count = 2 + number as usize % 4;
+    let mut places: Vec<(DVec3, f64)> = Vec::new();
+    while places.len() < count {
+        let (place, radius) = (0.6 * numbers.vector(), numbers.between(0.08, 0.18));
+        if places.iter().all(|(other, r)| (*other - place).length() > r + radius + 0.01) {
+            places.push((place, radius));
+        }
+    }
+    let restitution = [0.0, 0.2, 0.5][number as usize / 3 % 3];
+    for (place, radius) in places {
+        let sphere = Sphere::new(place, radius).with_velocity(numbers.vector());
+        let sphere = sphere.with_restitution(restitution);
+        let rough = if numbers.next() < 0.5 { sphere.with_friction(0.2) } else { sphere };
+        world.add_sphere(rough).unwrap();
+    }
+    let walls = closed_box(vec(1.6, 2.0, 1.6)).with_restitution(0.2);
+    world
+        .add_collider(if number.is_multiple_of(2) { walls.with_friction(0.4) } else { walls })
+        .unwrap();
+    world
+}
+
+#[test]
+fn frames_of_any_length_lead_to_the_same_bits_through_contacts_and_zones() {
+    let mut stepped = 0;
+    for number in 0..48 {
+        let [end, others @ ..] = [1.0 / 16.0, 0.25, 1.0 / 256.0].map(|frame| {
+            let mut world = balls_in_a_box(number);
+            while world.time() < 1.5 {
+                world.step(frame).unwrap();
+            }
+            stepped += u32::from(world.was_stepped());
+            world
+        });
+        for other in others {
+            assert_eq!(other.spheres().positions(), end.spheres().positions(), "{number}");
+            assert_eq!(other.spheres().velocities(), end.spheres().velocities(), "{number}");
+        }
+    }
+    assert!(stepped > 30, "{stepped}");
+}
+
+#[test]
+fn a_rack_that_is_its_own_mirror_image_stays_so() {
+    for law in [ImpactLaw::Simultaneous, ImpactLaw::Reflection] {
+        let exact = Exact::default().with_impact_law(law);
+        let mut world = World::new(Settings::default().with_rule(exact)).unwrap();
+        world.add_force(Gravity::new(vec(0.0, -10.0, 0.0))).unwrap();
+        world.add_collider(half_space(DVec3::Y, DVec3::ZERO).with_restitution(0.0)).unwrap();
+        let (radius, half, row) = (0.125, 0.125125, -0.21672285729705573);
+        let ball = |x: f64, z: f64| Sphere::new(vec(x, radius, z), radius).with_restitution(0.0);
+        let rack = [
+            ball(0.0, 0.0),
+            ball(-half, row),
+            ball(half, row),
+            ball(-2.0 * half, 2.0 * row),
+            ball(0.0, 2.0 * row),
+            ball(2.0 * half, 2.0 * row),
+            ball(0.0, 1.0).with_velocity(vec(0.0, 0.0, -1.0)),
+        ];
+        for ball in rack {
+            world.add_sphere(ball).unwrap();
+        }
+        for _ in 0..64 {
+            world.step(1.0 / 64.0).unwrap();
+            let at = world.spheres().positions().to_vec();
+            let mirrored = |it: DVec3| vec(0.0 - it.x, it.y, it.z);
+            for (one, other) in [(0, 0), (1, 2), (3, 5), (4, 4), (6, 6)] {
+                assert_eq!(at[one], mirrored(at[other]), "{law:?}, {} s", world.time());
+            }
+        }
+        assert!(world.spheres().positions()[1].z < row - 0.01, "{law:?}: nothing moved");
+    }
+}
+
+#[test]
+fn a_ball_that_rolls_along_a_wall_stays_out_of_it_for_any_time() {
+    let mut world = World::new(Settings::default()).unwrap();
+    world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap();
+    let rough = |it: Collider| it.with_friction(0.1).with_restitution(0.3);
+    world.add_collider(rough(half_space(DVec3::Y, DVec3::ZERO))).unwrap();
+    world.add_collider(rough(half_space(DVec3::NEG_Z, vec(0.0, 0.0, 1.0)))).unwrap();
+    let radius = 0.1;
+    let ball = Sphere::new(vec(0.0, radius, 0.0), radius).with_velocity(vec(1.0, 0.0, 1.0));
+    let ball = world.add_sphere(ball.with_angular_velocity(vec(10.0, 0.0, -10.0))).unwrap();
+    for _ in 0..200 {
+        world.step(100.0).unwrap();
+        let overlap = world.overlaps(0.0).iter().map(|it| it.depth).fold(0.0, f64::max);
+        assert!(overlap < 1e-7 * radius, "{overlap} m at {} s", world.time());
+    }
+    assert!(!world.was_stepped());
+    // It has rolled along all the time.
+    let ball = world.sphere(ball).unwrap();
+    assert!(ball.position.x > 1e4 && ball.position.z < 1.0, "{}", ball.position);
+}
+
+/// A ball between a wall at rest and a piston that comes towards it.
+fn before_a_piston(frame: f64, seconds: f64) -> Sphere {
+    let mut world = World::new(Settings::default().with_rule(Contact::default())).unwrap();
+    world.add_collider(half_space(DVec3::X, DVec3::ZERO)).unwrap();
+    let piston = half_space(DVec3::NEG_X, DVec3::X);
+    world.add_collider(piston.moving(vec(-0.25, 0.0, 0.0), DVec3::ZERO)).unwrap();
+    let ball = Sphere::new(vec(0.7, 0.0, 0.0), 0.02).with_velocity(vec(22.0, 0.0, 0.0));
+    let id = world.add_sphere(ball).unwrap();
+    while world.time() < seconds - 0.5 * frame {
+        world.step(frame).unwrap();
+        let overlap = world.overlaps(0.0).iter().map(|it| it.depth).fold(0.0, f64::max);
+        assert!(overlap < 0.002, "{overlap} m at {} s", world.time());
+    }
+    world.sphere(id).unwrap()
+}
+
+#[test]
+fn an_elastic_ball_does_not_stick_to_a_piston_in_long_frames() {
+    let speed = |frame: f64, seconds: f64| before_a_piston(frame, seconds).velocity.x.abs();
+    // While it comes to one of both in a sub-step, speeds are those of short frames.
+    assert!((speed(0.0625, 1.5) - speed(0.0078125, 1.5)).abs() < 1e-9);
+    // Later it is late, but never stops: each impact on the piston adds half a metre per second.
+    let mut last = 22.0;
+    for seconds in [1.0, 1.5, 2.0, 2.5, 3.0, 3.5] {
+        let now = speed(0.0625, seconds);
+        assert!(now >= last, "{now} m/s after {seconds} s");
+        last = now;
+    }
+    assert!(last > 80.0, "{last} m/s");
+}
+
+#[test]
+fn what_is_squeezed_is_counted() {
+    for rule in [Rule::Exact(Exact::default()), Rule::Contact(Contact::default())] {
+        let mut world = World::new(Settings::default().with_rule(rule)).unwrap();
+        for normal in [DVec3::X, DVec3::NEG_X] {
+            let jaw = half_space(normal, -0.2 * normal).with_restitution(0.5);
+            world.add_collider(jaw.moving(0.1 * normal, DVec3::ZERO)).unwrap();
+        }
+        world.add_sphere(Sphere::new(DVec3::ZERO, 0.1)).unwrap();
+        let mut counts = [0; 2];
+        for (count, until) in counts.iter_mut().zip([1.2, 2.0]) {
+            while world.time() < until {
+                *count += world.step(0.01).unwrap().contact_account.squeezed;
+            }
+        }
+        // Until a fifth of the second after they touch they press it by a fifth of its radius.
+        assert_eq!(counts[0], 0, "{rule:?}");
+        assert!(counts[1] > 0, "{rule:?}");
+    }
+}
