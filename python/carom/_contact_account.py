@@ -19,3 +19,5 @@ class ContactAccount(NamedTuple):
     """Largest overlap before it was corrected, as a part of the sum of radii."""
     asleep: int
     """Spheres that sleep at the end of the frame, until something comes near or changes."""
+    squeezed: int
+    """How often a sphere was pressed into a surface by half its radius, in each sub-step."""

@@ -364,6 +364,8 @@ typedef struct {
     uint64_t unfinished_islands;
     /// Under the rule `contact`: spheres that sleep at the end of the step.
     uint64_t asleep;
+    /// Under the rule `contact`: how often a sphere was pressed into a surface by half its radius, in each sub-step.
+    uint64_t squeezed;
     /// Work of contacts [J]: what restitution and friction took.
     double contact_work;
     /// Work of moving colliders [J].

@@ -151,6 +151,8 @@ pub struct CaromReport {
     pub unfinished_islands: u64,
     /// Under the rule `contact`: spheres that sleep at the end of the step.
     pub asleep: u64,
+    /// Under the rule `contact`: how often a sphere was pressed into a surface by half its radius, in each sub-step.
+    pub squeezed: u64,
     /// Work of contacts [J]: what restitution and friction took.
     pub contact_work: f64,
     /// Work of moving colliders [J].
@@ -182,6 +184,7 @@ pub unsafe extern "C" fn carom_world_report(
             was_stepped: inner.world.was_stepped().into(),
             unfinished_islands: report.unfinished_islands.into(),
             asleep: account.asleep.into(),
+            squeezed: account.squeezed.into(),
             contact_work: report.energy_account.contacts,
             collider_work: report.energy_account.colliders,
             correction_work: report.energy_account.correction,

@@ -171,7 +171,7 @@ impl World {
     }
 
     /// How good the solutions of the rule `contact` are: sub-steps with fewer impulses, residual, largest
-    /// overlap; and spheres asleep.
+    /// overlap; spheres asleep, and how often one was squeezed.
     #[wasm_bindgen(getter, js_name = contactAccount)]
     pub fn contact_account(&self) -> Vec<f64> {
         let account = self.world.report().contact_account;
@@ -180,6 +180,7 @@ impl World {
             account.residual,
             account.largest_overlap,
             f64::from(account.asleep),
+            f64::from(account.squeezed),
         ]
     }
 

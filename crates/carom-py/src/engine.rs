@@ -435,12 +435,12 @@ impl Engine {
     }
 
     /// How good the solutions of the rule `contact` are: sub-steps with fewer impulses, residual,
-    /// largest overlap; and spheres asleep.
+    /// largest overlap; spheres asleep, and how often one was squeezed.
     #[pyo3(name = "_contact_account")]
-    fn contact_account(&self, py: Python<'_>) -> PyResult<(u32, f64, f64, u32)> {
-        let ContactAccount { limited_sub_steps, residual, largest_overlap, asleep, .. } =
+    fn contact_account(&self, py: Python<'_>) -> PyResult<(u32, f64, f64, u32, u32)> {
+        let ContactAccount { limited_sub_steps, residual, largest_overlap, asleep, squeezed, .. } =
             self.lock(py)?.world.report().contact_account;
-        Ok((limited_sub_steps, residual, largest_overlap, asleep))
+        Ok((limited_sub_steps, residual, largest_overlap, asleep, squeezed))
     }
 
     /// What was stepped under the rule `exact`: spheres in zones, the time that they spent there of all

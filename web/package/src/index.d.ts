@@ -469,6 +469,9 @@ export interface ContactAccount {
   largestOverlap: number;
   /** Spheres that sleep at the end of the frame: at rest, until something comes near or changes. */
   asleep: number;
+  /** How often a sphere was pressed into a surface by half its radius, in each sub-step: no motion keeps
+   *  apart what presses it. */
+  squeezed: number;
 }
 
 /** Spheres that were not moved from impact to impact by `exact`, but stepped: their contacts took too

@@ -209,8 +209,9 @@ export class World {
   }
 
   get contactAccount() {
-    const [limitedSubSteps, residual, largestOverlap, asleep] = this.#world.contactAccount;
-    return { limitedSubSteps, residual, largestOverlap, asleep };
+    const [limitedSubSteps, residual, largestOverlap, ...counts] = this.#world.contactAccount;
+    const [asleep, squeezed] = counts;
+    return { limitedSubSteps, residual, largestOverlap, asleep, squeezed };
   }
 
   get zoneAccount() {

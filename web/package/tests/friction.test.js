@@ -67,6 +67,7 @@ test("contacts and the account tell of friction", () => {
     "residual",
     "largestOverlap",
     "asleep",
+    "squeezed",
   ]);
 });
 
