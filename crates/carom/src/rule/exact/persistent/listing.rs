@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::accelerations::forces;
 use super::piece_end::settle;
+use super::with_friction::forces_of_pushed;
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
 use crate::persistent_contact::PersistentContact;
@@ -28,24 +29,36 @@ pub(crate) fn list(
     for cluster in timeline.flights.clusters.iter() {
         let mut group = contacts::gather_cluster(timeline, context, cluster, time);
         settle(timeline, context, &mut group);
-        let forces = forces(context.work, &group.members, &group.touches);
-        found.extend(group.touches.iter().zip(forces).map(|(touch, normal_force)| {
-            let tangential_force = friction_on(timeline, &group, touch);
-            let sliding = respond::friction_of(touch.bodies, context.system).sliding;
-            let contact = PersistentContact {
-                between: BodyPair::of(touch.bodies, context.system),
-                point: periodic::wrapped(touch.point, context.period),
-                normal: touch.normal,
-                gap: touch.gap,
-                normal_force,
-                tangential_force,
-                is_sliding: tangential_force.norm() >= SLIDES * sliding * normal_force,
-            };
-            (touch.bodies, contact)
-        }));
+        let forces = forces_in(timeline, context, &group).into_iter();
+        found.extend(group.touches.iter().zip(forces).map(
+            |(touch, (normal_force, tangential_force))| {
+                let sliding = respond::friction_of(touch.bodies, context.system).sliding;
+                let contact = PersistentContact {
+                    between: BodyPair::of(touch.bodies, context.system),
+                    point: periodic::wrapped(touch.point, context.period),
+                    normal: touch.normal,
+                    gap: touch.gap,
+                    normal_force,
+                    tangential_force,
+                    is_sliding: tangential_force.norm() >= SLIDES * sliding * normal_force,
+                };
+                (touch.bodies, contact)
+            },
+        ));
     }
     found.sort_by_key(|(bodies, _)| *bodies);
     found.into_iter().map(|(_, contact)| contact).collect()
+}
+
+/// Normal force and friction \[N\] on body 2 of each touch of a cluster.
+fn forces_in(timeline: &Timeline, context: &StepContext, group: &Group) -> Vec<(f64, DVec3)> {
+    let has_friction = timeline.has_friction() && group.members.len() > 1;
+    let pushed = has_friction.then(|| forces_of_pushed(context, group)).flatten();
+    pushed.unwrap_or_else(|| {
+        let forces = forces(context.work, &group.members, &group.touches);
+        let with_friction = |(touch, force)| (force, friction_on(timeline, group, touch));
+        group.touches.iter().zip(forces).map(with_friction).collect()
+    })
 }
 
 /// The force of friction on body 2 of a touch \[N\]: what accelerates a sphere on a plane, along it, besides

@@ -1,11 +1,13 @@
-//! Persistent contacts of a group in which friction acts: of spheres that lie on planes or curves, each by
-//! itself.
+//! Persistent contacts of a group in which friction acts: of spheres that lie on planes, and push each other,
+//! or on curves, each by itself.
 
 use glam::DVec3;
 
 use super::NoClosedForm;
 use super::accelerations::Accelerations;
 use super::planar::{self, PlanarSupport};
+use super::pushed_piece::PushedPiece;
+use super::pushed_spheres::PushedSpheres;
 use super::rolling_over;
 use crate::detect::contact::Bodies;
 use crate::norm::Norm;
@@ -17,6 +19,10 @@ use crate::rule::exact::flights::{ContactWork, Support, Supported};
 /// Normals that differ by less are one \[rad\]: rounding.
 const SAME_NORMAL: f64 = 1e-9;
 
+/// What flies leans on other spheres where their normals are across the acceleration of all but for this part;
+/// else they bear it.
+const LEANS: f64 = 0.1;
+
 /// A sphere closes on a surface if it accelerates towards it by more than this part of the accelerations at
 /// work: rounding.
 const CLOSES: f64 = 1e-9;
@@ -25,51 +31,52 @@ const CLOSES: f64 = 1e-9;
 /// press let go.
 ///
 /// # Errors
-/// [`NoClosedForm`] if two spheres press on each other, or one on several surfaces or on one that moves.
+/// [`NoClosedForm`] if two spheres press on each other that do not lie on one plane each, or one presses on
+/// several surfaces or on one that moves.
 pub(super) fn find(
     context: &StepContext,
     group: &mut Group,
     candidates: &[Touch],
     pressing: &[Touch],
 ) -> Result<Vec<Support>, NoClosedForm> {
+    let bearings = bearings(context, group, pressing);
     let mut supports = Vec::new();
+    for pushed in sets_that_push(context, group, &bearings, candidates)? {
+        supports.push(support_pushed(group, pushed)?);
+    }
+    let is_pushed = |group: &Group, place: usize, supports: &[Support]| {
+        let slot = group.members[place].slot;
+        supports.iter().any(|support| support.members.iter().any(|member| member.slot == slot))
+    };
+    let (is_held, pushing) = (is_pushed, supports.len());
     for place in 0..group.members.len() {
-        if !pressing.iter().any(|touch| touch.has(place)) {
+        let own: Vec<Touch> = pressing.iter().filter(|it| it.has(place)).copied().collect();
+        if own.is_empty() || is_held(group, place, &supports[..pushing]) {
             continue;
         }
-        let member = group.members[place];
-        let own: Vec<Touch> = pressing.iter().filter(|it| it.has(place)).copied().collect();
         if is_one_curve(&own) {
             supports.push(over_curve(context, group, place, &own)?);
             continue;
         }
+        let may_push = |touch: &Touch| touch.places().all(|place| bearings[place].is_some());
         let mut corner = Corner::default();
         for touch in candidates.iter().filter(|touch| touch.has(place)) {
-            match plane_of(context, &member, touch) {
+            match plane_of(context, &group.members[place], touch) {
                 Some(plane) => corner.add(plane).ok_or(NoClosedForm)?,
-                None if is_pressing(touch, pressing) => return Err(NoClosedForm),
+                // Friction has two spheres on planes part that would press on each other.
+                None if is_pressing(touch, pressing) && !may_push(touch) => {
+                    return Err(NoClosedForm);
+                }
                 None => {}
             }
         }
-        let contact_duration = context.duration_of(&member.scale(false), group.time);
-        let supported =
-            planar::support(context.system, &member, &corner, contact_duration, f64::INFINITY)?;
-        let Some(planar) = supported else { continue };
-        let PlanarSupport { velocity, angular_velocity, valid_for, persists, .. } = planar;
-        let lasting = corner.planes().zip(persists).filter(|it| it.1).map(|it| it.0.surface);
-        let bodies = |surface: u32| Bodies::Surface { sphere: member.index, surface };
-        supports.push(Support {
-            members: vec![planar.supported(member.slot)],
-            contacts: lasting.map(bodies).collect(),
-            renewal: group.time + valid_for,
-        });
-        let member = &mut group.members[place];
-        (member.velocity, member.angular_velocity) = (velocity, angular_velocity);
+        supports.extend(on_planes(context, group, place, &corner)?);
     }
-    // Two spheres that friction presses together meet again, as in a rack, until they part.
     let is_other = |touch: &&Touch| {
         let member = &group.members[touch.second];
-        touch.first.is_none() && plane_of(context, member, touch).is_none()
+        let is_plane = || plane_of(context, member, touch).is_some();
+        touch.first.is_none()
+            && (is_pushed(group, touch.second, &supports[..pushing]) || !is_plane())
     };
     if candidates.iter().filter(is_other).any(|touch| closes(touch, group, &supports)) {
         return Err(NoClosedForm);
@@ -77,6 +84,132 @@ pub(super) fn find(
     Ok(supports)
 }
 
+/// Normal force and friction \[N\] on body 2 of each touch of spheres that push each other, as they move now;
+/// `None` if these are no such spheres.
+pub(super) fn forces_of_pushed(context: &StepContext, group: &Group) -> Option<Vec<(f64, DVec3)>> {
+    let (pairs, others): (Vec<Touch>, Vec<Touch>) =
+        group.touches.iter().partition(|touch| touch.first.is_some());
+    let planes: Option<Vec<_>> = bearings(context, group, &others).into_iter().collect();
+    planes.map(|planes| PushedSpheres::of_pairs(context, group, &planes, &pairs).forces_now())?
+}
+
+/// By place, the touch of a sphere with the plane at rest that bears it; none if it flies, and at most leans on
+/// others. `None` where something else bears it, or drag slows it.
+fn bearings(
+    context: &StepContext,
+    group: &Group,
+    pressing: &[Touch],
+) -> Vec<Option<Option<Touch>>> {
+    let bearing = |place: usize| {
+        let member = &group.members[place];
+        let own: Vec<&Touch> = pressing.iter().filter(|touch| touch.has(place)).collect();
+        let surfaces = || own.iter().filter(|touch| touch.first.is_none());
+        let plane = surfaces().next().filter(|touch| plane_of(context, member, touch).is_some());
+        let is_one = surfaces().count() == 1 && plane.is_some();
+        let acceleration = member.species.acceleration;
+        let leans = |touch: &&Touch| {
+            let along = touch.normal.dot(acceleration).abs();
+            touch.first.is_some() && along <= LEANS * acceleration.norm()
+        };
+        let has_form = member.species.drag_rate == 0.0 && (is_one || own.iter().all(leans));
+        has_form.then(|| plane.map(|touch| **touch))
+    };
+    (0..group.members.len()).map(bearing).collect()
+}
+
+/// The sets of spheres, on planes or in flight, that push each other, with the contacts in which they do.
+///
+/// # Errors
+/// [`NoClosedForm`] if no forces are found.
+fn sets_that_push<'a>(
+    context: &'a StepContext<'a>,
+    group: &Group,
+    bearings: &[Option<Option<Touch>>],
+    candidates: &[Touch],
+) -> Result<Vec<PushedSpheres<'a>>, NoClosedForm> {
+    let is_pair = |touch: &&Touch| {
+        touch.first.is_some() && touch.places().all(|place| bearings[place].is_some())
+    };
+    let pairs: Vec<Touch> = candidates.iter().filter(is_pair).copied().collect();
+    if pairs.is_empty() {
+        return Ok(Vec::new());
+    }
+    let planes: Vec<Option<Touch>> = bearings.iter().map(|it| it.flatten()).collect();
+    let all = PushedSpheres::of_pairs(context, group, &planes, &pairs);
+    let pressing = all.pressing_pairs().ok_or(NoClosedForm)?;
+    let mut left: Vec<Touch> =
+        pairs.iter().zip(pressing).filter(|it| it.1).map(|it| *it.0).collect();
+    let mut sets = Vec::new();
+    while let Some(&first) = left.first() {
+        let (own, others) = split_connected(first, &left);
+        sets.push(PushedSpheres::of_pairs(context, group, &planes, &own));
+        left = others;
+    }
+    Ok(sets)
+}
+
+/// Splits pairs into those that are connected with one of them, directly or through others, and the rest.
+fn split_connected(first: Touch, pairs: &[Touch]) -> (Vec<Touch>, Vec<Touch>) {
+    let mut is_in: Vec<bool> = pairs.iter().map(|pair| pair.bodies == first.bodies).collect();
+    loop {
+        let is_new = |(number, pair): (usize, &Touch)| {
+            let shares =
+                |other: usize| is_in[other] && pairs[other].places().any(|it| pair.has(it));
+            (!is_in[number] && (0..pairs.len()).any(shares)).then_some(number)
+        };
+        let Some(new) = pairs.iter().enumerate().find_map(is_new) else { break };
+        is_in[new] = true;
+    }
+    let of = |wanted: bool| {
+        pairs.iter().zip(&is_in).filter(|it| *it.1 == wanted).map(|it| *it.0).collect()
+    };
+    (of(true), of(false))
+}
+
+/// How spheres go on that push each other.
+fn support_pushed(group: &mut Group, pushed: PushedSpheres) -> Result<Support, NoClosedForm> {
+    let contacts = pushed.group.touches.iter().map(|touch| touch.bodies).collect();
+    let PushedPiece { members, rates, valid_for } = pushed.piece().ok_or(NoClosedForm)?;
+    for member in &members {
+        if let Some(place) = group.place_of(member.index) {
+            group.members[place] = *member;
+        }
+    }
+    let supported = |(member, [acceleration, turning]): (&Member, [DVec3; 2])| Supported {
+        slot: member.slot,
+        acceleration,
+        rotation: Some([member.angular_velocity, turning]),
+    };
+    Ok(Support {
+        members: members.iter().zip(rates).map(supported).collect(),
+        contacts,
+        renewal: group.time + valid_for,
+    })
+}
+
+/// How the sphere at a place goes on that lies on the planes of a corner.
+fn on_planes(
+    context: &StepContext,
+    group: &mut Group,
+    place: usize,
+    corner: &Corner,
+) -> Result<Option<Support>, NoClosedForm> {
+    let member = &mut group.members[place];
+    let contact_duration = context.duration_of(&member.scale(false), group.time);
+    let supported =
+        planar::support(context.system, member, corner, contact_duration, f64::INFINITY)?;
+    let Some(planar) = supported else { return Ok(None) };
+    let PlanarSupport { velocity, angular_velocity, valid_for, persists, .. } = planar;
+    let lasting = corner.planes().zip(persists).filter(|it| it.1).map(|it| it.0.surface);
+    let bodies = |surface: u32| Bodies::Surface { sphere: member.index, surface };
+    let support = Support {
+        members: vec![planar.supported(member.slot)],
+        contacts: lasting.map(bodies).collect(),
+        renewal: group.time + valid_for,
+    };
+    (member.velocity, member.angular_velocity) = (velocity, angular_velocity);
+    Ok(Some(support))
+}
 /// Whether friction presses a sphere to a surface that it touches, and nothing else does.
 fn closes(touch: &Touch, group: &Group, supports: &[Support]) -> bool {
     if supports.iter().any(|support| support.contacts.contains(&touch.bodies)) {

@@ -1,0 +1,249 @@
+//! A piece of path of spheres on planes that push each other where friction acts
+//! (`docs/physics/persistent-contacts.md`).
+
+use glam::DVec3;
+
+use super::accelerations::Accelerations;
+use super::piece::{TURN, turning_time};
+use super::pushed_spheres::{Direction, Directions, Forces, PushedSpheres};
+use super::sliding::sliding_time;
+use crate::norm::Norm;
+use crate::rule::exact::contacts::{Member, Touch};
+
+/// A velocity goes on along a straight line if its rate is aside of it by less than this part of the
+/// accelerations at work: rounding.
+const STRAIGHT: f64 = 1e-13;
+/// A direction turns by as much over a piece as moves a sphere by this part of its radius aside, if that is more
+/// than a thousandth, and by no more than the angle \[rad\]: slips that end turn fast.
+const MOST_ASIDE: f64 = 1e-10;
+const LARGEST_TURN: f64 = 0.05;
+/// Part of the time to its end for which a velocity that also turns is followed in one piece.
+const PART_TO_END: f64 = 0.5;
+
+/// How spheres that push each other go on over a piece of path.
+pub(super) struct PushedPiece {
+    /// As they begin it.
+    pub members: Vec<Member>,
+    /// Acceleration \[m/s²\] and angular acceleration \[rad/s²\] of each.
+    pub rates: Vec<[DVec3; 2]>,
+    /// How long that holds \[s\].
+    pub valid_for: f64,
+}
+
+/// For how long the direction of a velocity that friction acts against holds.
+#[derive(Clone, Copy)]
+struct Lifetime {
+    /// \[s\]
+    valid_for: f64,
+    /// Whether it does not turn, and ends at zero if it ends.
+    is_straight: bool,
+}
+
+impl Lifetime {
+    const ENDLESS: Self = Self { valid_for: f64::INFINITY, is_straight: true };
+
+    /// The lifetime of a velocity \[m/s\] with its rate of change \[m/s²\], for a sphere of this radius \[m\] and
+    /// accelerations of this size \[m/s²\].
+    fn of([velocity, rate]: [DVec3; 2], radius: f64, scale: f64) -> Self {
+        let speed = velocity.norm();
+        let direction = velocity / speed;
+        let along = rate.dot(direction);
+        let aside = (rate - along * direction).norm();
+        let ends = if along < 0.0 { speed / -along } else { f64::INFINITY };
+        if aside <= STRAIGHT * (rate.norm() + scale) {
+            return Self { valid_for: ends, is_straight: true };
+        }
+        // The way aside is a twelfth of turn³ speed²/aside.
+        let unseen = libm::cbrt(12.0 * MOST_ASIDE * radius * aside / (speed * speed));
+        let turns = unseen.clamp(TURN, LARGEST_TURN) * speed / aside;
+        Self { valid_for: turns.min(PART_TO_END * ends), is_straight: false }
+    }
+}
+
+impl PushedSpheres<'_> {
+    /// Returns how the spheres go on: for as long as nothing that their forces depend on turns by a
+    /// thousandth, comes to an end or begins. Over the piece, velocities and angular velocities change by as
+    /// much as on the true path; places are right to the third order. `None` where no forces hold them so.
+    pub fn piece(mut self) -> Option<PushedPiece> {
+        self.close_gaps();
+        self.end_slow_motion();
+        self.stop_along_normals();
+        let mut directions = self.directions();
+        let none = vec![DVec3::ZERO; self.pairs().len()];
+        let start = self.forces(&self.group.members, self.group.time, &directions, &none)?;
+        if start.responses.iter().any(|response| response.normal_force < 0.0) {
+            // A sphere is lifted off its plane.
+            return None;
+        }
+        let lifetimes = self.lifetimes(&directions, &start);
+        let ends = lifetimes.valid_for();
+        let turns = self.turning_time(&start);
+        let valid_for = ends.min(turns).max(self.least_duration());
+        let rates = if turns == f64::INFINITY && lifetimes.are_straight() {
+            rates_of(&start)
+        } else {
+            lifetimes.fix(&mut directions, &start, valid_for);
+            self.mean_rates(&directions, &start, valid_for)?
+        };
+        let valid_for = valid_for.min(self.time_on_planes(&rates)).max(self.least_duration());
+        Some(PushedPiece { members: self.group.members, rates, valid_for })
+    }
+
+    /// Time \[s\] in which the normal of a pair turns by a thousandth.
+    fn turning_time(&self, start: &Forces) -> f64 {
+        let members = &self.group.members;
+        let parts = self.pairs().iter().zip(&start.on_second).flat_map(|(pair, force)| {
+            pair.places().map(|place| force.norm() / members[place].species.mass)
+        });
+        let largest = parts.fold(0.0, f64::max);
+        let each = start.responses.iter().map(|response| response.acceleration).collect();
+        let accelerations = Accelerations { each, largest };
+        turning_time(members, self.pairs(), &accelerations, f64::INFINITY)
+    }
+
+    /// Time \[s\] until a sphere may come to the end of a face.
+    fn time_on_planes(&self, rates: &[[DVec3; 2]]) -> f64 {
+        let each = rates.iter().map(|rate| rate[0]).collect();
+        let accelerations = Accelerations { each, largest: 0.0 };
+        sliding_time(self.context, &self.group, &self.group.touches, &accelerations)
+    }
+
+    fn lifetimes(&self, directions: &Directions, start: &Forces) -> Lifetimes {
+        let members = &self.group.members;
+        let of = |place: usize| {
+            let (response, sphere) = (start.responses[place], start.spheres[place]);
+            let scale = sphere.acceleration.norm();
+            let Member { velocity, angular_velocity, .. } = members[place];
+            let slip_rate = response.acceleration
+                - sphere.radius * response.angular_acceleration.cross(sphere.normal);
+            let acts = [sphere.friction.sliding, sphere.friction.rolling].map(|it| it > 0.0);
+            let slides = directions.slides[place] != Direction::None;
+            let slip = self.planes[place].filter(|_| slides).map(|it| self.slip(members, &it));
+            let moves = directions.moves[place] != Direction::None && !slides;
+            let spin = angular_velocity.dot(sphere.normal);
+            let spin_rate = response.angular_acceleration.dot(sphere.normal);
+            let spin_ends = sphere.friction.spinning > 0.0 && spin * spin_rate < 0.0;
+            SphereLifetimes {
+                slides: slip.filter(|_| acts[0]).map_or(Lifetime::ENDLESS, |slip| {
+                    Lifetime::of([slip, slip_rate], sphere.radius, scale)
+                }),
+                moves: (moves && acts[1])
+                    .then(|| Lifetime::of([velocity, response.acceleration], sphere.radius, scale))
+                    .unwrap_or(Lifetime::ENDLESS),
+                spin: if spin_ends { -spin / spin_rate } else { f64::INFINITY },
+            }
+        };
+        Lifetimes {
+            spheres: (0..members.len()).map(of).collect(),
+            pairs: self.pairs().iter().enumerate().map(|it| self.of_pair(it, start)).collect(),
+        }
+    }
+
+    /// The lifetime of the slip of a pair, by its number.
+    fn of_pair(&self, (number, pair): (usize, &Touch), start: &Forces) -> Lifetime {
+        let contact = &start.contacts[number];
+        if contact.slides.is_none() || contact.friction == 0.0 {
+            return Lifetime::ENDLESS;
+        }
+        let [first, second] = contact.places.map(|place| &start.responses[place]);
+        let [r1, r2] = contact.places.map(|place| start.spheres[place].radius);
+        let turning = r1 * first.angular_acceleration + r2 * second.angular_acceleration;
+        let relative = second.acceleration - first.acceleration + contact.bias;
+        let rate = pair.across(relative) - turning.cross(contact.normal);
+        let scale = contact.places.map(|place| start.spheres[place].acceleration.norm());
+        Lifetime::of([self.slip(&self.group.members, pair), rate], r1.min(r2), scale[0] + scale[1])
+    }
+
+    /// Mean accelerations \[m/s²\] and angular accelerations \[rad/s²\] over a piece of `h` \[s\], by the method
+    /// of Runge and Kutta.
+    fn mean_rates(
+        &self,
+        directions: &Directions,
+        start: &Forces,
+        h: f64,
+    ) -> Option<Vec<[DVec3; 2]>> {
+        let mut forces = start.on_second.clone();
+        let mut stage: Vec<[DVec3; 3]> = Vec::new();
+        let mut sum = vec![[DVec3::ZERO; 2]; self.group.members.len()];
+        for (part, weight) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
+            let members = self.moved(&stage, part * h);
+            let found = self.forces(&members, self.group.time + part * h, directions, &forces)?;
+            let rates = rates_of(&found);
+            for (sum, [acceleration, turning]) in sum.iter_mut().zip(&rates) {
+                sum[0] += weight / 6.0 * *acceleration;
+                sum[1] += weight / 6.0 * *turning;
+            }
+            let of = |(member, [a, alpha]): (&Member, &[DVec3; 2])| [member.velocity, *a, *alpha];
+            stage = members.iter().zip(&rates).map(of).collect();
+            forces = found.on_second;
+        }
+        Some(sum)
+    }
+
+    /// The spheres after `h` \[s\] with these velocities, accelerations and angular accelerations.
+    fn moved(&self, rates: &[[DVec3; 3]], h: f64) -> Vec<Member> {
+        let mut members = self.group.members.clone();
+        for (member, [velocity, acceleration, angular_acceleration]) in
+            members.iter_mut().zip(rates)
+        {
+            member.position += h * *velocity;
+            member.velocity += h * *acceleration;
+            member.angular_velocity += h * *angular_acceleration;
+        }
+        members
+    }
+}
+
+fn rates_of(forces: &Forces) -> Vec<[DVec3; 2]> {
+    forces.responses.iter().map(|it| [it.acceleration, it.angular_acceleration]).collect()
+}
+
+struct SphereLifetimes {
+    slides: Lifetime,
+    moves: Lifetime,
+    /// \[s\]
+    spin: f64,
+}
+
+/// For how long the directions hold that friction acts against.
+struct Lifetimes {
+    spheres: Vec<SphereLifetimes>,
+    pairs: Vec<Lifetime>,
+}
+
+impl Lifetimes {
+    fn all(&self) -> impl Iterator<Item = Lifetime> {
+        let of_spheres = self.spheres.iter().flat_map(|sphere| [sphere.slides, sphere.moves]);
+        of_spheres.chain(self.pairs.iter().copied())
+    }
+
+    /// \[s\]
+    fn valid_for(&self) -> f64 {
+        let spins = self.spheres.iter().map(|sphere| sphere.spin);
+        self.all().map(|it| it.valid_for).chain(spins).fold(f64::INFINITY, f64::min)
+    }
+
+    fn are_straight(&self) -> bool {
+        self.all().all(|lifetime| lifetime.is_straight)
+    }
+
+    /// Fixes the directions of velocities that end within a piece of this length \[s\]: at zero they have none.
+    fn fix(&self, directions: &mut Directions, start: &Forces, valid_for: f64) {
+        let fix = |direction: &mut Direction, lifetime: Lifetime, now: Option<DVec3>| {
+            if let Some(now) = now
+                && lifetime.is_straight
+                && lifetime.valid_for <= valid_for
+            {
+                *direction = Direction::Fixed(now);
+            }
+        };
+        for (place, (lifetimes, sphere)) in self.spheres.iter().zip(&start.spheres).enumerate() {
+            fix(&mut directions.slides[place], lifetimes.slides, sphere.slides);
+            fix(&mut directions.moves[place], lifetimes.moves, sphere.moves);
+        }
+        let pairs = directions.pairs.iter_mut().zip(&self.pairs).zip(&start.contacts);
+        for ((direction, &lifetime), contact) in pairs {
+            fix(direction, lifetime, contact.slides);
+        }
+    }
+}
