@@ -63,7 +63,6 @@ fn a_ball_that_slides_into_one_that_rolls_does_not_chatter() {
                 assert!(overlap <= 1e-9, "overlap {overlap} at {} s", world.time());
             }
             let case = format!("friction {friction}, offset {offset}, size {size}");
-            println!("{case}: {impacts}");
             assert!(impacts < 100, "{impacts} impacts, {case}");
             assert!(!world.was_stepped(), "{case}");
             world.state_hash()
@@ -192,11 +191,6 @@ fn balls_that_push_each_other_lose_energy_and_keep_momentum_but_for_what_the_pla
                 .with_friction(Friction::sliding(numbers.between(0.1, 1.0)).with_rolling(1.0));
             world.add_sphere(ball).unwrap();
         }
-        if let Some(only) = std::env::var_os("CASE") {
-            if only.to_str().unwrap() != case.to_string() {
-                continue;
-            }
-        }
         world.step(1e-6).unwrap();
         let (mut last, mut events) = (energy_of(&world), 0);
         for _ in 0..200 {
@@ -208,7 +202,6 @@ fn balls_that_push_each_other_lose_energy_and_keep_momentum_but_for_what_the_pla
             assert!(overlap <= 1e-9, "case {case}: overlap {overlap} at {} s", world.time());
         }
         assert!(!world.was_stepped(), "case {case}");
-        println!("case {case}: {events} events");
         assert!(events < 10_000, "case {case}: {events} events");
     }
 }
@@ -287,6 +280,5 @@ fn a_break_takes_some_thousand_impacts_and_no_zone() {
         assert!(impacts < 5000, "{impacts} impacts, friction {friction}");
         assert!(events < 200_000, "{events} events, friction {friction}");
         assert!(!world.was_stepped(), "friction {friction}");
-        println!("friction {friction}: {impacts} impacts, {events} events");
     }
 }

@@ -69,8 +69,7 @@ impl PushedSpheres<'_> {
         self.end_slow_motion();
         self.stop_along_normals();
         let mut directions = self.directions();
-        let none = vec![DVec3::ZERO; self.pairs().len()];
-        let start = self.forces(&self.group.members, self.group.time, &directions, &none)?;
+        let start = self.forces(&self.group.members, self.group.time, &directions, &self.known)?;
         if start.responses.iter().any(|response| response.normal_force < 0.0) {
             // A sphere is lifted off its plane.
             return None;

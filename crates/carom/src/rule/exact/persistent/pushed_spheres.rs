@@ -27,6 +27,8 @@ pub(super) struct PushedSpheres<'a> {
     pairs: usize,
     /// One per member: the touch with the plane that bears it, if one does.
     pub planes: Vec<Option<Touch>>,
+    /// Forces of the pairs on their second spheres \[N\], about.
+    pub known: Vec<DVec3>,
 }
 
 /// The direction of a velocity that friction acts against.
@@ -101,7 +103,7 @@ impl<'a> PushedSpheres<'a> {
         let touches = pairs_here.chain(planes.iter().flatten().copied()).collect();
         let Group { time, fastest, .. } = *group;
         let group = Group { time, members, touches, fastest };
-        Self { context, group, pairs: pairs.len(), planes }
+        Self { context, group, pairs: pairs.len(), planes, known: vec![DVec3::ZERO; pairs.len()] }
     }
 
     pub fn pairs(&self) -> &[Touch] {
@@ -240,8 +242,7 @@ impl<'a> PushedSpheres<'a> {
     /// not found.
     pub fn forces_now(&self) -> Option<Vec<(f64, DVec3)>> {
         let Group { members, time, .. } = &self.group;
-        let none = vec![DVec3::ZERO; self.pairs];
-        let found = self.forces(members, *time, &self.directions(), &none)?;
+        let found = self.forces(members, *time, &self.directions(), &self.known)?;
         let split = |(pair, force): (&Touch, DVec3)| (force.dot(pair.normal), pair.across(force));
         let pairs = self.pairs().iter().zip(found.on_second).map(split);
         let planes = found.responses.iter().zip(&self.planes).filter(|it| it.1.is_some());
@@ -268,20 +269,21 @@ impl<'a> PushedSpheres<'a> {
         Some(Forces { spheres, responses, contacts, on_second })
     }
 
-    /// Returns which pairs press on each other; `None` where no forces are found.
-    pub fn pressing_pairs(mut self) -> Option<Vec<bool>> {
+    /// Returns the forces of the pairs \[N\], zero where they do not press on each other; `None` where no forces
+    /// are found.
+    pub fn pressing(mut self) -> Option<Vec<DVec3>> {
         self.end_slow_motion();
         let members = &self.group.members;
-        let none = vec![DVec3::ZERO; self.pairs];
-        let found = self.forces(members, self.group.time, &self.directions(), &none)?;
-        let presses = |(pair, force): (&Touch, &DVec3)| {
+        let found = self.forces(members, self.group.time, &self.directions(), &self.known)?;
+        let or_zero = |(pair, force): (&Touch, DVec3)| {
             let least = |place: usize| {
                 let Species { mass, acceleration, .. } = members[place].species;
                 IDLE * mass * acceleration.norm()
             };
-            force.norm() > pair.places().map(least).sum()
+            let presses = force.norm() > pair.places().map(least).sum();
+            if presses { force } else { DVec3::ZERO }
         };
-        Some(self.pairs().iter().zip(&found.on_second).map(presses).collect())
+        Some(self.pairs().iter().zip(found.on_second).map(or_zero).collect())
     }
 
     /// The pairs at other places; those that no longer face each other, as they were.

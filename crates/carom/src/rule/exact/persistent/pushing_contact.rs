@@ -7,8 +7,8 @@ use super::pushed_sphere::{Push, PushedSphere, Response};
 use crate::norm::Norm;
 use crate::work::Work;
 
-/// Forces count as found once they change by less than this part of the largest: some roundings.
-const SETTLED: f64 = 4.0 * f64::EPSILON;
+/// Forces count as found once they change by less than this part of the largest: some hundred roundings.
+const SETTLED: f64 = 256.0 * f64::EPSILON;
 /// Where sweeps over many contacts end without that, changes below this part of the largest are taken.
 const ACCEPTED: f64 = 1e-9;
 /// Sweeps over the contacts, at most. Without friction each is one of Gauss and Seidel, and converges.
@@ -128,31 +128,31 @@ impl PushingContact {
 impl Pair<'_> {
     /// The force on the second sphere \[N\], near `known`; `None` where it is not found.
     fn force(&self, known: DVec3) -> Option<DVec3> {
-        let free = self.rate(DVec3::ZERO);
-        let normal = self.contact.normal;
-        if free.dot(normal) >= -ROUNDING * self.scale() {
+        let PushingContact { normal, friction, slides, .. } = *self.contact;
+        let opening = self.rate(DVec3::ZERO).dot(normal);
+        if opening >= -ROUNDING * self.scale() {
             return Some(DVec3::ZERO);
         }
-        match self.contact.slides {
-            _ if self.contact.friction == 0.0 => self.force_along(normal),
-            Some(direction) => self.force_along(normal - self.contact.friction * direction),
-            None => self.force_where_it_sticks(known),
+        let size = known.dot(normal);
+        let start = [opening, if size > 0.0 { size } else { -opening * self.mass() }];
+        match slides {
+            _ if friction == 0.0 => self.force_along(normal, start),
+            Some(direction) => self.force_along(normal - friction * direction, start),
+            None => self.force_where_it_sticks(known, start),
         }
     }
 
-    /// The force along a direction, with one along the normal in it, under which the gap does not open.
-    fn force_along(&self, direction: DVec3) -> Option<DVec3> {
-        let normal = self.contact.normal;
-        let opening = |size: f64| self.rate(size * direction).dot(normal);
+    /// The force along a direction, with one along the normal in it, under which the gap does not open, by the
+    /// secant method from the acceleration of the gap without it \[m/s²\] and its size \[N\], about.
+    fn force_along(&self, direction: DVec3, [opening, about]: [f64; 2]) -> Option<DVec3> {
         let enough = ROUNDING * self.scale();
-        let (mut last, mut rate_before) = (0.0, opening(0.0));
-        let mut size = -rate_before * self.mass();
+        let (mut last, mut rate_before, mut size) = (0.0, opening, about);
         for _ in 0..MOST_STEPS {
-            let rate = opening(size);
-            let slope = (rate - rate_before) / (size - last);
+            let rate = self.rate(size * direction).dot(self.contact.normal);
             if rate.abs() <= enough {
                 return Some(size * direction);
             }
+            let slope = (rate - rate_before) / (size - last);
             if slope.is_nan() || slope <= 0.0 {
                 return None;
             }
@@ -164,7 +164,7 @@ impl Pair<'_> {
 
     /// The force under which neither the gap opens nor the surfaces begin to slide, or if that takes more
     /// friction than there is, that under which they begin to.
-    fn force_where_it_sticks(&self, known: DVec3) -> Option<DVec3> {
+    fn force_where_it_sticks(&self, known: DVec3, start: [f64; 2]) -> Option<DVec3> {
         let PushingContact { normal, friction, .. } = *self.contact;
         if let Some(force) = self.force_without_slip(known) {
             let across = self.contact.across(force);
@@ -174,7 +174,7 @@ impl Pair<'_> {
         }
         // Friction acts against the slip that begins under it.
         let mut along = normal;
-        let mut force = self.force_along(along)?;
+        let mut force = self.force_along(along, start)?;
         for _ in 0..MOST_STEPS {
             let slip = self.contact.across(self.rate(force));
             if slip.norm() <= ROUNDING * self.scale() {
@@ -185,7 +185,7 @@ impl Pair<'_> {
                 break;
             }
             along = next;
-            force = self.force_along(along)?;
+            force = self.force_along(along, start)?;
         }
         Some(force)
     }

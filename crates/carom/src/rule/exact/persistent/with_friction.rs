@@ -136,34 +136,37 @@ fn sets_that_push<'a>(
     }
     let planes: Vec<Option<Touch>> = bearings.iter().map(|it| it.flatten()).collect();
     let all = PushedSpheres::of_pairs(context, group, &planes, &pairs);
-    let pressing = all.pressing_pairs().ok_or(NoClosedForm)?;
-    let mut left: Vec<Touch> =
-        pairs.iter().zip(pressing).filter(|it| it.1).map(|it| *it.0).collect();
+    let forces = all.pressing().ok_or(NoClosedForm)?;
+    let pressing = pairs.iter().copied().zip(forces).filter(|it| it.1 != DVec3::ZERO);
+    let mut left: Vec<(Touch, DVec3)> = pressing.collect();
     let mut sets = Vec::new();
-    while let Some(&first) = left.first() {
-        let (own, others) = split_connected(first, &left);
-        sets.push(PushedSpheres::of_pairs(context, group, &planes, &own));
+    while let Some(&(first, _)) = left.first() {
+        let (own, others) = split_connected(first, left);
+        let (pairs, known): (Vec<Touch>, Vec<DVec3>) = own.into_iter().unzip();
+        let mut set = PushedSpheres::of_pairs(context, group, &planes, &pairs);
+        set.known = known;
+        sets.push(set);
         left = others;
     }
     Ok(sets)
 }
 
+/// Pairs with the forces on their second spheres \[N\].
+type PressedPairs = Vec<(Touch, DVec3)>;
+
 /// Splits pairs into those that are connected with one of them, directly or through others, and the rest.
-fn split_connected(first: Touch, pairs: &[Touch]) -> (Vec<Touch>, Vec<Touch>) {
-    let mut is_in: Vec<bool> = pairs.iter().map(|pair| pair.bodies == first.bodies).collect();
+fn split_connected(first: Touch, pairs: PressedPairs) -> (PressedPairs, PressedPairs) {
+    let mut is_in: Vec<bool> = pairs.iter().map(|pair| pair.0.bodies == first.bodies).collect();
     loop {
-        let is_new = |(number, pair): (usize, &Touch)| {
-            let shares =
-                |other: usize| is_in[other] && pairs[other].places().any(|it| pair.has(it));
-            (!is_in[number] && (0..pairs.len()).any(shares)).then_some(number)
+        let is_new = |number: usize| {
+            let shares = |other: usize| pairs[other].0.places().any(|it| pairs[number].0.has(it));
+            !is_in[number] && (0..pairs.len()).any(|other| is_in[other] && shares(other))
         };
-        let Some(new) = pairs.iter().enumerate().find_map(is_new) else { break };
+        let Some(new) = (0..pairs.len()).find(|&number| is_new(number)) else { break };
         is_in[new] = true;
     }
-    let of = |wanted: bool| {
-        pairs.iter().zip(&is_in).filter(|it| *it.1 == wanted).map(|it| *it.0).collect()
-    };
-    (of(true), of(false))
+    let mut is_in = is_in.into_iter();
+    pairs.into_iter().partition(|_| is_in.next() == Some(true))
 }
 
 /// How spheres go on that push each other.
