@@ -235,6 +235,34 @@ fn forces_between_balls_and_planes_change_momentum_as_they_say() {
     }
 }
 
+#[test]
+fn a_wall_holds_a_ball_that_spins_towards_it_until_its_spin_ends() {
+    // P = m g − μ_w N and N = μ P: friction of the wall bears a part of the weight. Both take spin.
+    let (mu, wall_friction, spin) = (0.3, 0.5, 40.0);
+    let mut world = on_floor_under(vec(0.0, -G, 0.0), mu, 0.0);
+    let wall = Collider::new(
+        Shape::Box { size: vec(0.1, 1.0, 1.0) },
+        Pose::at(vec(0.05 + RADIUS, 0.5, 0.0)),
+    );
+    world.add_collider(wall.with_restitution(0.0).with_friction(wall_friction)).unwrap();
+    let ball = Sphere::new(vec(0.0, RADIUS, 0.0), RADIUS).with_restitution(0.0);
+    let ball = ball.with_friction(1.0).with_angular_velocity(vec(0.0, 0.0, -spin));
+    let id = world.add_sphere(ball).unwrap();
+    let pressing = G / (1.0 + mu * wall_friction);
+    let ends = 0.4 * RADIUS * spin / (mu * pressing * (1.0 + wall_friction));
+    world.step(0.5 * ends).unwrap();
+    assert_close(world.sphere(id).unwrap().angular_velocity.z, -0.5 * spin, 1e-9);
+    let contacts = world.contacts();
+    assert_close(contacts[0].normal_force, pressing, 1e-9);
+    assert_close(contacts[1].normal_force, mu * pressing, 1e-9);
+    assert_close(contacts[1].tangential_force.y, wall_friction * mu * pressing, 1e-9);
+    world.step(ends).unwrap();
+    let after = world.sphere(id).unwrap();
+    assert_eq!((after.velocity, after.angular_velocity), (DVec3::ZERO, DVec3::ZERO));
+    assert_close((after.position - ball.position).length(), 0.0, 1e-12);
+    assert!(!world.was_stepped());
+}
+
 /// A cue ball before a rack of fifteen balls with small gaps, on a table with cushions.
 fn table(friction: f64) -> World {
     let radius = 0.028575;

@@ -52,8 +52,7 @@ pub(crate) fn list(
 
 /// Normal force and friction \[N\] on body 2 of each touch of a cluster.
 fn forces_in(timeline: &Timeline, context: &StepContext, group: &Group) -> Vec<(f64, DVec3)> {
-    let has_friction = timeline.has_friction() && group.members.len() > 1;
-    let pushed = has_friction.then(|| forces_of_pushed(context, group)).flatten();
+    let pushed = timeline.has_friction().then(|| forces_of_pushed(context, group)).flatten();
     pushed.unwrap_or_else(|| {
         let forces = forces(context.work, &group.members, &group.touches);
         let with_friction = |(touch, force)| (force, friction_on(timeline, group, touch));

@@ -88,16 +88,16 @@ impl PushedSpheres<'_> {
         Some(PushedPiece { members: self.group.members, rates, valid_for })
     }
 
-    /// Time \[s\] in which the normal of a pair turns by a thousandth.
+    /// Time \[s\] in which the normal of a contact turns by a thousandth.
     fn turning_time(&self, start: &Forces) -> f64 {
         let members = &self.group.members;
-        let parts = self.pairs().iter().zip(&start.on_second).flat_map(|(pair, force)| {
-            pair.places().map(|place| force.norm() / members[place].species.mass)
+        let parts = self.pushing().iter().zip(&start.on_second).flat_map(|(touch, force)| {
+            touch.places().map(|place| force.norm() / members[place].species.mass)
         });
         let largest = parts.fold(0.0, f64::max);
         let each = start.responses.iter().map(|response| response.acceleration).collect();
         let accelerations = Accelerations { each, largest };
-        turning_time(members, self.pairs(), &accelerations, f64::INFINITY)
+        turning_time(members, self.pushing(), &accelerations, f64::INFINITY)
     }
 
     /// Time \[s\] until a sphere may come to the end of a face.
@@ -108,49 +108,56 @@ impl PushedSpheres<'_> {
     }
 
     fn lifetimes(&self, directions: &Directions, start: &Forces) -> Lifetimes {
-        let members = &self.group.members;
-        let of = |place: usize| {
-            let (response, sphere) = (start.responses[place], start.spheres[place]);
-            let scale = sphere.acceleration.norm();
-            let Member { velocity, angular_velocity, .. } = members[place];
-            let slip_rate = response.acceleration
-                - sphere.radius * response.angular_acceleration.cross(sphere.normal);
-            let acts = [sphere.friction.sliding, sphere.friction.rolling].map(|it| it > 0.0);
-            let slides = directions.slides[place] != Direction::None;
-            let slip = self.planes[place].filter(|_| slides).map(|it| self.slip(members, &it));
-            let moves = directions.moves[place] != Direction::None && !slides;
-            let spin = angular_velocity.dot(sphere.normal);
-            let spin_rate = response.angular_acceleration.dot(sphere.normal);
-            let spin_ends = sphere.friction.spinning > 0.0 && spin * spin_rate < 0.0;
-            SphereLifetimes {
-                slides: slip.filter(|_| acts[0]).map_or(Lifetime::ENDLESS, |slip| {
-                    Lifetime::of([slip, slip_rate], sphere.radius, scale)
-                }),
-                moves: (moves && acts[1])
-                    .then(|| Lifetime::of([velocity, response.acceleration], sphere.radius, scale))
-                    .unwrap_or(Lifetime::ENDLESS),
-                spin: if spin_ends { -spin / spin_rate } else { f64::INFINITY },
-            }
-        };
+        let places = 0..self.group.members.len();
         Lifetimes {
-            spheres: (0..members.len()).map(of).collect(),
-            pairs: self.pairs().iter().enumerate().map(|it| self.of_pair(it, start)).collect(),
+            spheres: places.map(|place| self.of_sphere(place, directions, start)).collect(),
+            contacts: self
+                .pushing()
+                .iter()
+                .enumerate()
+                .map(|it| self.of_contact(it, start))
+                .collect(),
         }
     }
 
-    /// The lifetime of the slip of a pair, by its number.
-    fn of_pair(&self, (number, pair): (usize, &Touch), start: &Forces) -> Lifetime {
+    /// The lifetimes of what friction of its plane acts against, of the sphere at a place.
+    fn of_sphere(&self, place: usize, directions: &Directions, start: &Forces) -> SphereLifetimes {
+        let members = &self.group.members;
+        let (response, sphere) = (start.responses[place], start.spheres[place]);
+        let Member { velocity, angular_velocity, .. } = members[place];
+        let is = |direction: Direction| direction != Direction::None;
+        let (slides, moves) = (is(directions.slides[place]), is(directions.moves[place]));
+        let lifetime =
+            |both: [DVec3; 2]| Lifetime::of(both, sphere.radius, sphere.acceleration.norm());
+        let slip_rate = response.acceleration
+            - sphere.radius * response.angular_acceleration.cross(sphere.normal);
+        let plane = self.planes[place].filter(|_| slides && sphere.friction.sliding > 0.0);
+        let rolling = Some(velocity).filter(|_| moves && !slides && sphere.friction.rolling > 0.0);
+        let spin = angular_velocity.dot(sphere.normal);
+        let spin_rate = response.angular_acceleration.dot(sphere.normal);
+        let spin_ends = sphere.friction.spinning > 0.0 && spin * spin_rate < 0.0;
+        SphereLifetimes {
+            slides: plane.map_or(Lifetime::ENDLESS, |plane| {
+                lifetime([self.slip(members, &plane), slip_rate])
+            }),
+            moves: rolling
+                .map_or(Lifetime::ENDLESS, |velocity| lifetime([velocity, response.acceleration])),
+            spin: if spin_ends { -spin / spin_rate } else { f64::INFINITY },
+        }
+    }
+
+    /// The lifetime of the slip in a pushing contact, by its number.
+    fn of_contact(&self, (number, touch): (usize, &Touch), start: &Forces) -> Lifetime {
         let contact = &start.contacts[number];
         if contact.slides.is_none() || contact.friction == 0.0 {
             return Lifetime::ENDLESS;
         }
-        let [first, second] = contact.places.map(|place| &start.responses[place]);
-        let [r1, r2] = contact.places.map(|place| start.spheres[place].radius);
-        let turning = r1 * first.angular_acceleration + r2 * second.angular_acceleration;
-        let relative = second.acceleration - first.acceleration + contact.bias;
-        let rate = pair.across(relative) - turning.cross(contact.normal);
-        let scale = contact.places.map(|place| start.spheres[place].acceleration.norm());
-        Lifetime::of([self.slip(&self.group.members, pair), rate], r1.min(r2), scale[0] + scale[1])
+        let responds = |place: usize| (start.responses[place], start.spheres[place].radius);
+        let rate = contact.rate(contact.first.map(responds), responds(contact.second));
+        let spheres = || touch.places().map(|place| &start.spheres[place]);
+        let radius = spheres().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
+        let scale = spheres().map(|sphere| sphere.acceleration.norm()).sum();
+        Lifetime::of([self.slip(&self.group.members, touch), touch.across(rate)], radius, scale)
     }
 
     /// Mean accelerations \[m/s²\] and angular accelerations \[rad/s²\] over a piece of `h` \[s\], by the method
@@ -207,13 +214,13 @@ struct SphereLifetimes {
 /// For how long the directions hold that friction acts against.
 struct Lifetimes {
     spheres: Vec<SphereLifetimes>,
-    pairs: Vec<Lifetime>,
+    contacts: Vec<Lifetime>,
 }
 
 impl Lifetimes {
     fn all(&self) -> impl Iterator<Item = Lifetime> {
         let of_spheres = self.spheres.iter().flat_map(|sphere| [sphere.slides, sphere.moves]);
-        of_spheres.chain(self.pairs.iter().copied())
+        of_spheres.chain(self.contacts.iter().copied())
     }
 
     /// \[s\]
@@ -240,8 +247,8 @@ impl Lifetimes {
             fix(&mut directions.slides[place], lifetimes.slides, sphere.slides);
             fix(&mut directions.moves[place], lifetimes.moves, sphere.moves);
         }
-        let pairs = directions.pairs.iter_mut().zip(&self.pairs).zip(&start.contacts);
-        for ((direction, &lifetime), contact) in pairs {
+        let contacts = directions.contacts.iter_mut().zip(&self.contacts).zip(&start.contacts);
+        for ((direction, &lifetime), contact) in contacts {
             fix(direction, lifetime, contact.slides);
         }
     }

@@ -7,6 +7,7 @@ use super::accelerations::{IDLE, bias};
 use super::correction::corrections;
 use super::pushed_sphere::{PushedSphere, Response};
 use super::pushing_contact::{self, PushingContact};
+use crate::detect::contact::Bodies;
 use crate::friction::ContactFriction;
 use crate::norm::Norm;
 use crate::respond::{friction_of, least_change};
@@ -18,16 +19,16 @@ use crate::rule::exact::flights::Species;
 /// Part of a radius by which the start of a piece of path closes a gap: more than what a piece opens.
 const MOST_CLOSED: f64 = 1e-9;
 
-/// Spheres that lie on one plane each, or on none, with contacts between them.
+/// Spheres that a plane bears each, or that fly, with contacts in which they push each other or other planes.
 pub(super) struct PushedSpheres<'a> {
     pub context: &'a StepContext<'a>,
-    /// Touches are those of pairs, then those with planes.
+    /// Touches are those in which they push, then those with the planes that bear them.
     pub group: Group,
-    /// Number of pairs.
-    pairs: usize,
+    /// Number of touches in which they push.
+    pushing: usize,
     /// One per member: the touch with the plane that bears it, if one does.
     pub planes: Vec<Option<Touch>>,
-    /// Forces of the pairs on their second spheres \[N\], about.
+    /// Forces on the second bodies of touches in which they push \[N\], about.
     pub known: Vec<DVec3>,
 }
 
@@ -51,8 +52,8 @@ pub(super) struct Directions {
     pub moves: Vec<Direction>,
     /// One per sphere: sign of its spin about the normal.
     pub spins: Vec<f64>,
-    /// One per pair: of the slip of its second sphere on the first.
-    pub pairs: Vec<Direction>,
+    /// One per touch in which spheres push: of the slip of body 2 on body 1.
+    pub contacts: Vec<Direction>,
 }
 
 /// The forces at an instant, and what they do.
@@ -61,7 +62,7 @@ pub(super) struct Forces {
     /// One per sphere.
     pub responses: Vec<Response>,
     pub contacts: Vec<PushingContact>,
-    /// One per pair, on its second sphere \[N\].
+    /// One per contact, on its second body \[N\].
     pub on_second: Vec<DVec3>,
 }
 
@@ -81,15 +82,15 @@ impl Direction {
 }
 
 impl<'a> PushedSpheres<'a> {
-    /// The spheres of a group that some pairs have. `planes` has the touch of each member of the group with
+    /// The spheres of a group that push in some touches. `planes` has the touch of each member of the group with
     /// the plane that bears it, if one does.
-    pub fn of_pairs(
+    pub fn of_touches(
         context: &'a StepContext<'a>,
         group: &Group,
         planes: &[Option<Touch>],
-        pairs: &[Touch],
+        pushing: &[Touch],
     ) -> Self {
-        let is_in = |place: &usize| pairs.iter().any(|pair| pair.has(*place));
+        let is_in = |place: &usize| pushing.iter().any(|touch| touch.has(*place));
         let places: Vec<usize> = (0..group.members.len()).filter(is_in).collect();
         let place_of = |old: usize| places.iter().position(|&place| place == old);
         let renumbered = |touch: &Touch| {
@@ -99,15 +100,17 @@ impl<'a> PushedSpheres<'a> {
         let plane = |&place: &usize| planes[place].as_ref().and_then(renumbered);
         let planes: Vec<Option<Touch>> = places.iter().map(plane).collect();
         let members = places.iter().map(|&place| group.members[place]).collect();
-        let pairs_here = pairs.iter().filter_map(renumbered);
-        let touches = pairs_here.chain(planes.iter().flatten().copied()).collect();
+        let pushing_here = pushing.iter().filter_map(renumbered);
+        let touches = pushing_here.chain(planes.iter().flatten().copied()).collect();
         let Group { time, fastest, .. } = *group;
         let group = Group { time, members, touches, fastest };
-        Self { context, group, pairs: pairs.len(), planes, known: vec![DVec3::ZERO; pairs.len()] }
+        let known = vec![DVec3::ZERO; pushing.len()];
+        Self { context, group, pushing: pushing.len(), planes, known }
     }
 
-    pub fn pairs(&self) -> &[Touch] {
-        &self.group.touches[..self.pairs]
+    /// The touches in which spheres push.
+    pub fn pushing(&self) -> &[Touch] {
+        &self.group.touches[..self.pushing]
     }
 
     /// The part of a vector along the plane of the sphere at a place: all of it, where there is none.
@@ -139,7 +142,7 @@ impl<'a> PushedSpheres<'a> {
             member.position += by;
         }
         let measured = self.measured_at(&self.group.members, self.group.time);
-        self.group.touches[..self.pairs].copy_from_slice(&measured);
+        self.group.touches[..self.pushing].copy_from_slice(&measured);
     }
 
     /// Ends slips, speeds and spins on planes that friction would end within a contact's duration.
@@ -213,7 +216,7 @@ impl<'a> PushedSpheres<'a> {
             slides: places().map(|place| self.direction_of_slip(place)).collect(),
             moves: places().map(moves).collect(),
             spins: places().map(spin).collect(),
-            pairs: self.pairs().iter().map(|pair| self.direction_of_pair(pair)).collect(),
+            contacts: self.pushing().iter().map(|it| self.direction_of_contact(it)).collect(),
         }
     }
 
@@ -227,27 +230,31 @@ impl<'a> PushedSpheres<'a> {
         Direction::current_if(self.slip(members, plane).norm() > loss * self.least_duration())
     }
 
-    /// The direction of the slip of a pair.
-    fn direction_of_pair(&self, pair: &Touch) -> Direction {
+    /// The direction of the slip in a touch in which spheres push.
+    fn direction_of_contact(&self, touch: &Touch) -> Direction {
         let members = &self.group.members;
         let pressing: f64 =
-            pair.places().map(|place| members[place].species.acceleration.norm()).sum();
+            touch.places().map(|place| members[place].species.acceleration.norm()).sum();
         let least_factor =
-            pair.places().map(|place| self.inertia_factor(place)).fold(f64::INFINITY, f64::min);
-        let loss = slip_loss(self.friction_of(pair), least_factor, pressing);
-        Direction::current_if(self.slip(members, pair).norm() > loss * self.least_duration())
+            touch.places().map(|place| self.inertia_factor(place)).fold(f64::INFINITY, f64::min);
+        let loss = slip_loss(self.friction_of(touch), least_factor, pressing);
+        Direction::current_if(self.slip(members, touch).norm() > loss * self.least_duration())
     }
 
     /// Normal force and friction \[N\] on body 2 of each touch as the spheres move now; `None` where they are
     /// not found.
-    pub fn forces_now(&self) -> Option<Vec<(f64, DVec3)>> {
+    pub fn forces_now(&self) -> Option<Vec<(Bodies, (f64, DVec3))>> {
         let Group { members, time, .. } = &self.group;
         let found = self.forces(members, *time, &self.directions(), &self.known)?;
-        let split = |(pair, force): (&Touch, DVec3)| (force.dot(pair.normal), pair.across(force));
-        let pairs = self.pairs().iter().zip(found.on_second).map(split);
-        let planes = found.responses.iter().zip(&self.planes).filter(|it| it.1.is_some());
-        let planes = planes.map(|(response, _)| (response.normal_force, response.friction));
-        Some(pairs.chain(planes).collect())
+        let split = |(touch, force): (&Touch, DVec3)| {
+            (touch.bodies, (force.dot(touch.normal), touch.across(force)))
+        };
+        let pushing = self.pushing().iter().zip(found.on_second).map(split);
+        let plane = |(plane, response): (&Option<Touch>, &Response)| {
+            plane.map(|touch| (touch.bodies, (response.normal_force, response.friction)))
+        };
+        let planes = self.planes.iter().zip(&found.responses).filter_map(plane);
+        Some(pushing.chain(planes).collect())
     }
 
     /// Returns the forces where these are the members, at a time \[s\]; `None` where they are not found.
@@ -258,39 +265,39 @@ impl<'a> PushedSpheres<'a> {
         directions: &Directions,
         known: &[DVec3],
     ) -> Option<Forces> {
-        let pairs = self.measured_at(members, time);
+        let touches = self.measured_at(members, time);
         let sphere = |place: usize| self.sphere(place, &members[place], directions);
         let spheres: Vec<PushedSphere> = (0..members.len()).map(sphere).collect();
         let contacts: Vec<PushingContact> =
-            pairs.iter().zip(&directions.pairs).map(|it| self.contact(members, it)).collect();
+            touches.iter().zip(&directions.contacts).map(|it| self.contact(members, it)).collect();
         let mut on_second = known.to_vec();
         let work = self.context.work;
         let responses = pushing_contact::forces(work, &spheres, &contacts, &mut on_second)?;
         Some(Forces { spheres, responses, contacts, on_second })
     }
 
-    /// Returns the forces of the pairs \[N\], zero where they do not press on each other; `None` where no forces
+    /// Returns the forces of touches in which spheres push \[N\], zero where they do not press; `None` where none
     /// are found.
     pub fn pressing(mut self) -> Option<Vec<DVec3>> {
         self.end_slow_motion();
         let members = &self.group.members;
         let found = self.forces(members, self.group.time, &self.directions(), &self.known)?;
-        let or_zero = |(pair, force): (&Touch, DVec3)| {
+        let or_zero = |(touch, force): (&Touch, DVec3)| {
             let least = |place: usize| {
                 let Species { mass, acceleration, .. } = members[place].species;
                 IDLE * mass * acceleration.norm()
             };
-            let presses = force.norm() > pair.places().map(least).sum();
+            let presses = force.norm() > touch.places().map(least).sum();
             if presses { force } else { DVec3::ZERO }
         };
-        Some(self.pairs().iter().zip(found.on_second).map(or_zero).collect())
+        Some(self.pushing().iter().zip(found.on_second).map(or_zero).collect())
     }
 
-    /// The pairs at other places; those that no longer face each other, as they were.
+    /// The touches in which spheres push, at other places; those that no longer face each other, as they were.
     fn measured_at(&self, members: &[Member], time: f64) -> Vec<Touch> {
         let measured =
-            |pair: &Touch| pair.measured_at(self.context, members, time).unwrap_or(*pair);
-        self.pairs().iter().map(measured).collect()
+            |touch: &Touch| touch.measured_at(self.context, members, time).unwrap_or(*touch);
+        self.pushing().iter().map(measured).collect()
     }
 
     fn sphere(&self, place: usize, member: &Member, directions: &Directions) -> PushedSphere {
@@ -311,17 +318,18 @@ impl<'a> PushedSpheres<'a> {
         }
     }
 
-    fn contact(&self, members: &[Member], (pair, slides): (&Touch, &Direction)) -> PushingContact {
-        let velocity = pair.across(pair.relative_velocity(members));
-        let turning = pair.curvature.turning(velocity);
+    fn contact(&self, members: &[Member], (touch, slides): (&Touch, &Direction)) -> PushingContact {
+        let velocity = touch.across(touch.relative_velocity(members));
+        let turning = touch.curvature.turning(velocity);
         let normal_turns = turning.map_or(DVec3::ZERO, |(velocity, distance)| velocity / distance);
-        let slip_bias = pair.across(surface_turning(members, pair).cross(normal_turns));
+        let slip_bias = touch.across(surface_turning(members, touch).cross(normal_turns));
         PushingContact {
-            places: [pair.first.unwrap_or(pair.second), pair.second],
-            normal: pair.normal,
-            friction: self.friction_of(pair).sliding,
-            slides: slides.of(self.slip(members, pair)),
-            bias: bias(pair, members) * pair.normal - slip_bias,
+            first: touch.first,
+            second: touch.second,
+            normal: touch.normal,
+            friction: self.friction_of(touch).sliding,
+            slides: slides.of(self.slip(members, touch)),
+            bias: bias(touch, members) * touch.normal - slip_bias,
         }
     }
 

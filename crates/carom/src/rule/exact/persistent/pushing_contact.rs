@@ -1,4 +1,4 @@
-//! The contact of two spheres on planes that push each other: its normal force and its friction
+//! The contact of a sphere on a plane with another one, or with a second plane: its normal force and its friction
 //! (`docs/physics/persistent-contacts.md`).
 
 use glam::{DMat3, DVec3};
@@ -18,30 +18,40 @@ const MOST_STEPS: usize = 16;
 /// Accelerations count as zero below this part of those at work: some roundings.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// The contact of two pushed spheres.
+/// The contact of two pushed spheres, or of one with a plane at rest.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PushingContact {
-    /// Places of both among the spheres.
-    pub places: [usize; 2],
-    /// Unit normal from sphere 1 to sphere 2.
+    /// Place of body 1 among the spheres; none if it is a plane.
+    pub first: Option<usize>,
+    /// Place of body 2.
+    pub second: usize,
+    /// Unit normal from body 1 to body 2.
     pub normal: DVec3,
     /// Coefficient of sliding friction.
     pub friction: f64,
-    /// Direction in which the surface of sphere 2 slides along that of sphere 1; `None` where it does not.
+    /// Direction in which the surface of body 2 slides along that of body 1; `None` where it does not.
     pub slides: Option<DVec3>,
     /// Acceleration of the gap, along the normal, and of the slip that come from the turning of the normal
     /// \[m/s²\].
     pub bias: DVec3,
 }
 
-/// The two spheres of a contact, with what other contacts do to them.
+/// A contact with its bodies.
 struct Pair<'a> {
     contact: &'a PushingContact,
-    spheres: [&'a PushedSphere; 2],
-    pushes: [Push; 2],
+    /// None for a plane.
+    first: Option<Side<'a>>,
+    second: Side<'a>,
 }
 
-/// Returns the forces of contacts on their second spheres \[N\], beginning from `forces`, and the responses of
+/// A sphere of a contact, with what other contacts do to it.
+#[derive(Clone, Copy)]
+struct Side<'a> {
+    sphere: &'a PushedSphere,
+    push: Push,
+}
+
+/// Returns the forces of contacts on their second bodies \[N\], beginning from `forces`, and the responses of
 /// all spheres to them; `None` where they are not found.
 ///
 /// With w the acceleration of a gap and N the normal force: `N >= 0`, `w >= 0`, `N w = 0`
@@ -59,9 +69,12 @@ pub(super) fn forces(
         let mut largest = 0.0_f64;
         changed = 0.0;
         for (number, contact) in contacts.iter().enumerate() {
-            let pushes =
-                contact.places.map(|place| push_on(place, spheres, contacts, forces, number));
-            let pair = Pair { contact, spheres: contact.places.map(|it| &spheres[it]), pushes };
+            let side = |place: usize| Side {
+                sphere: &spheres[place],
+                push: push_on(place, spheres, contacts, forces, number),
+            };
+            let (first, second) = (contact.first.map(side), side(contact.second));
+            let pair = Pair { contact, first, second };
             let force = pair.force(forces[number])?;
             changed = f64::max(changed, (force - forces[number]).norm());
             largest = largest.max(force.norm());
@@ -94,12 +107,10 @@ fn push_on(
         if number == but || force == DVec3::ZERO {
             continue;
         }
-        let pair = contact.places.map(|place| &spheres[place]);
-        let [first, second] = contact.pushes(pair, force);
-        if contact.places[0] == place {
-            push = push.plus(first);
-        } else if contact.places[1] == place {
-            push = push.plus(second);
+        if contact.second == place {
+            push = push.plus(contact.push(&spheres[place], force));
+        } else if contact.first == Some(place) {
+            push = push.plus(contact.push_back(&spheres[place], force));
         }
     }
     push
@@ -112,12 +123,28 @@ impl Push {
 }
 
 impl PushingContact {
-    /// The pushes on both spheres of a force on the second one \[N\].
-    fn pushes(&self, spheres: [&PushedSphere; 2], force: DVec3) -> [Push; 2] {
-        // The normal points out of the first sphere and into the second one.
-        let turning = -self.normal.cross(force);
-        let torques = spheres.map(|sphere| sphere.radius * turning);
-        [Push { force: -force, torque: torques[0] }, Push { force, torque: torques[1] }]
+    /// The push on body 2 of a force on it \[N\].
+    fn push(&self, sphere: &PushedSphere, force: DVec3) -> Push {
+        Push { force, torque: -sphere.radius * self.normal.cross(force) }
+    }
+
+    /// The push on body 1 of a force on body 2 \[N\]: the normal points out of one and into the other.
+    fn push_back(&self, sphere: &PushedSphere, force: DVec3) -> Push {
+        Push { force: -force, ..self.push(sphere, force) }
+    }
+
+    /// Acceleration of the gap, along the normal, and of the slip \[m/s²\] where the bodies, with their radii
+    /// \[m\], respond like this.
+    pub fn rate(&self, first: Option<(Response, f64)>, second: (Response, f64)) -> DVec3 {
+        let (mut relative, mut turning) = (DVec3::ZERO, DVec3::ZERO);
+        if let Some((response, radius)) = first {
+            relative -= response.acceleration;
+            turning += radius * response.angular_acceleration;
+        }
+        let (response, radius) = second;
+        relative += response.acceleration;
+        turning += radius * response.angular_acceleration;
+        relative - turning.cross(self.normal) + self.bias
     }
 
     fn across(&self, vector: DVec3) -> DVec3 {
@@ -126,7 +153,7 @@ impl PushingContact {
 }
 
 impl Pair<'_> {
-    /// The force on the second sphere \[N\], near `known`; `None` where it is not found.
+    /// The force on body 2 \[N\], near `known`; `None` where it is not found.
     fn force(&self, known: DVec3) -> Option<DVec3> {
         let PushingContact { normal, friction, slides, .. } = *self.contact;
         let opening = self.rate(DVec3::ZERO).dot(normal);
@@ -211,35 +238,32 @@ impl Pair<'_> {
         None
     }
 
-    /// Acceleration of the gap, along the normal, and of the slip under a force on the second sphere \[m/s²\].
+    /// Acceleration of the gap, along the normal, and of the slip under a force on body 2 \[m/s²\].
     fn rate(&self, force: DVec3) -> DVec3 {
-        let [first, second] = self.responses(force);
-        let [r1, r2] = self.spheres.map(|sphere| sphere.radius);
-        let turning = r1 * first.angular_acceleration + r2 * second.angular_acceleration;
-        let relative = second.acceleration - first.acceleration;
-        relative - turning.cross(self.contact.normal) + self.contact.bias
+        let Self { contact, first, second } = self;
+        let responds = |side: &Side, push: Push| {
+            (side.sphere.response(side.push.plus(push)), side.sphere.radius)
+        };
+        let first = first.as_ref().map(|it| responds(it, contact.push_back(it.sphere, force)));
+        contact.rate(first, responds(second, contact.push(second.sphere, force)))
     }
 
-    fn responses(&self, force: DVec3) -> [Response; 2] {
-        let [first, second] = self.contact.pushes(self.spheres, force);
-        [
-            self.spheres[0].response(self.pushes[0].plus(first)),
-            self.spheres[1].response(self.pushes[1].plus(second)),
-        ]
+    fn sides(&self) -> impl Iterator<Item = Side<'_>> {
+        self.first.into_iter().chain([self.second])
     }
 
     /// Accelerations at work \[m/s²\].
     fn scale(&self) -> f64 {
-        let of = |place: usize| {
-            let (sphere, push) = (self.spheres[place], self.pushes[place]);
+        let of = |Side { sphere, push }: Side| {
             sphere.acceleration.norm() + push.force.norm() / sphere.mass
         };
-        of(0) + of(1) + self.contact.bias.norm()
+        self.sides().map(of).sum::<f64>() + self.contact.bias.norm()
     }
 
     /// The mass that a force moves \[kg\].
     fn mass(&self) -> f64 {
-        let [first, second] = self.spheres.map(|sphere| sphere.mass);
-        first.min(second) / (1.0 + first.min(second) / first.max(second))
+        let masses = || self.sides().map(|side| side.sphere.mass);
+        let least = masses().fold(f64::INFINITY, f64::min);
+        least / masses().map(|mass| least / mass).sum::<f64>()
     }
 }

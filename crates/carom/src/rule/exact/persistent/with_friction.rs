@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::NoClosedForm;
-use super::accelerations::Accelerations;
+use super::accelerations::{Accelerations, IDLE};
 use super::planar::{self, PlanarSupport};
 use super::pushed_piece::PushedPiece;
 use super::pushed_spheres::PushedSpheres;
@@ -44,39 +44,30 @@ pub(super) fn find(
     for pushed in sets_that_push(context, group, &bearings, candidates)? {
         supports.push(support_pushed(group, pushed)?);
     }
-    let is_pushed = |group: &Group, place: usize, supports: &[Support]| {
-        let slot = group.members[place].slot;
-        supports.iter().any(|support| support.members.iter().any(|member| member.slot == slot))
+    let is_pushed: Vec<bool> = {
+        let slots = || supports.iter().flat_map(|it| &it.members).map(|member| member.slot);
+        group.members.iter().map(|member| slots().any(|slot| slot == member.slot)).collect()
     };
-    let (is_held, pushing) = (is_pushed, supports.len());
     for place in 0..group.members.len() {
         let own: Vec<Touch> = pressing.iter().filter(|it| it.has(place)).copied().collect();
-        if own.is_empty() || is_held(group, place, &supports[..pushing]) {
+        if own.is_empty() || is_pushed[place] {
             continue;
         }
         if is_one_curve(&own) {
             supports.push(over_curve(context, group, place, &own)?);
             continue;
         }
-        let may_push = |touch: &Touch| touch.places().all(|place| bearings[place].is_some());
-        let mut corner = Corner::default();
-        for touch in candidates.iter().filter(|touch| touch.has(place)) {
-            match plane_of(context, &group.members[place], touch) {
-                Some(plane) => corner.add(plane).ok_or(NoClosedForm)?,
-                // Friction has two spheres on planes part that would press on each other.
-                None if is_pressing(touch, pressing) && !may_push(touch) => {
-                    return Err(NoClosedForm);
-                }
-                None => {}
-            }
-        }
+        // Of two spheres that may push each other, friction has those part that do not.
+        let bears = |touch: &Touch| {
+            is_pressing(touch, pressing) && touch.places().any(|place| bearings[place].is_none())
+        };
+        let corner = corner_of(context, group, place, candidates, bears)?;
         supports.extend(on_planes(context, group, place, &corner)?);
     }
     let is_other = |touch: &&Touch| {
         let member = &group.members[touch.second];
         let is_plane = || plane_of(context, member, touch).is_some();
-        touch.first.is_none()
-            && (is_pushed(group, touch.second, &supports[..pushing]) || !is_plane())
+        touch.first.is_none() && (is_pushed[touch.second] || !is_plane())
     };
     if candidates.iter().filter(is_other).any(|touch| closes(touch, group, &supports)) {
         return Err(NoClosedForm);
@@ -84,13 +75,42 @@ pub(super) fn find(
     Ok(supports)
 }
 
-/// Normal force and friction \[N\] on body 2 of each touch of spheres that push each other, as they move now;
-/// `None` if these are no such spheres.
+/// The planes that a sphere touches.
+///
+/// # Errors
+/// [`NoClosedForm`] if they make no corner, or something else bears it.
+fn corner_of<'a>(
+    context: &StepContext<'a>,
+    group: &Group,
+    place: usize,
+    candidates: &[Touch],
+    bears: impl Fn(&Touch) -> bool,
+) -> Result<Corner<'a>, NoClosedForm> {
+    let mut corner = Corner::default();
+    for touch in candidates.iter().filter(|touch| touch.has(place)) {
+        match plane_of(context, &group.members[place], touch) {
+            Some(plane) => corner.add(plane).ok_or(NoClosedForm)?,
+            None if bears(touch) => return Err(NoClosedForm),
+            None => {}
+        }
+    }
+    Ok(corner)
+}
+
+/// Normal force and friction \[N\] on body 2 of each touch of spheres that push each other or other planes, as
+/// they move now; `None` if these are no such spheres.
 pub(super) fn forces_of_pushed(context: &StepContext, group: &Group) -> Option<Vec<(f64, DVec3)>> {
-    let (pairs, others): (Vec<Touch>, Vec<Touch>) =
-        group.touches.iter().partition(|touch| touch.first.is_some());
-    let planes: Option<Vec<_>> = bearings(context, group, &others).into_iter().collect();
-    planes.map(|planes| PushedSpheres::of_pairs(context, group, &planes, &pairs).forces_now())?
+    let bears = |touch: &&Touch| {
+        let acceleration = group.members[touch.second].species.acceleration;
+        touch.first.is_none() && -acceleration.dot(touch.normal) > IDLE * acceleration.norm()
+    };
+    let bearing: Vec<Touch> = group.touches.iter().filter(bears).copied().collect();
+    let planes: Option<Vec<_>> = bearings(context, group, &bearing).into_iter().collect();
+    let pushing: Vec<Touch> = group.touches.iter().filter(|it| !bears(it)).copied().collect();
+    let planes = planes.filter(|_| !pushing.is_empty())?;
+    let found = PushedSpheres::of_touches(context, group, &planes, &pushing).forces_now()?;
+    let force_of = |touch: &Touch| Some(found.iter().find(|it| it.0 == touch.bodies)?.1);
+    group.touches.iter().map(force_of).collect()
 }
 
 /// By place, the touch of a sphere with the plane at rest that bears it; none if it flies, and at most leans on
@@ -117,7 +137,8 @@ fn bearings(
     (0..group.members.len()).map(bearing).collect()
 }
 
-/// The sets of spheres, on planes or in flight, that push each other, with the contacts in which they do.
+/// The sets of spheres, on planes or in flight, that push each other or other planes, with the contacts in which
+/// they do.
 ///
 /// # Errors
 /// [`NoClosedForm`] if no forces are found.
@@ -127,23 +148,31 @@ fn sets_that_push<'a>(
     bearings: &[Option<Option<Touch>>],
     candidates: &[Touch],
 ) -> Result<Vec<PushedSpheres<'a>>, NoClosedForm> {
-    let is_pair = |touch: &&Touch| {
-        touch.first.is_some() && touch.places().all(|place| bearings[place].is_some())
+    let may_push = |touch: &&Touch| {
+        let bearing = bearings[touch.second];
+        match touch.first {
+            Some(first) => bearing.is_some() && bearings[first].is_some(),
+            None => {
+                let is_other = |plane: Touch| plane.bodies != touch.bodies;
+                let is_plane = || plane_of(context, &group.members[touch.second], touch).is_some();
+                bearing.flatten().is_some_and(is_other) && is_plane()
+            }
+        }
     };
-    let pairs: Vec<Touch> = candidates.iter().filter(is_pair).copied().collect();
-    if pairs.is_empty() {
+    let touches: Vec<Touch> = candidates.iter().filter(may_push).copied().collect();
+    if touches.is_empty() {
         return Ok(Vec::new());
     }
     let planes: Vec<Option<Touch>> = bearings.iter().map(|it| it.flatten()).collect();
-    let all = PushedSpheres::of_pairs(context, group, &planes, &pairs);
+    let all = PushedSpheres::of_touches(context, group, &planes, &touches);
     let forces = all.pressing().ok_or(NoClosedForm)?;
-    let pressing = pairs.iter().copied().zip(forces).filter(|it| it.1 != DVec3::ZERO);
+    let pressing = touches.iter().copied().zip(forces).filter(|it| it.1 != DVec3::ZERO);
     let mut left: Vec<(Touch, DVec3)> = pressing.collect();
     let mut sets = Vec::new();
     while let Some(&(first, _)) = left.first() {
         let (own, others) = split_connected(first, left);
-        let (pairs, known): (Vec<Touch>, Vec<DVec3>) = own.into_iter().unzip();
-        let mut set = PushedSpheres::of_pairs(context, group, &planes, &pairs);
+        let (touches, known): (Vec<Touch>, Vec<DVec3>) = own.into_iter().unzip();
+        let mut set = PushedSpheres::of_touches(context, group, &planes, &touches);
         set.known = known;
         sets.push(set);
         left = others;
@@ -151,27 +180,29 @@ fn sets_that_push<'a>(
     Ok(sets)
 }
 
-/// Pairs with the forces on their second spheres \[N\].
-type PressedPairs = Vec<(Touch, DVec3)>;
+/// Touches with the forces on their second bodies \[N\].
+type Pressed = Vec<(Touch, DVec3)>;
 
-/// Splits pairs into those that are connected with one of them, directly or through others, and the rest.
-fn split_connected(first: Touch, pairs: PressedPairs) -> (PressedPairs, PressedPairs) {
-    let mut is_in: Vec<bool> = pairs.iter().map(|pair| pair.0.bodies == first.bodies).collect();
+/// Splits touches into those that are connected with one of them, directly or through others, and the rest.
+fn split_connected(first: Touch, touches: Pressed) -> (Pressed, Pressed) {
+    let mut is_in: Vec<bool> = touches.iter().map(|touch| touch.0.bodies == first.bodies).collect();
     loop {
         let is_new = |number: usize| {
-            let shares = |other: usize| pairs[other].0.places().any(|it| pairs[number].0.has(it));
-            !is_in[number] && (0..pairs.len()).any(|other| is_in[other] && shares(other))
+            let shares =
+                |other: usize| touches[other].0.places().any(|it| touches[number].0.has(it));
+            !is_in[number] && (0..touches.len()).any(|other| is_in[other] && shares(other))
         };
-        let Some(new) = (0..pairs.len()).find(|&number| is_new(number)) else { break };
+        let Some(new) = (0..touches.len()).find(|&number| is_new(number)) else { break };
         is_in[new] = true;
     }
     let mut is_in = is_in.into_iter();
-    pairs.into_iter().partition(|_| is_in.next() == Some(true))
+    touches.into_iter().partition(|_| is_in.next() == Some(true))
 }
 
 /// How spheres go on that push each other.
 fn support_pushed(group: &mut Group, pushed: PushedSpheres) -> Result<Support, NoClosedForm> {
-    let contacts = pushed.group.touches.iter().map(|touch| touch.bodies).collect();
+    let mut contacts: Vec<Bodies> = pushed.group.touches.iter().map(|touch| touch.bodies).collect();
+    contacts.sort_unstable();
     let PushedPiece { members, rates, valid_for } = pushed.piece().ok_or(NoClosedForm)?;
     for member in &members {
         if let Some(place) = group.place_of(member.index) {
