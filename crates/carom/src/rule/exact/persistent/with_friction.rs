@@ -203,6 +203,7 @@ fn split_connected(first: Touch, touches: Pressed) -> (Pressed, Pressed) {
 fn support_pushed(group: &mut Group, pushed: PushedSpheres) -> Result<Support, NoClosedForm> {
     let mut contacts: Vec<Bodies> = pushed.group.touches.iter().map(|touch| touch.bodies).collect();
     contacts.sort_unstable();
+    let spheres = pushed.context.system.spheres;
     let PushedPiece { members, rates, valid_for } = pushed.piece().ok_or(NoClosedForm)?;
     for member in &members {
         if let Some(place) = group.place_of(member.index) {
@@ -213,6 +214,9 @@ fn support_pushed(group: &mut Group, pushed: PushedSpheres) -> Result<Support, N
         slot: member.slot,
         acceleration,
         rotation: Some([member.angular_velocity, turning]),
+        contact_work: ContactWork::Friction {
+            moment: spheres.moment_of_inertia(member.index as usize),
+        },
     };
     Ok(Support {
         members: members.iter().zip(rates).map(supported).collect(),
