@@ -32,15 +32,22 @@ fn work_of(world: &mut World, frames: usize) -> u64 {
 fn every_force_lets_emitters_fill_an_empty_world() {
     let add: [fn(&mut World); 10] = [
         |_| {},
-        |world| drop(world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap()),
-        |world| drop(world.add_force(ConstantForce::new(vec(1.0, 2.0, 0.0))).unwrap()),
-        |world| drop(world.add_force(ViscousDrag::new(0.5)).unwrap()),
-        |world| drop(world.add_force(QuadraticDrag::new(1.2)).unwrap()),
-        |world| drop(world.add_force(Wind::new(vec(3.0, 0.0, 1.0), 0.5)).unwrap()),
-        |world| drop(world.add_force(Vortex::new(DVec3::ZERO, 2.0, 0.5)).unwrap()),
-        |world| drop(world.add_force(Buoyancy::new(1000.0, 0.5)).unwrap()),
-        |world| drop(world.add_force(PointAttractor::new(vec(0.0, -1.0, 0.0), 5.0)).unwrap()),
-        |world| drop(world.add_force(MutualGravity::new(0.1)).unwrap()),
+        |world| assert!(world.add_force(Gravity::new(vec(0.0, -G, 0.0))).unwrap().number() == 0),
+        |world| {
+            assert!(world.add_force(ConstantForce::new(vec(1.0, 2.0, 0.0))).unwrap().number() == 0)
+        },
+        |world| assert!(world.add_force(ViscousDrag::new(0.5)).unwrap().number() == 0),
+        |world| assert!(world.add_force(QuadraticDrag::new(1.2)).unwrap().number() == 0),
+        |world| assert!(world.add_force(Wind::new(vec(3.0, 0.0, 1.0), 0.5)).unwrap().number() == 0),
+        |world| assert!(world.add_force(Vortex::new(DVec3::ZERO, 2.0, 0.5)).unwrap().number() == 0),
+        |world| assert!(world.add_force(Buoyancy::new(1000.0, 0.5)).unwrap().number() == 0),
+        |world| {
+            assert!(
+                world.add_force(PointAttractor::new(vec(0.0, -1.0, 0.0), 5.0)).unwrap().number()
+                    == 0
+            )
+        },
+        |world| assert!(world.add_force(MutualGravity::new(0.1)).unwrap().number() == 0),
     ];
     for rule in rules() {
         for (number, add_force) in add.iter().enumerate() {

@@ -109,6 +109,27 @@ fn a_ball_that_slides_until_it_rolls_loses_two_sevenths_of_its_energy() {
 }
 
 #[test]
+fn balls_that_push_each_other_lose_what_friction_takes() {
+    for friction in [0.05, 0.3] {
+        let mut world = heavy_world(exact());
+        world.add_collider(floor().with_friction(0.2).with_restitution(0.5)).unwrap();
+        // One that slides catches one that rolls, and pushes it.
+        let ball = Sphere::new(vec(0.0, 0.1, 0.0), 0.1).with_restitution(0.9);
+        let ball = ball.with_friction(friction);
+        world.add_sphere(ball.with_velocity(vec(1.0, 0.0, 0.0))).unwrap();
+        let ahead = ball.with_position(vec(0.2001, 0.1, 0.001));
+        let rolling = ahead.with_velocity(vec(0.9, 0.0, 0.0));
+        world.add_sphere(rolling.with_angular_velocity(vec(0.0, 0.0, -9.0))).unwrap();
+        let largest = world.total_energy();
+        let (account, remainder) = run(&mut world, 120, FRAME);
+        assert!(!world.was_stepped());
+        assert!(account.contacts < 0.0);
+        // To this their pieces of path are right.
+        assert!(remainder.abs() < 1e-9 * largest, "{friction}: {remainder} of {account:?}");
+    }
+}
+
+#[test]
 fn a_belt_gives_what_its_ball_gets_and_friction_takes_half() {
     for (rule, tolerance) in [(exact(), 2e-3), (contact(), 2e-3)] {
         let mut world = heavy_world(rule);
