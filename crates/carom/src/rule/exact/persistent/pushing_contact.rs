@@ -13,8 +13,13 @@ const SETTLED: f64 = 256.0 * f64::EPSILON;
 const ACCEPTED: f64 = 1e-9;
 /// Sweeps over the contacts, at most. Without friction each is one of Gauss and Seidel, and converges.
 const MOST_SWEEPS: usize = 1000;
+/// Sweeps after which forces go half the way only: where spheres begin or cease to slide, whole steps may take
+/// turns.
+const WHOLE_SWEEPS: usize = 64;
 /// Steps of the methods for one contact, at most. Where the spheres keep their states one step is exact.
 const MOST_STEPS: usize = 16;
+/// Turns of the direction in which friction acts where a slip begins, at most.
+const MOST_TURNS: usize = 64;
 /// Accelerations count as zero below this part of those at work: some roundings.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
@@ -65,7 +70,8 @@ pub(super) fn forces(
     forces: &mut [DVec3],
 ) -> Option<Vec<Response>> {
     let mut changed = 0.0;
-    for _ in 0..MOST_SWEEPS {
+    for sweep in 0..MOST_SWEEPS {
+        let part = if sweep < WHOLE_SWEEPS { 1.0 } else { 0.5 };
         let mut largest = 0.0_f64;
         changed = 0.0;
         for (number, contact) in contacts.iter().enumerate() {
@@ -76,9 +82,10 @@ pub(super) fn forces(
             let (first, second) = (contact.first.map(side), side(contact.second));
             let pair = Pair { contact, first, second };
             let force = pair.force(forces[number])?;
-            changed = f64::max(changed, (force - forces[number]).norm());
+            let change = force - forces[number];
+            changed = f64::max(changed, change.norm());
             largest = largest.max(force.norm());
-            forces[number] = force;
+            forces[number] = if part < 1.0 { forces[number] + part * change } else { force };
         }
         changed = if largest > 0.0 { changed / largest } else { 0.0 };
         let goes_on = work.spend(contacts.len() as u64);
@@ -199,20 +206,19 @@ impl Pair<'_> {
                 return Some(force);
             }
         }
-        // Friction acts against the slip that begins under it.
-        let mut along = normal;
-        let mut force = self.force_along(along, start)?;
-        for _ in 0..MOST_STEPS {
+        // Friction acts against the slip that begins under it: steps of the size that stops a slip.
+        let mut along = self.contact.across(known).normalize_or_zero();
+        let mut force = known;
+        for _ in 0..MOST_TURNS {
+            force = self.force_along(normal + friction * along, start)?;
             let slip = self.contact.across(self.rate(force));
-            if slip.norm() <= ROUNDING * self.scale() {
-                break;
-            }
-            let next = normal - friction * (slip / slip.norm());
-            if (next - along).norm() <= SETTLED {
-                break;
-            }
+            let wanted = self.contact.across(force) - self.slip_mass() * slip;
+            let next = wanted.normalize_or_zero();
+            let turned = next - along;
             along = next;
-            force = self.force_along(along, start)?;
+            if turned.norm() <= SETTLED {
+                break;
+            }
         }
         Some(force)
     }
@@ -258,6 +264,12 @@ impl Pair<'_> {
             sphere.acceleration.norm() + push.force.norm() / sphere.mass
         };
         self.sides().map(of).sum::<f64>() + self.contact.bias.norm()
+    }
+
+    /// The mass that a slip has to be stopped of, at least \[kg\]: that of spheres that are free to turn.
+    fn slip_mass(&self) -> f64 {
+        let mobility = |side: Side| (1.0 + 1.0 / side.sphere.inertia_factor) / side.sphere.mass;
+        1.0 / self.sides().map(mobility).sum::<f64>()
     }
 
     /// The mass that a force moves \[kg\].

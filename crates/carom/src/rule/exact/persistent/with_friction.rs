@@ -155,7 +155,7 @@ fn sets_that_push<'a>(
             None => {
                 let is_other = |plane: Touch| plane.bodies != touch.bodies;
                 let is_plane = || plane_of(context, &group.members[touch.second], touch).is_some();
-                bearing.flatten().is_some_and(is_other) && is_plane()
+                bearing.is_some_and(|plane| plane.is_none_or(is_other)) && is_plane()
             }
         }
     };
