@@ -14,6 +14,9 @@ const FRAMES: usize = 64;
 /// turns in a piece of path along a curve.
 const OPEN_ACCOUNT: f64 = 1e-6;
 
+/// That where surfaces move: nothing restores the energy of a piece of path then.
+const OPEN_ACCOUNT_OF_MOVERS: f64 = 1e-5;
+
 /// That of `contact`, besides what a field does in a sub-step to a sphere that meets several bodies in it: that moves by its
 /// last velocity, and its energy in the field is right in first order.
 const CONTACT_GAIN: f64 = 1e-3;
@@ -114,7 +117,9 @@ fn run(scene: &Scene, world: &mut World, frames: usize, before: Seen) -> Result<
         let rest = now - energy - account.total();
         let is_closed = keeps.account.is_none_or(|most| rest.abs() <= most * scale);
         law(in_zone || was_stepped || is_closed, || {
-            format!("has {rest:e} J too much for its account {account:?}, its energy being {scale:e} J, {at}")
+            format!(
+                "has {rest:e} J too much for its account {account:?}, its energy being {scale:e} J, {at}"
+            )
         })?;
         let gain = now - energy - account.correction.max(0.0);
         // A frame after one of stepped spheres may end what that began.
@@ -158,8 +163,9 @@ impl Keeps {
             && scene.springs.is_empty()
             && scene.forces.iter().all(is_constant);
         let keeps_energy = has_account && scene.emitters.is_empty();
+        let open = if is_driven { OPEN_ACCOUNT_OF_MOVERS } else { OPEN_ACCOUNT };
         Self {
-            account: (rule == Rule::Exact && has_account).then_some(OPEN_ACCOUNT),
+            account: (rule == Rule::Exact && has_account).then_some(open),
             gain: match rule {
                 Rule::Contact if is_kept && keeps_energy => Some(CONTACT_GAIN),
                 _ => None,

@@ -48,9 +48,9 @@ pub(super) fn find(
         let slots = || supports.iter().flat_map(|it| &it.members).map(|member| member.slot);
         group.members.iter().map(|member| slots().any(|slot| slot == member.slot)).collect()
     };
-    for place in 0..group.members.len() {
+    for (place, &is_pushed) in is_pushed.iter().enumerate() {
         let own: Vec<Touch> = pressing.iter().filter(|it| it.has(place)).copied().collect();
-        if own.is_empty() || is_pushed[place] {
+        if own.is_empty() || is_pushed {
             continue;
         }
         if is_one_curve(&own) {
