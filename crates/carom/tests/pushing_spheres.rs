@@ -32,43 +32,49 @@ fn deepest(world: &World, radius: f64) -> f64 {
     depths.fold(0.0, f64::max)
 }
 
-/// A ball that slides catches one that rolls from behind, at a size; the second is aside by `offset` radii.
-fn catching(size: f64, friction: f64, offset: f64) -> World {
+/// A ball catches one before it that turns like this \[rad/s\], at a size; the second is aside by `offset` radii.
+fn catching(size: f64, friction: f64, offset: f64, turning: f64) -> World {
     let rolling = Friction::sliding(0.2).with_rolling(0.01);
     let mut world = on_floor_under(vec(0.0, -9.81 * size, 0.0), rolling, 0.5);
+    world.set_settings(Settings::default()).unwrap();
     let radius = 0.028575 * size;
     let ball = |x: f64, z: f64, speed: f64| {
         Sphere::new(vec(x * size, radius, z * size), radius)
             .with_mass(0.17)
-            .with_restitution(0.95)
+            .with_restitution(if turning == 0.0 { 0.95 } else { 0.5 })
             .with_velocity(vec(speed * size, 0.0, 0.0))
             .with_friction(Friction::sliding(friction).with_rolling(0.01))
     };
     world.add_sphere(ball(0.0, 0.0, 1.0)).unwrap();
-    world.add_sphere(ball(2.0 * 0.028575 + 1e-4, offset * 0.028575, 0.99)).unwrap();
+    let before = ball(2.0 * 0.028575 + 1e-4, offset * 0.028575, 0.99);
+    world.add_sphere(before.with_angular_velocity(turning * DVec3::Z)).unwrap();
     world
 }
 
 #[test]
-fn a_ball_that_slides_into_one_that_rolls_does_not_chatter() {
-    for (friction, offset) in
-        [(0.0, 0.0), (0.05, 0.0), (0.2, 0.0), (0.0, 0.01), (0.05, 0.01), (0.2, 0.01)]
-    {
+fn a_ball_that_catches_another_one_does_not_chatter() {
+    let cases = [0.0, 0.05, 0.2].map(|friction| [0.0, 0.01].map(|offset| (friction, offset)));
+    // With backspin the one before is slower all the time, and presses on.
+    let cases = cases.into_iter().flatten().flat_map(|it| [0.0, 40.0].map(|spin| (it, spin)));
+    for ((friction, offset), turning) in cases {
+        let case = format!("friction {friction}, offset {offset}, spin {turning}");
         let run = |size: f64, rate: u32| {
-            let mut world = catching(size, friction, offset);
-            let mut impacts = 0;
+            let mut world = catching(size, friction, offset, turning);
+            let (mut impacts, mut pressed) = (0, false);
             for _ in 0..3 * rate / 2 {
                 impacts += world.step(1.0 / f64::from(rate)).unwrap().impacts.len();
+                pressed |= world.contacts().len() == 3;
                 let overlap = deepest(&world, 0.028575 * size);
-                assert!(overlap <= 1e-9, "overlap {overlap} at {} s", world.time());
+                assert!(overlap <= 1e-9, "overlap {overlap} at {} s, {case}", world.time());
             }
-            let case = format!("friction {friction}, offset {offset}, size {size}");
-            assert!(impacts < 100, "{impacts} impacts, {case}");
-            assert!(!world.was_stepped(), "{case}");
+            assert!(impacts < 100, "{impacts} impacts, {case}, size {size}");
+            assert_eq!(pressed, turning != 0.0 && friction > 0.0, "{case}, size {size}");
+            assert!(!world.was_stepped(), "{case}, size {size}");
             world.state_hash()
         };
+        // Frames that add up to the same times.
         for size in [1.0, 1e-6, 1e6] {
-            assert_eq!(run(size, 256), run(size, 16), "size {size}, friction {friction}");
+            assert_eq!(run(size, 256), run(size, 16), "size {size}, {case}");
         }
     }
 }
@@ -296,7 +302,7 @@ fn table(friction: f64) -> World {
 }
 
 #[test]
-fn a_break_takes_some_thousand_impacts_and_no_zone() {
+fn a_break_takes_some_hundred_impacts_and_no_zone() {
     for friction in [0.05, 0.3] {
         let mut world = table(friction);
         let (mut impacts, mut events) = (0, 0);
@@ -305,8 +311,8 @@ fn a_break_takes_some_thousand_impacts_and_no_zone() {
             impacts += report.impacts.len();
             events += report.work.events;
         }
-        assert!(impacts < 5000, "{impacts} impacts, friction {friction}");
-        assert!(events < 200_000, "{events} events, friction {friction}");
+        assert!(impacts < 1000, "{impacts} impacts, friction {friction}");
+        assert!(events < 20_000, "{events} events, friction {friction}");
         assert!(!world.was_stepped(), "friction {friction}");
     }
 }
