@@ -438,8 +438,9 @@ impl Engine {
     /// largest overlap; spheres asleep, and how often one was squeezed.
     #[pyo3(name = "_contact_account")]
     fn contact_account(&self, py: Python<'_>) -> PyResult<(u32, f64, f64, u32, u32)> {
-        let ContactAccount { limited_sub_steps, residual, largest_overlap, asleep, squeezed, .. } =
-            self.lock(py)?.world.report().contact_account;
+        let ContactAccount {
+            limited_sub_steps, residual, largest_overlap, asleep, squeezed, ..
+        } = self.lock(py)?.world.report().contact_account;
         Ok((limited_sub_steps, residual, largest_overlap, asleep, squeezed))
     }
 
