@@ -8,8 +8,8 @@ from typing import NamedTuple
 class EnergyAccount(NamedTuple):
     """What became of the energy of a world in a frame, under any rule.
 
-    ``World.total_energy()`` after the frame is that before it, the sum of these, and what is left: the
-    work of forces that have no potential, and the error of the integration.
+    The total energy after the frame is that before it, the sum of these, and what is left: the work
+    of forces that have no potential, and the error of the integration.
     """
 
     contacts: float

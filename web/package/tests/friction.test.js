@@ -57,7 +57,10 @@ test("contacts and the account tell of friction", () => {
   assert.ok(Math.abs(up) < 1e-12 && Math.abs(across) < 1e-12);
   const energies = world.energyAccount;
   assert.ok(energies.contacts < 0);
-  assert.deepEqual({ ...energies, contacts: 0 }, { contacts: 0, colliders: 0, correction: 0, emission: 0 });
+  assert.deepEqual(
+    { ...energies, contacts: 0 },
+    { contacts: 0, colliders: 0, correction: 0, emission: 0 },
+  );
   const account = world.contactAccount;
   assert.equal(account.asleep, 0);
   const { searches, sweeps, contacts } = world.work;

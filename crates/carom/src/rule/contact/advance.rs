@@ -86,7 +86,7 @@ fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) {
     }
 }
 
-/// Has spheres that an impact has made faster stay within their margins beside the common way \[m\], but for
+/// Keeps spheres that an impact has made faster within their margins beside the common way \[m\], but for
 /// those that are free, by slot.
 #[inline(always)]
 fn stay_within_margin<S: Simd>(

@@ -69,7 +69,7 @@ impl Timeline {
         !self.flights.rotations.is_empty()
     }
 
-    /// Gives the work that persistent contacts have done up to `time` \[s\] since it was taken last: that of
+    /// Returns the work that persistent contacts have done up to `time` \[s\] since it was taken last: that of
     /// friction and that of colliders that move \[J\].
     pub fn take_contact_work(&mut self, time: f64) -> [f64; 2] {
         self.flights.take_contact_work(time)

@@ -190,7 +190,7 @@ impl Flights {
         }
     }
 
-    /// Gives the work that persistent contacts have done up to `time` \[s\] since it was taken last: that of
+    /// Returns the work that persistent contacts have done up to `time` \[s\] since it was taken last: that of
     /// friction and that of colliders that move \[J\].
     pub fn take_contact_work(&mut self, time: f64) -> [f64; 2] {
         let members = self.clusters.iter().flat_map(|cluster| &cluster.members);
