@@ -219,8 +219,17 @@ export class Viewer {
 
   /** @returns {Promise<Widget[]>} what can be used and read now */
   async widgets() {
-    await this.redraw();
-    return this.page.evaluate(() => /** @type {any} */ (globalThis).carom.widgets());
+    const end = performance.now() + PATIENCE;
+    for (;;) {
+      await this.redraw();
+      const widgets = await this.page.evaluate(() =>
+        /** @type {any} */ (globalThis).carom.widgets(),
+      );
+      // There are none until a picture has been made since somebody asked first.
+      if (widgets.length > 0 || performance.now() > end) {
+        return widgets;
+      }
+    }
   }
 
   /**
