@@ -25,8 +25,9 @@ impl Escapes {
     pub fn look(&mut self, world: &World) {
         let inside: Vec<_> = world
             .colliders()
-            .filter(|(_, collider)| is_closed(collider))
-            .map(|(id, collider)| (id, inside(collider, world)))
+            .filter_map(|(id, collider)| {
+                Some((id, inside(collider, closed_size(collider)?, world)))
+            })
             .collect();
         for (container, before) in &self.inside {
             let Some((_, now)) = inside.iter().find(|(id, _)| id == container) else { continue };
@@ -55,15 +56,16 @@ impl Escapes {
     }
 }
 
-/// Whether a collider is a container that keeps in what is in it.
-fn is_closed(collider: &Collider) -> bool {
-    let Shape::Container { open, .. } = collider.shape else { return false };
-    open == Sides::NONE && !collider.trigger
+/// The size of a container that keeps in what is in it \[m\]; `None` for other colliders.
+fn closed_size(collider: &Collider) -> Option<DVec3> {
+    match collider.shape {
+        Shape::Container { size, open } if open == Sides::NONE && !collider.trigger => Some(size),
+        _ => None,
+    }
 }
 
-/// The balls with their centre in a container, ascending.
-fn inside(collider: &Collider, world: &World) -> Vec<SphereId> {
-    let Shape::Container { size, .. } = collider.shape else { return Vec::new() };
+/// The balls with their centre in a container of this size \[m\], ascending.
+fn inside(collider: &Collider, size: DVec3, world: &World) -> Vec<SphereId> {
     let to_local = collider.pose.rotation.normalize().inverse();
     let is_inside = |center: DVec3| {
         let local = to_local * (center - collider.pose.position);

@@ -234,7 +234,7 @@ struct Outputs {
 }
 
 impl Outputs {
-    /// Creates the files of a run of so many frames.
+    /// Creates the files of a run. `frames` is the number of its frames.
     fn create(args: &Run, replay: &Replay, frames: u64) -> Result<Self, Failure> {
         let files =
             [("--out", &args.out), ("--impacts", &args.impacts), ("--ledger", &args.ledger)];

@@ -24,32 +24,22 @@ pub enum NotText {
     },
 }
 
-/// What a kind of file begins with, from some byte on.
-struct Beginning {
-    offset: usize,
-    bytes: &'static [u8],
-    kind: &'static str,
-}
-
-const fn begins(offset: usize, bytes: &'static [u8], kind: &'static str) -> Beginning {
-    Beginning { offset, bytes, kind }
-}
-
-/// Kinds of files that people have beside their scenes. Where several fit, the first counts.
-const BEGINNINGS: [Beginning; 13] = [
-    begins(0, b"\x89PNG", "a PNG picture"),
-    begins(0, b"\xff\xd8\xff", "a JPEG picture"),
-    begins(0, b"GIF8", "a GIF picture"),
-    begins(8, b"WEBP", "a WebP picture"),
-    begins(4, b"ftyphei", "a HEIC picture"),
-    begins(4, b"ftypavif", "an AVIF picture"),
-    begins(4, b"ftyp", "a film (MP4)"),
-    begins(0, b"II*\0", "a TIFF picture"),
-    begins(0, b"MM\0*", "a TIFF picture"),
-    begins(0, b"%PDF-", "a PDF document"),
-    begins(0, b"PK\x03\x04", "a ZIP archive (.npz is one)"),
-    begins(0, b"\x1f\x8b", "a compressed file (gzip)"),
-    begins(0, b"glTF", "an animation or a scene in glTF (.glb)"),
+/// Kinds of files that people have beside their scenes: from which byte on, by which bytes, and their names. Where
+/// several fit, the first counts.
+const BEGINNINGS: [(usize, &[u8], &str); 13] = [
+    (0, b"\x89PNG", "a PNG picture"),
+    (0, b"\xff\xd8\xff", "a JPEG picture"),
+    (0, b"GIF8", "a GIF picture"),
+    (8, b"WEBP", "a WebP picture"),
+    (4, b"ftyphei", "a HEIC picture"),
+    (4, b"ftypavif", "an AVIF picture"),
+    (4, b"ftyp", "a film (MP4)"),
+    (0, b"II*\0", "a TIFF picture"),
+    (0, b"MM\0*", "a TIFF picture"),
+    (0, b"%PDF-", "a PDF document"),
+    (0, b"PK\x03\x04", "a ZIP archive (.npz is one)"),
+    (0, b"\x1f\x8b", "a compressed file (gzip)"),
+    (0, b"glTF", "an animation or a scene in glTF (.glb)"),
 ];
 
 /// The kind of a file that is not text, by what it begins with.
@@ -57,10 +47,10 @@ fn kind_of(bytes: &[u8]) -> Option<NotText> {
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
         return Some(NotText::Utf16);
     }
-    let begins =
-        |it: &&Beginning| bytes.get(it.offset..).is_some_and(|rest| rest.starts_with(it.bytes));
-    let found = BEGINNINGS.iter().find(begins);
-    found.map(|it| NotText::OfKind { kind: it.kind })
+    let begins = |&&(offset, start, _): &&(usize, &[u8], &str)| {
+        bytes.get(offset..).is_some_and(|rest| rest.starts_with(start))
+    };
+    BEGINNINGS.iter().find(begins).map(|&(_, _, kind)| NotText::OfKind { kind })
 }
 
 /// Takes the bytes of a file for text in UTF-8.

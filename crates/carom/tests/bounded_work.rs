@@ -15,7 +15,7 @@ fn rules() -> [Rule; 4] {
     [Exact::default().into(), Contact::default().into(), bisect(), discrete()]
 }
 
-/// The work of so many frames: events and solver iterations under `exact`, sweeps over contacts, and tests of
+/// The work of a number of frames: events and solver iterations under `exact`, sweeps over contacts, and tests of
 /// pairs.
 fn work_of(world: &mut World, frames: usize) -> u64 {
     let mut done = 0;

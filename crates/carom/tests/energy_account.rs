@@ -34,7 +34,7 @@ fn at_origin(shape: Shape) -> Collider {
     Collider::new(shape, Pose::at(DVec3::ZERO))
 }
 
-/// The accounts of so many frames together, and what is left of the change of energy.
+/// Runs a number of frames. Returns the sum of their accounts, and what is left of the change of energy.
 fn run(world: &mut World, frames: usize, dt: f64) -> (EnergyAccount, f64) {
     let before = world.total_energy();
     let mut sum = EnergyAccount::default();

@@ -1,6 +1,6 @@
 //! Laws that need no reference: results do not depend on the unit of length, on who looks on, on the length of
-//! frames, or on which side a mirror shows. What they have caught: lengths written down in metres, meetings
-//! that were predicted anew at the start of frames, and impacts of one instant answered one after the other.
+//! frames, or on which side a mirror shows. Such laws find lengths that are written down in metres, predictions
+//! that begin with a frame, and impacts of one instant that are answered one after the other.
 
 mod common;
 

@@ -1,12 +1,13 @@
 //! Impacts as CSV: one row per impact.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use carom::{BodyPair, Impact};
 
-use super::error::{RecordingError, unwritable};
-use super::table_file::{TableFile, digits, headed};
+use super::error::RecordingError;
+use super::headed_table::HeadedTable;
+use super::table_file::digits;
 
 /// Columns: time \[s\]; kind and number of body 1 (`sphere` or `collider`) and number of body 2, a
 /// sphere; point \[m\]; normal from 1 to 2; approach speed \[m/s\]; impulse along the normal, and of friction
@@ -31,10 +32,7 @@ pub(super) const HEADER: [&str; 15] = [
 
 /// Writes impacts to a CSV file.
 #[derive(Debug)]
-pub struct ImpactTable {
-    path: PathBuf,
-    writer: csv::Writer<TableFile>,
-}
+pub struct ImpactTable(HeadedTable);
 
 impl ImpactTable {
     /// Creates the file.
@@ -42,8 +40,7 @@ impl ImpactTable {
     /// # Errors
     /// For a place that cannot be written to.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
-        let file = TableFile::create(path).map_err(|source| unwritable(path, source))?;
-        Self::of(file, path)
+        HeadedTable::create(path, &HEADER).map(Self)
     }
 
     /// Writes CSV to `out`, which errors call `name`.
@@ -51,12 +48,7 @@ impl ImpactTable {
     /// # Errors
     /// If it takes nothing.
     pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Result<Self, RecordingError> {
-        Self::of(TableFile::new(Box::new(out)), Path::new(name))
-    }
-
-    fn of(file: TableFile, path: &Path) -> Result<Self, RecordingError> {
-        let writer = headed(file, &HEADER).map_err(|source| unwritable(path, source))?;
-        Ok(Self { path: path.to_owned(), writer })
+        HeadedTable::new(out, name, &HEADER).map(Self)
     }
 
     /// Writes the impacts of a step that started at `start` \[s\].
@@ -64,21 +56,8 @@ impl ImpactTable {
     /// # Errors
     /// If the disk is full or gone.
     pub fn write(&mut self, start: f64, impacts: &[Impact]) -> Result<(), RecordingError> {
-        let result = impacts.iter().try_for_each(|impact| self.write_row(start, impact));
-        let result = result.and_then(|()| self.flush(!impacts.is_empty()));
-        result.map_err(|source| unwritable(&self.path, source))
-    }
-
-    fn flush(&mut self, has_rows: bool) -> io::Result<()> {
-        if has_rows { self.writer.flush() } else { Ok(()) }
-    }
-
-    fn write_row(&mut self, start: f64, impact: &Impact) -> io::Result<()> {
-        let fields = impact_fields(start, impact);
-        let along_normal = [impact.approach_speed, impact.impulse];
-        let numbers = along_normal.into_iter().chain(impact.tangential_impulse.to_array());
-        self.writer.write_record(fields.into_iter().chain(numbers.map(digits)))?;
-        Ok(())
+        impacts.iter().try_for_each(|impact| self.0.write(fields(start, impact)))?;
+        if impacts.is_empty() { Ok(()) } else { self.0.flush() }
     }
 
     /// Completes the file.
@@ -86,8 +65,15 @@ impl ImpactTable {
     /// # Errors
     /// If the disk is full or gone.
     pub fn finish(mut self) -> Result<(), RecordingError> {
-        self.writer.flush().map_err(|source| unwritable(&self.path, source))
+        self.0.flush()
     }
+}
+
+fn fields(start: f64, impact: &Impact) -> Vec<String> {
+    let mut fields = impact_fields(start, impact);
+    fields.extend([impact.approach_speed, impact.impulse].map(digits));
+    fields.extend(impact.tangential_impulse.to_array().map(digits));
+    fields
 }
 
 /// The bodies of an impact, when and where: the first columns of a row, as in [`HEADER`].

@@ -1,13 +1,14 @@
 //! The ledger as CSV: one row per impact, with the account of the group it was answered in.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use carom::{LedgerEntry, StepReport};
 
-use super::error::{RecordingError, unwritable};
+use super::error::RecordingError;
+use super::headed_table::HeadedTable;
 use super::impacts::impact_fields;
-use super::table_file::{TableFile, digits, headed};
+use super::table_file::digits;
 
 /// Columns: those of the impacts up to the normal; speeds of approach and separation \[m/s\] and
 /// impulse \[N s\]; that of friction \[N s\]; the law, the number of the group in the run and how many impacts it has; momentum
@@ -47,8 +48,7 @@ pub(super) const HEADER: [&str; 28] = [
 /// Writes the ledger of a run to a CSV file.
 #[derive(Debug)]
 pub struct LedgerTable {
-    path: PathBuf,
-    writer: csv::Writer<TableFile>,
+    table: HeadedTable,
     /// Groups of the steps written so far.
     groups: usize,
 }
@@ -59,8 +59,7 @@ impl LedgerTable {
     /// # Errors
     /// For a place that cannot be written to.
     pub fn create(path: &Path) -> Result<Self, RecordingError> {
-        let file = TableFile::create(path).map_err(|source| unwritable(path, source))?;
-        Self::of(file, path)
+        Ok(Self { table: HeadedTable::create(path, &HEADER)?, groups: 0 })
     }
 
     /// Writes CSV to `out`, which errors call `name`.
@@ -68,12 +67,7 @@ impl LedgerTable {
     /// # Errors
     /// If it takes nothing.
     pub fn csv(out: impl io::Write + Send + 'static, name: &str) -> Result<Self, RecordingError> {
-        Self::of(TableFile::new(Box::new(out)), Path::new(name))
-    }
-
-    fn of(file: TableFile, path: &Path) -> Result<Self, RecordingError> {
-        let writer = headed(file, &HEADER).map_err(|source| unwritable(path, source))?;
-        Ok(Self { path: path.to_owned(), writer, groups: 0 })
+        Ok(Self { table: HeadedTable::new(out, name, &HEADER)?, groups: 0 })
     }
 
     /// Writes the impacts of a step that started at `start` \[s\].
@@ -84,15 +78,10 @@ impl LedgerTable {
         for entry in report.ledger() {
             let group =
                 self.groups + report.groups.partition_point(|it| it.first < entry.group.first);
-            let fields = fields(start, entry, group);
-            let written = self.writer.write_record(fields).map_err(io::Error::from);
-            written.map_err(|source| unwritable(&self.path, source))?;
+            self.table.write(fields(start, entry, group))?;
         }
         self.groups += report.groups.len();
-        if report.groups.is_empty() {
-            return Ok(());
-        }
-        self.writer.flush().map_err(|source| unwritable(&self.path, source))
+        if report.groups.is_empty() { Ok(()) } else { self.table.flush() }
     }
 
     /// Completes the file.
@@ -100,7 +89,7 @@ impl LedgerTable {
     /// # Errors
     /// If the disk is full or gone.
     pub fn finish(mut self) -> Result<(), RecordingError> {
-        self.writer.flush().map_err(|source| unwritable(&self.path, source))
+        self.table.flush()
     }
 }
 

@@ -7,6 +7,7 @@ mod each_second;
 mod error;
 mod failing_once;
 mod format;
+mod headed_table;
 mod impacts;
 mod ledger;
 mod npz;

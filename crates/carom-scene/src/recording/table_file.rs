@@ -85,14 +85,6 @@ impl Write for TableFile {
     }
 }
 
-/// Writes CSV with this header to a file.
-pub(super) fn headed(file: TableFile, header: &[&str]) -> io::Result<csv::Writer<TableFile>> {
-    let mut writer = csv::Writer::from_writer(file);
-    writer.write_record(header)?;
-    writer.flush()?;
-    Ok(writer)
-}
-
 /// A number with 17 significant digits: as many as tell any two doubles apart.
 pub(super) fn digits(value: f64) -> String {
     format!("{value:.16e}")

@@ -325,8 +325,9 @@ impl ArrangementDue {
     }
 }
 
-/// Arranges the spheres anew after the event at `now` \[s\] that makes it due: whatever the frames, for meetings
-/// that were passed over are predicted once more.
+/// Arranges the spheres and predicts all their events, at `now` \[s\]. This is done right after the event that
+/// makes it due, not at the start of a frame: it predicts meetings again that were passed over, so results would
+/// depend on the frames.
 #[cold]
 #[inline(never)]
 pub(super) fn arrange_anew(timeline: &mut Timeline, system: &System, now: f64) {

@@ -171,22 +171,21 @@ impl Flights {
     /// Counts the work of the persistent contacts of a sphere in its flight up to `time` \[s\], where that
     /// flight ends. Their force is constant over it.
     pub fn count_contact_work(&mut self, slot: u32, time: f64) {
-        let species = self.species_of(slot);
-        if species.contact_work == ContactWork::None {
-            return;
-        }
+        let species = *self.species_of(slot);
         let from = self.bodies[slot as usize].time.max(self.contact_work.until);
-        let change = species.acceleration - self.free_species_of(slot).acceleration;
-        let way = self.state_of(slot, time).0 - self.state_of(slot, from).0;
-        let along_way = species.mass * change.dot(way);
+        let along_way = || {
+            let change = species.acceleration - self.free_species_of(slot).acceleration;
+            let way = self.state_of(slot, time).0 - self.state_of(slot, from).0;
+            species.mass * change.dot(way)
+        };
         match species.contact_work {
             ContactWork::None => {}
             ContactWork::Friction { moment } => {
                 let [before, after] = [from, time].map(|at| self.angular_velocity_of(slot, at));
                 let turning = 0.5 * moment * (after - before).dot(after + before);
-                self.contact_work.friction += along_way + turning;
+                self.contact_work.friction += along_way() + turning;
             }
-            ContactWork::Colliders => self.contact_work.colliders += along_way,
+            ContactWork::Colliders => self.contact_work.colliders += along_way(),
         }
     }
 
