@@ -8,16 +8,21 @@
 Right-handed frame, y up, SI units, float64. The same input gives the same bits on every machine.
 """
 
+import importlib.metadata as _metadata
 from typing import TYPE_CHECKING
 
-from carom import _gymnasium, analysis
-from carom._batch import Batch
+from carom import _gymnasium, _show, analysis
 from carom._carom import Snapshot
-from carom._contact_account import ContactAccount
-from carom._energy_account import EnergyAccount
-from carom._film import Film
-from carom._library import Listed, load, scene, scenes
-from carom._parts import (
+from carom._pictures.film import Film
+from carom._pictures.picture import Renderer
+from carom._run.batch import Batch
+from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
+from carom._run.tables import CONTACT, IMPACT, LEDGER, OVERLAP, TRIGGER
+from carom._run.trajectory import Trajectory
+from carom._run.world import World
+from carom._scene.above import above
+from carom._scene.library import Listed, load, scene, scenes
+from carom._scene.parts import (
     Ball,
     Bisect,
     Box,
@@ -58,15 +63,10 @@ from carom._parts import (
     Vortex,
     Wind,
 )
-from carom._pictures import Renderer, Viewpoint
-from carom._points import Points
-from carom._scene import Scene
-from carom._stage_counts import StageCounts
+from carom._scene.points import Points
+from carom._scene.scene import Scene
+from carom._scene.view import Viewpoint
 from carom._sweep import Failure, Runs, sweep
-from carom._tables import CONTACT, IMPACT, LEDGER, OVERLAP, TRIGGER
-from carom._trajectory import Trajectory
-from carom._world import World
-from carom._zone_account import ZoneAccount
 from carom.errors import (
     CaromError,
     GraphicsError,
@@ -153,6 +153,7 @@ __all__ = [
     "sweep",
 ]
 
+above.notebook = _show
 _gymnasium.register_with_gymnasium()
 
 if TYPE_CHECKING:
@@ -163,7 +164,5 @@ else:
         """The version, when it is first read: to look for it takes a few milliseconds."""
         if name != "__version__":
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        from importlib.metadata import version
-
-        globals()[name] = version("carom")
+        globals()[name] = _metadata.version("carom")
         return globals()[name]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from carom._carom import run_command
-from carom._library import registered_texts
+from carom._scene.library import registered_texts
 from carom.errors import CaromError
 
 

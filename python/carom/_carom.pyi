@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
-from carom._parts import Finish
-from carom._pictures import View
-from carom._trajectory import RunRecord, Selection
+from carom._run.trajectory import RunRecord, Selection
+from carom._scene.parts import Finish
+from carom._scene.view import View
 
 __all__ = [
     "HAS_WINDOW",

@@ -33,7 +33,7 @@ def test_an_example_runs_by_itself(
     for module in NEEDED:
         if module in block:
             pytest.importorskip(module)
-    monkeypatch.setattr(carom._library, "_registered", {})
+    monkeypatch.setattr(carom._scene.library, "_registered", {})
     # For the files that it writes.
     monkeypatch.chdir(tmp_path)
     text = file.read_text(encoding="utf-8")

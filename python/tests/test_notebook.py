@@ -15,11 +15,12 @@ from nbclient import NotebookClient
 from nbconvert import HTMLExporter
 
 import carom
-from carom import _built as built
-from carom import _pictures as pictures
-from carom._stage import Stage
-from carom._still import Still
+from carom._pictures.picture import painter_of
+from carom._pictures.stage import Stage
+from carom._pictures.still import Still
+from carom._scene.view import View
 from carom.notebook import AnimatedTrajectory, Viewer
+from carom.notebook import _built as built
 
 NOTEBOOK = Path(__file__).parents[2] / "docs" / "notebook.ipynb"
 WIDGET = "application/vnd.jupyter.widget-view+json"
@@ -218,14 +219,14 @@ def test_a_player_draws_states_as_they_are_drawn_when_they_come(name: str) -> No
     player._hear(player, {"state": 40}, [])
     [(message, [picture])] = sent
     assert message == {"state": 40}
-    view = pictures.View.of((640, 360), "scene", "good", stamp=True)
-    assert picture == pictures._painter(scene.world(), view).png(world)
+    view = View.of((640, 360), "scene", "good", stamp=True)
+    assert picture == painter_of(scene.world(), view).png(world)
 
 
 def test_a_player_without_a_scene_looks_at_where_the_spheres_go() -> None:
     # The first of them come after a while.
     run = carom.load("simtest1").run(seconds=2.5)
-    stage = Stage(run, None, pictures.View.of((160, 90), "scene", "good", stamp=False))
+    stage = Stage(run, None, View.of((160, 90), "scene", "good", stamp=False))
     empty = stage._painter.paint(stage._empty.world()).astype(int)
     seen = (
         abs(stage._painter.paint(stage._world(len(run) - 1)).astype(int) - empty).max(axis=2) > 30

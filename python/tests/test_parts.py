@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 import carom
-from carom import _checks, _parts, _text
+from carom._scene import parts, text
+from carom._scene.checks import checks_of
 
 NAN, INF = float("nan"), float("inf")
 BALL = carom.Sphere(radius=1)
@@ -284,19 +285,19 @@ def test_what_the_engine_holds_is_read_though_it_could_not_be_made_here() -> Non
 
 def test_a_field_that_the_engine_has_and_no_part_knows_is_told() -> None:
     with pytest.raises(TypeError, match=r"carom\.Gravity has no field pull"):
-        _text.part_of("forces", {"gravity": {"acceleration": [0, -1, 0], "pull": 1}})
+        text.part_of("forces", {"gravity": {"acceleration": [0, -1, 0], "pull": 1}})
 
 
 KINDS: list[Any] = [
     it
-    for it in [*vars(_parts).values(), carom.Scene]
-    if isinstance(it, type) and issubclass(it, _parts.Part) and it is not _parts.Part
+    for it in [*vars(parts).values(), carom.Scene]
+    if isinstance(it, type) and issubclass(it, parts.Part) and it is not parts.Part
 ]
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_field_of_a_part_is_checked_and_its_default_is_sound(kind: Any) -> None:
-    checks = _checks.checks_of(kind)
+    checks = checks_of(kind)
     assert [it.name for it in checks] == [it.name for it in fields(kind)]
     for check in checks:
         with pytest.raises(TypeError, match=rf"^{kind.__name__}\.{check.name}: must be "):

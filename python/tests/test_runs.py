@@ -10,8 +10,8 @@ from interrupts import ctrl_c
 from numpy.lib.format import open_memmap
 
 import carom
-from carom import _recording
-from carom._recording import Out
+from carom._run import recording
+from carom._run.recording import Out
 
 
 @pytest.mark.parametrize("name", ["simtest1", "simtest4", "tutorial4"])
@@ -208,7 +208,7 @@ def test_a_run_is_recorded_into_arrays_of_a_file(tmp_path: Path) -> None:
 def test_many_blocks_are_one_run(monkeypatch: pytest.MonkeyPatch) -> None:
     world = carom.load("cradle").world()
     whole = carom.load("cradle").run(frames=20, every=3)
-    monkeypatch.setattr(_recording, "_BLOCK_BYTES", 1)
+    monkeypatch.setattr(recording, "_BLOCK_BYTES", 1)
     positions = np.empty_like(whole.positions)
     run = world.run(frames=20, every=3, out={"positions": positions})
     assert (positions == whole.positions).all()

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 import carom
-from carom import _library
+from carom._scene import library
 
 
 @pytest.fixture(autouse=True)
 def only_own_scenes(monkeypatch: pytest.MonkeyPatch) -> None:
     """What a test registers is gone after it."""
-    monkeypatch.setattr(_library, "_registered", {})
+    monkeypatch.setattr(library, "_registered", {})
     monkeypatch.delenv("CAROM_SCENES", raising=False)
 
 

@@ -171,7 +171,7 @@ def test_parameters_go_to_what_takes_them() -> None:
 
 
 def test_registered_scenes_run_on_workers(client: Client, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(carom._library, "_registered", {})
+    monkeypatch.setattr(carom._scene.library, "_registered", {})
 
     @carom.scene("drop")
     def drop(height: float = 1.0) -> carom.Scene:

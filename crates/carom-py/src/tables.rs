@@ -1,6 +1,6 @@
 //! What happened, as tables of 64-bit words: many rows reach NumPy without an object each.
 //!
-//! NumPy sees the words as records; their fields stand in `python/carom/_tables.py`, in the order in
+//! NumPy sees the words as records; their fields stand in `python/carom/_run/tables.py`, in the order in
 //! which they are written here.
 
 use std::collections::TryReserveError;

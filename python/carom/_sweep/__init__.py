@@ -11,8 +11,8 @@ from contextlib import AbstractContextManager, ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from carom._library import find
-from carom._scene import Scene
+from carom._scene.library import find
+from carom._scene.scene import Scene
 from carom._sweep.cluster import check_client, performing
 from carom._sweep.experiment import (
     Experiment,

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from carom._parts import RandomFill
-from carom._scene import Scene
+from carom._scene.parts import RandomFill
+from carom._scene.scene import Scene
 from carom.errors import CaromError
 
 Maker: TypeAlias = Callable[..., Scene]

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from carom._scene.text import toml_value
 from carom._sweep.experiment import SEED, Run
-from carom._text import toml_value
 from carom.errors import CaromError
 
 REPEAT, SAMPLE = "repeat", "sample"

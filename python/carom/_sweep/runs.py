@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom._scene import Scene
+from carom._scene.scene import Scene
 from carom._sweep.experiment import SEED, Experiment, Measured
 from carom._sweep.plan import REPEAT, SAMPLE, Plan
 from carom.errors import CaromError

@@ -14,11 +14,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom._scene import Scene
+from carom._scene.scene import Scene
+from carom._scene.text import toml_of
 from carom._sweep.experiment import Measured, Run
 from carom._sweep.fingerprint import fingerprint_of, tells_of_change
 from carom._sweep.plan import canonical_text
-from carom._text import toml_of
 from carom.errors import CaromError
 
 _APPLICATION = 0x4361_726F

@@ -9,8 +9,8 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom._parts import Periodic
-from carom._trajectory import Trajectory
+from carom._run.trajectory import Trajectory
+from carom._scene.parts import Periodic
 from carom.errors import CaromError
 
 Floats = NDArray[np.float64]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom._trajectory import Trajectory
+from carom._run.trajectory import Trajectory
 from carom.analysis import _arguments as arguments
 from carom.errors import CaromError
 

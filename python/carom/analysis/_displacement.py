@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom._trajectory import Trajectory
+from carom._run.trajectory import Trajectory
 from carom.analysis import _arguments as arguments
 from carom.analysis._arguments import Floats
 from carom.analysis._lags import blocks, correlate

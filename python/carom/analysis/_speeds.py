@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom._trajectory import Trajectory
+from carom._run.trajectory import Trajectory
 from carom.analysis import _arguments as arguments
 from carom.analysis._arguments import Floats
 

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom._carom import MazeEpisodes
-from carom._pictures import Renderer
-from carom._scene import Scene
-from carom._world import World
+from carom._pictures.picture import Renderer
+from carom._run.world import World
+from carom._scene.scene import Scene
 
 SIZE = (640, 480)
 """Width and height [pixels]."""

@@ -8,7 +8,7 @@ from typing import Any
 
 import traitlets
 
-from carom._stage import Stage
+from carom._pictures.stage import Stage
 from carom.errors import CaromError
 from carom.notebook._shown import Shown
 

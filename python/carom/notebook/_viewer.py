@@ -10,13 +10,14 @@ from urllib.parse import quote
 
 import traitlets
 
-from carom import _parts as parts
-from carom import _pictures as pictures
-from carom._built import built_interface
-from carom._scene import Scene, scene_of
-from carom._text import toml_value
-from carom._world import World
+from carom._pictures.picture import notebook_picture
+from carom._run.methods import scene_of
+from carom._run.world import World
+from carom._scene import parts
+from carom._scene.scene import Scene
+from carom._scene.text import toml_value
 from carom.errors import CaromError
+from carom.notebook._built import built_interface
 from carom.notebook._shown import Shown, checked_height
 
 _LARGEST = 16 * 2**20
@@ -82,7 +83,7 @@ class Viewer(Shown):
             link=_link(self._given),
             height=checked_height(height),
             _version=self._interface.version,
-            _picture=pictures.notebook_picture(scene) or b"",
+            _picture=notebook_picture(scene) or b"",
         )
         self.on_msg(self._hear)
 

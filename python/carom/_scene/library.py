@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from carom._carom import find_scene, list_scenes
-from carom._scene import NO_CHANGES, Scene, overrides
-from carom._text import fields_of
+from carom._scene.scene import NO_CHANGES, Scene, overrides
+from carom._scene.text import fields_of
 from carom.errors import CaromError, UnknownError
 
 _Maker = TypeVar("_Maker", bound=Callable[..., Scene])

@@ -4,46 +4,37 @@ from __future__ import annotations
 
 import copy
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from carom import _parts as parts
-from carom import _pictures as pictures
-from carom import _tables as tables
-from carom._carom import Engine, Snapshot
-from carom._contact_account import ContactAccount
-from carom._energy_account import EnergyAccount
-from carom._functions import ForceFunction, Functions
-from carom._points import Points
-from carom._recording import Out, check_choice, check_rhythm, run_into
-from carom._stage_counts import StageCounts
-from carom._strict import Strict
-from carom._text import read_part, read_parts, toml_of, toml_value
-from carom._trajectory import Recorded, Selection, Trajectory
-from carom._zone_account import ZoneAccount
-from carom.errors import CaromError, UnknownError
+from carom._carom import Snapshot
+from carom._run import tables
+from carom._run.bodies import Bodies
+from carom._run.functions import Functions
+from carom._run.recording import Out, check_choice, check_rhythm, run_into
+from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
+from carom._run.strict import Strict
+from carom._run.trajectory import Recorded, Selection, Trajectory
+from carom._scene import parts
+from carom._scene.above import above
+from carom._scene.points import Points
+from carom._scene.scene import Scene
+from carom._scene.text import read_part, read_parts, toml_of, toml_value
+from carom._scene.view import SIZE, Quality, Size, View, Viewpoint
+from carom.errors import CaromError
 
 if TYPE_CHECKING:
-    from typing_extensions import Never, TypeIs
+    from typing_extensions import Never
 
-    from carom._scene import Scene
-    from carom._still import Still
-    from carom.notebook import Viewer
+    from carom._scene.above import Still, Viewer
 
 
-def _are_spheres(
-    given: ArrayLike | Sequence[parts.Sphere],
-) -> TypeIs[Sequence[parts.Sphere]]:
-    """Whether these are spheres, and not their centres."""
-    if isinstance(given, Points):
-        return True
-    if not isinstance(given, Sequence) or isinstance(given, (str, bytes)):
-        return False
-    return len(given) > 0 and all(isinstance(it, parts.Sphere) for it in given)
+ForceFunction: TypeAlias = Callable[["World"], ArrayLike]
+"""Takes a world, and returns the force on each of its spheres [N], spread to shape (n, 3)."""
 
 
 def _restored(kind: type[World], snapshot: Snapshot) -> World:
@@ -53,7 +44,7 @@ def _restored(kind: type[World], snapshot: Snapshot) -> World:
     return world
 
 
-class World(Strict, Engine):
+class World(Strict, Bodies):
     """Spheres that move.
 
     A world is made from a scene, and then has a life of its own. Arrays of spheres (``positions``,
@@ -96,8 +87,6 @@ class World(Strict, Engine):
 
     def __new__(cls, scene: Scene | None = None) -> World:
         """Makes the world of a scene."""
-        from carom._scene import Scene
-
         if scene is None:
             scene = Scene(name="world")
         if not isinstance(scene, Scene):
@@ -209,7 +198,11 @@ class World(Strict, Engine):
         if out is not None:
             if quantities is not None or dtype is not None:
                 raise TypeError("out: goes without quantities and dtype, for it says both")
-            return run_into(self, out, frames, dt, every, has_impacts)
+
+            def take(frames: int, selection: Selection) -> Trajectory:
+                return self._run(frames, dt, every, selection)
+
+            return run_into(self, take, out, frames, every, has_impacts)
         kind = np.dtype(np.float64 if dtype is None else dtype)
         if kind not in (np.float64, np.float32):
             raise CaromError(f"dtype: must be float64 or float32, not {kind}", "dtype")
@@ -290,162 +283,7 @@ class World(Strict, Engine):
         """
         return tables.records(self._contact_words(), tables.CONTACT)
 
-    # Spheres
-
-    def add_sphere(self, sphere: parts.Sphere) -> int:
-        """Adds a sphere, which may overlap others, and returns its id.
-
-        Raises:
-            SceneError: For a number that makes no sense.
-        """
-        parts.expect("sphere", sphere, parts.Sphere)
-        text = f"spheres = [{toml_value(sphere, 'sphere')}]"
-        return int(self._add_described_spheres(text, True)[0])
-
-    def add_spheres(
-        self,
-        positions: ArrayLike | Sequence[parts.Sphere],
-        radii: ArrayLike | None = None,
-        *,
-        velocities: ArrayLike | None = None,
-        masses: ArrayLike | None = None,
-        densities: ArrayLike | None = None,
-        restitutions: ArrayLike | None = None,
-        orientations: ArrayLike | None = None,
-        angular_velocities: ArrayLike | None = None,
-        inertia_factors: ArrayLike | None = None,
-        frictions: ArrayLike | None = None,
-        rolling_frictions: ArrayLike | None = None,
-        spinning_frictions: ArrayLike | None = None,
-        tangential_restitutions: ArrayLike | None = None,
-        overlap: Literal["allow", "raise"] = "allow",
-    ) -> NDArray[np.uint64]:
-        """Adds n spheres, and returns their ids, shape (n,).
-
-        Args:
-            positions: Centres [m], shape (n, 3); or the spheres themselves, without anything else.
-            radii: Radii [m], > 0, spread to shape (n,).
-            velocities: Velocities [m/s], spread to shape (n, 3).
-            masses: Masses [kg], > 0, spread to shape (n,); 1 unless these or ``densities`` are
-                given.
-            densities: Densities [kg/m³], > 0, spread to shape (n,), instead of masses.
-            restitutions: Coefficients of restitution in [0, 1], spread to shape (n,).
-            orientations: How they are turned, quaternions x, y, z, w of any length but zero, spread
-                to shape (n, 4); not turned unless given.
-            angular_velocities: Angular velocities, along the axes [rad/s], spread to shape (n, 3);
-                they do not turn unless given.
-            inertia_factors: Moments of inertia divided by m r², > 0, spread to shape (n,); 0.4,
-                those of solid balls, unless given.
-            frictions: Coefficients of friction, >= 0, spread to shape (n,), nan for spheres that
-                say nothing of it, as all do unless given: then what they touch decides.
-            rolling_frictions: Coefficients of rolling friction, as ``frictions``.
-            spinning_frictions: Coefficients of spinning friction, as ``frictions``.
-            tangential_restitutions: Coefficients of tangential restitution in [0, 1], as
-                ``frictions``.
-            overlap: ``"raise"`` refuses spheres that overlap each other, or what is there.
-
-        Raises:
-            CaromError: For shapes that do not fit, and numbers that make no sense, by the number of
-                the sphere; then no sphere is added.
-            TypeError: For arrays that are not of numbers.
-
-        >>> import carom
-        >>> world = carom.World()
-        >>> world.add_spheres([(0, 0, 0), (3, 0, 0)], radii=[1.0, 0.5])
-        array([0, 1], dtype=uint64)
-        """
-        if overlap not in ("allow", "raise"):
-            raise CaromError(f"overlap: must be 'allow' or 'raise', not {overlap!r}", "overlap")
-        may_overlap = overlap == "allow"
-        given = {
-            "radii": radii,
-            "velocities": velocities,
-            "masses": masses,
-            "densities": densities,
-            "restitutions": restitutions,
-            "orientations": orientations,
-            "angular_velocities": angular_velocities,
-            "inertia_factors": inertia_factors,
-            "frictions": frictions,
-            "rolling_frictions": rolling_frictions,
-            "spinning_frictions": spinning_frictions,
-            "tangential_restitutions": tangential_restitutions,
-        }
-        named = {name: values for name, values in given.items() if values is not None}
-        if _are_spheres(positions):
-            if named:
-                raise TypeError(f"{next(iter(named))}: spheres have their own")
-            if isinstance(positions, Points):
-                return self._add_spheres(positions._given(), may_overlap)
-            texts = [toml_value(it, f"spheres[{number}]") for number, it in enumerate(positions)]
-            return self._add_described_spheres(f"spheres = [{', '.join(texts)}]", may_overlap)
-        if radii is None:
-            if np.shape(positions) == (0,):
-                return np.empty(0, np.uint64)
-            raise TypeError("radii: must be given")
-        return self._add_spheres(Points(positions, **named)._given(), may_overlap)  # type: ignore[arg-type]
-
-    def remove_spheres(self, ids: ArrayLike) -> None:
-        """Takes spheres out of the world. Those after them move up in the arrays.
-
-        Args:
-            ids: Their ids; or n truth values that mark them.
-
-        Raises:
-            UnknownError: If one of them is not in the world (any more); then none is taken out.
-            TypeError: For what are neither ids nor truth values.
-
-        >>> import carom
-        >>> world = carom.load("tutorial4").world()
-        >>> world.remove_spheres(world.positions[:, 1] > 6)
-        >>> bool((world.positions[:, 1] <= 6).all())
-        True
-        """
-        given = np.asarray(ids)
-        if given.dtype == bool:
-            if given.shape != (len(self),):
-                problem = f"must be {len(self)} truth values, not of shape {given.shape}"
-                raise CaromError(f"ids: {problem}", "ids")
-            given = self.ids[given]
-        if given.size and given.dtype.kind not in "iu":
-            raise TypeError(f"ids: must be whole numbers or truth values, not {given.dtype}")
-        numbers = given.reshape(-1).tolist()
-        if any(number < 0 for number in numbers):
-            raise UnknownError(f"there is no sphere {min(numbers)} in this world")
-        self._remove_spheres(numbers)
-
-    def overlaps(self, tolerance: float = 0.0) -> NDArray[np.void]:
-        """The bodies that overlap by more than ``tolerance`` [m]: records of `carom.OVERLAP`.
-
-        In a periodic box across its faces, too. A copy, in order of the bodies.
-        """
-        return tables.records(self._overlap_words(float(tolerance)), tables.OVERLAP)
-
-    @property
-    def largest_overlap(self) -> float:
-        """How deep two bodies overlap at most [m]; 0 where none do."""
-        return float(self.overlaps()["depth"].max(initial=0.0))
-
-    def sphere(self, id: int) -> parts.Sphere:
-        """The sphere with this id, as it is now.
-
-        Raises:
-            UnknownError: If it is not in the world (any more).
-        """
-        sphere: parts.Sphere = read_part("sphere", self._sphere_json(id))
-        return sphere
-
-    def set_sphere(self, id: int, sphere: parts.Sphere) -> None:
-        """Changes a sphere.
-
-        Raises:
-            UnknownError: If it is not in the world.
-            SceneError: For a number that makes no sense.
-        """
-        parts.expect("sphere", sphere, parts.Sphere)
-        self._set_sphere(id, f"spheres = [{toml_value(sphere, 'sphere')}]")
-
-    # Forces, springs, colliders, emitters
+    # Forces
 
     @property
     def forces(self) -> dict[int, parts.Force | ForceFunction]:
@@ -511,44 +349,7 @@ class World(Strict, Engine):
         if self._functions is not None:
             raise CaromError(f"{what} knows no functions among the forces: remove them", "forces")
 
-    @property
-    def springs(self) -> dict[int, parts.Spring]:
-        """The springs by their ids, in the order in which their forces are added up. A copy.
-
-        Spheres go by their ids here: those of a spring that came with the scene, too.
-        """
-        return read_parts("springs", self._springs_json())
-
-    def add_spring(self, spring: parts.Spring) -> int:
-        """Adds a spring between two spheres, or from one to a fixed point, and returns its id.
-
-        The spring names spheres by their ids, where a scene has numbers; without a ``rest_length``
-        it is at rest now. It goes with either sphere. A chain is added spring by spring.
-
-        Raises:
-            UnknownError: If one of its spheres is not in the world (any more).
-            SceneError: For a spring that makes no sense.
-
-        >>> import carom
-        >>> world = carom.World()
-        >>> one, other = world.add_spheres([(0, 0, 0), (1, 0, 0)], radii=0.1)
-        >>> world.add_spring(carom.Spring(spheres=(one, other), rest_length=0.5, stiffness=8))
-        0
-        >>> world.potential_energy
-        1.0
-        """
-        parts.expect("spring", spring, parts.Spring)
-        return self._add_spring(f"springs = [{toml_value(spring, 'spring')}]")
-
-    def set_spring(self, id: int, spring: parts.Spring) -> None:
-        """Puts a spring in the place of another.
-
-        Raises:
-            UnknownError: If it, or one of its spheres, is not in the world (any more).
-            SceneError: For a spring that makes no sense.
-        """
-        parts.expect("spring", spring, parts.Spring)
-        self._set_spring(id, f"springs = [{toml_value(spring, 'spring')}]")
+    # Events
 
     def next_event_time(self, within: float) -> float | None:
         """The time of the next impact on the world's clock [s], if one comes so soon.
@@ -580,36 +381,6 @@ class World(Strict, Engine):
         self._refuse_functions("step_to_next_event")
         super().step_to_next_event(within)
 
-    @property
-    def colliders(self) -> dict[int, parts.Collider]:
-        """The colliders by their ids, where they are now. A copy."""
-        return read_parts("colliders", self._colliders_json())
-
-    def add_collider(self, collider: parts.Collider) -> int:
-        """Adds a collider, and returns its id."""
-        parts.expect("collider", collider, parts.Collider)
-        return self._add_collider(f"colliders = [{toml_value(collider, 'collider')}]")
-
-    def set_collider(self, id: int, collider: parts.Collider) -> None:
-        """Changes a collider; spheres feel no velocity but the one it is given."""
-        parts.expect("collider", collider, parts.Collider)
-        self._set_collider(id, f"colliders = [{toml_value(collider, 'collider')}]")
-
-    @property
-    def emitters(self) -> dict[int, parts.Emitter]:
-        """The emitters by their ids. A copy."""
-        return read_parts("emitters", self._emitters_json())
-
-    def add_emitter(self, emitter: parts.Emitter) -> int:
-        """Adds an emitter, and returns its id; its first sphere is due now."""
-        parts.expect("emitter", emitter, parts.Emitter)
-        return self._add_emitter(f"emitters = [{toml_value(emitter, 'emitter')}]")
-
-    def set_emitter(self, id: int, emitter: parts.Emitter) -> None:
-        """Changes an emitter; with another period it starts anew, now."""
-        parts.expect("emitter", emitter, parts.Emitter)
-        self._set_emitter(id, f"emitters = [{toml_value(emitter, 'emitter')}]")
-
     # How it is stepped
 
     @property
@@ -628,8 +399,6 @@ class World(Strict, Engine):
         Its spheres are `Points`, which read like a list of `Sphere`. Forces that are applied to
         single spheres are no part of a scene.
         """
-        from carom._scene import Scene
-
         self._refuse_functions("to_scene")
         text, points, springs = self._scene()
         return replace(
@@ -645,9 +414,9 @@ class World(Strict, Engine):
         self,
         path: None = None,
         *,
-        size: pictures.Size = pictures.SIZE,
-        camera: pictures.Viewpoint = "scene",
-        quality: pictures.Quality = "fine",
+        size: Size = SIZE,
+        camera: Viewpoint = "scene",
+        quality: Quality = "fine",
         stamp: bool = True,
     ) -> NDArray[np.uint8]: ...
     @overload
@@ -655,34 +424,35 @@ class World(Strict, Engine):
         self,
         path: str | os.PathLike[str],
         *,
-        size: pictures.Size = pictures.SIZE,
-        camera: pictures.Viewpoint = "scene",
-        quality: pictures.Quality = "fine",
+        size: Size = SIZE,
+        camera: Viewpoint = "scene",
+        quality: Quality = "fine",
         stamp: bool = True,
     ) -> None: ...
     def picture(
         self,
         path: str | os.PathLike[str] | None = None,
         *,
-        size: pictures.Size = pictures.SIZE,
-        camera: pictures.Viewpoint = "scene",
-        quality: pictures.Quality = "fine",
+        size: Size = SIZE,
+        camera: Viewpoint = "scene",
+        quality: Quality = "fine",
         stamp: bool = True,
     ) -> NDArray[np.uint8] | None:
         """Draws the world as it is now: see `Scene.picture`; `carom.Renderer` draws many faster."""
-        view = pictures.View.of(size, camera, quality, stamp=stamp)
-        file = None if path is None else pictures.checked_path(path, ".png")
-        return pictures.picture(self, file, view)
+        view = View.of(size, camera, quality, stamp)
+        return above.pictures.picture_of_world(self, path, view)
 
     def show(self, *, height: int = 480) -> Viewer | Still:
         """The viewer of the page, at the world of now, for notebooks: see `Scene.show`.
 
         What happens in it leaves this world as it is: `carom.notebook.Viewer.world` makes another.
         """
-        from carom._still import show
-
-        return show(self, height)
+        return above.notebook.show(self, height)
 
     def _repr_png_(self) -> bytes | None:
         """The world of now in a notebook."""
-        return pictures.notebook_picture(self)
+        return above.pictures.notebook_picture(self)
+
+    def _drawn(self) -> World:
+        """What a picture of it shows."""
+        return self

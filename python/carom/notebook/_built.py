@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from carom.errors import GraphicsError
 
-_FOLDER = Path(__file__).with_name("notebook") / "built"
+_FOLDER = Path(__file__).with_name("built")
 
 
 class Interface(NamedTuple):

@@ -1,14 +1,10 @@
-"""The window, in a process of its own: a program has one at most, on its first thread.
-
-``python -m carom._window`` opens it with the scene whose text it reads from its standard input.
-"""
+"""The window, in a process of its own: a program has one at most, on its first thread."""
 
 from __future__ import annotations
 
 import subprocess
 import sys
 import tempfile
-from pathlib import Path
 
 from carom import _carom as engine
 from carom.errors import GraphicsError
@@ -17,7 +13,7 @@ _START = 1.0
 """By then, a window that cannot be opened has failed [s]."""
 
 
-def open_window(text: str) -> subprocess.Popen[bytes]:
+def open_text(text: str) -> subprocess.Popen[bytes]:
     """Opens the window with the scene that is described in TOML, and does not wait for its end.
 
     Raises:
@@ -28,7 +24,7 @@ def open_window(text: str) -> subprocess.Popen[bytes]:
             "this build of carom has no window; in the root of the repository, "
             "MATURIN_PEP517_ARGS='--features view' pip install . makes one that has"
         )
-    command = [sys.executable, "-m", "carom._window"]
+    command = [sys.executable, "-m", "carom._pictures.window_process"]
     with tempfile.TemporaryFile() as errors:
         process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=errors)
         assert process.stdin is not None
@@ -42,15 +38,3 @@ def open_window(text: str) -> subprocess.Popen[bytes]:
             errors.seek(0)
             raise GraphicsError(errors.read().decode(errors="replace").strip())
     return process
-
-
-def main() -> int:
-    """Watches the scene until the window is closed; the code to end with."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "scene.toml"
-        file.write_bytes(sys.stdin.buffer.read())
-        return engine.run_command(["carom", "view", str(file)], [])
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from carom import _parts as parts
+from carom._scene import parts
 from carom.errors import CaromError
 
 

@@ -4,25 +4,24 @@ from __future__ import annotations
 
 import os
 import zipfile
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom._tables import IMPACT, flat_columns
+from carom._run.tables import IMPACT, flat_columns
+from carom._scene.above import above
+from carom._scene.scene import Scene
+from carom._scene.view import NOTEBOOK_SIZE, Size, Viewpoint
 from carom.errors import CaromError
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from carom._pictures import Viewpoint
-    from carom._scene import Scene
-    from carom._still import Still
-    from carom._world import World
-    from carom.notebook import AnimatedTrajectory
+    from carom._scene.above import AnimatedTrajectory, Still, World
+
 
 _PARTS = ("x", "y", "z", "w")
 """Of a quaternion; those of a vector are the first three."""
@@ -147,7 +146,7 @@ class Trajectory:
         self,
         scene: Scene | World | None = None,
         *,
-        size: Sequence[int] = (640, 360),
+        size: Size = NOTEBOOK_SIZE,
         camera: Viewpoint = "scene",
     ) -> AnimatedTrajectory | Still:
         """A player of the recorded states: see `carom.notebook.AnimatedTrajectory`.
@@ -163,9 +162,7 @@ class Trajectory:
             CaromError: If no positions were recorded, or for an argument that makes no sense.
             GraphicsError: If nothing can be drawn here.
         """
-        from carom._still import show_trajectory
-
-        return show_trajectory(self, scene, size, camera)
+        return above.notebook.show_trajectory(self, scene, size, camera)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes an .npz file, which `load` reads: to the bit what this is.

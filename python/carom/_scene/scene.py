@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 import subprocess
 import warnings
@@ -16,8 +15,6 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from carom import _parts as parts
-from carom import _pictures as pictures
 from carom._carom import (
     canonical_toml,
     import_gltf,
@@ -25,17 +22,15 @@ from carom._carom import (
     read_scene,
     read_scene_file,
 )
-from carom._film import Film, filmed
-from carom._points import Points
-from carom._recording import Out
-from carom._text import fields_of, toml_of, toml_value
-from carom._trajectory import Recorded, Trajectory
-from carom._world import World
+from carom._scene import parts
+from carom._scene.above import above
+from carom._scene.points import Points
+from carom._scene.text import fields_of, toml_of, toml_value
+from carom._scene.view import NOTEBOOK_SIZE, SIZE, Quality, Size, View, Viewpoint
 from carom.errors import CaromError, OmissionWarning
 
 if TYPE_CHECKING:
-    from carom._still import Still
-    from carom.notebook import Viewer
+    from carom._scene.above import Film, Out, Recorded, Still, Trajectory, Viewer, World
 
 NO_CHANGES: Mapping[str, Any] = MappingProxyType({})
 
@@ -228,7 +223,7 @@ class Scene(parts.Part):
         Raises:
             SceneError: If the scene makes no sense.
         """
-        return World(self)
+        return above.run.world_of(self)
 
     def run(
         self,
@@ -262,9 +257,9 @@ class Scene(parts.Part):
         path: None = None,
         *,
         seconds: float = 0.0,
-        size: pictures.Size = pictures.SIZE,
-        camera: pictures.Viewpoint = "scene",
-        quality: pictures.Quality = "fine",
+        size: Size = SIZE,
+        camera: Viewpoint = "scene",
+        quality: Quality = "fine",
         stamp: bool = True,
     ) -> NDArray[np.uint8]: ...
     @overload
@@ -273,9 +268,9 @@ class Scene(parts.Part):
         path: str | os.PathLike[str],
         *,
         seconds: float = 0.0,
-        size: pictures.Size = pictures.SIZE,
-        camera: pictures.Viewpoint = "scene",
-        quality: pictures.Quality = "fine",
+        size: Size = SIZE,
+        camera: Viewpoint = "scene",
+        quality: Quality = "fine",
         stamp: bool = True,
     ) -> None: ...
     def picture(
@@ -283,9 +278,9 @@ class Scene(parts.Part):
         path: str | os.PathLike[str] | None = None,
         *,
         seconds: float = 0.0,
-        size: pictures.Size = pictures.SIZE,
-        camera: pictures.Viewpoint = "scene",
-        quality: pictures.Quality = "fine",
+        size: Size = SIZE,
+        camera: Viewpoint = "scene",
+        quality: Quality = "fine",
         stamp: bool = True,
     ) -> NDArray[np.uint8] | None:
         """Draws the scene: the picture that ``carom picture`` draws, byte for byte.
@@ -308,12 +303,8 @@ class Scene(parts.Part):
         >>> carom.load("simtest1").picture(size=(320, 180), quality="draft").shape
         (180, 320, 3)
         """
-        view = pictures.View.of(size, camera, quality, stamp=stamp)
-        file = None if path is None else pictures.checked_path(path, ".png")
-        world = self.world()
-        for _ in range(_nearest_frame(seconds, world.frame_time)):
-            world.step()
-        return pictures.picture(world, file, view)
+        view = View.of(size, camera, quality, stamp)
+        return above.pictures.picture_of_scene(self, path, seconds, view)
 
     def record(
         self,
@@ -321,9 +312,9 @@ class Scene(parts.Part):
         *,
         seconds: float | None = None,
         frame_rate: int = 30,
-        size: pictures.Size = pictures.SIZE,
-        camera: pictures.Viewpoint = "scene",
-        quality: pictures.Quality = "fine",
+        size: Size = SIZE,
+        camera: Viewpoint = "scene",
+        quality: Quality = "fine",
         stamp: bool = True,
     ) -> int:
         """Films the scene from its start, as ``carom record`` does; the number of frames.
@@ -345,17 +336,17 @@ class Scene(parts.Part):
             GraphicsError: If nothing can be drawn here.
             OSError: If the file cannot be written.
         """
-        view = pictures.View.of(size, camera, quality, stamp=stamp)
-        return pictures.film(toml_of(self), path, seconds, frame_rate, view)
+        view = View.of(size, camera, quality, stamp)
+        return above.pictures.record(self, path, seconds, frame_rate, view)
 
     def film(
         self,
         seconds: float | None = None,
         *,
         frame_rate: int = 30,
-        size: pictures.Size = pictures.NOTEBOOK_SIZE,
-        camera: pictures.Viewpoint = "scene",
-        quality: pictures.Quality = "good",
+        size: Size = NOTEBOOK_SIZE,
+        camera: Viewpoint = "scene",
+        quality: Quality = "good",
         stamp: bool = True,
     ) -> Film:
         """Films the scene from its start, for the output of a notebook: see `carom.Film`.
@@ -372,8 +363,8 @@ class Scene(parts.Part):
             CaromError: For an argument that makes no sense, or a step that cannot be taken.
             GraphicsError: If nothing can be drawn here.
         """
-        view = pictures.View.of(size, camera, quality, stamp=stamp)
-        return filmed(toml_of(self), seconds, frame_rate, view)
+        view = View.of(size, camera, quality, stamp)
+        return above.pictures.film(self, seconds, frame_rate, view)
 
     def show(self, *, height: int = 480) -> Viewer | Still:
         """The viewer of the page, for the output of a notebook: see `carom.notebook.Viewer`.
@@ -388,9 +379,7 @@ class Scene(parts.Part):
             CaromError: For a height that makes no sense, or a scene that is too large.
             SceneError: If the scene makes no sense.
         """
-        from carom._still import show
-
-        return show(self, height)
+        return above.notebook.show(self, height)
 
     def view(self) -> subprocess.Popen[bytes]:
         """Opens the scene in a window, in a process of its own, and does not wait.
@@ -401,36 +390,15 @@ class Scene(parts.Part):
             SceneError: If the scene makes no sense.
             GraphicsError: If this build has no window, or it cannot be opened here.
         """
-        # Not above: the process runs this module, which may not have been imported before.
-        from carom._window import open_window
-
-        return open_window(self.to_toml())
+        return above.pictures.open_window(self)
 
     def _repr_png_(self) -> bytes | None:
         """The scene in a notebook."""
-        return pictures.notebook_picture(self)
+        return above.pictures.notebook_picture(self)
 
-
-def scene_of(scene: Scene | World) -> Scene:
-    """A scene, or the one that begins as a world is now.
-
-    Raises:
-        TypeError: For what is neither.
-    """
-    if isinstance(scene, World):
-        return scene.to_scene()
-    if not isinstance(scene, Scene):
-        raise TypeError(f"scene: must be a Scene or a World, not {type(scene).__name__}")
-    return scene
-
-
-def _nearest_frame(seconds: float, frame_time: float) -> int:
-    """The number of the frame nearest to a time."""
-    if not isinstance(seconds, (int, float, np.number)):
-        raise TypeError(f"seconds: must be a number, not {type(seconds).__name__}")
-    if not 0 <= seconds < math.inf:
-        raise CaromError(f"seconds: must be zero or positive, and finite, not {seconds}", "seconds")
-    return math.floor(float(seconds) / frame_time + 0.5)
+    def _drawn(self) -> World:
+        """What a picture of it shows."""
+        return self.world()
 
 
 def overrides(changes: Mapping[str, Any]) -> list[str]:

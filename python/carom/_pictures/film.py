@@ -7,7 +7,9 @@ import os
 import tempfile
 from pathlib import Path
 
-from carom import _pictures as pictures
+from carom import _carom as engine
+from carom._pictures.picture import check_graphics, checked_path
+from carom._scene.view import View
 
 
 class Film:
@@ -40,7 +42,7 @@ class Film:
             CaromError: For another ending.
             OSError: If the file cannot be written.
         """
-        pictures.checked_path(path, ".mp4").write_bytes(self.data)
+        checked_path(path, ".mp4").write_bytes(self.data)
 
     def _repr_html_(self) -> str:
         """A player, with the film in it."""
@@ -52,10 +54,22 @@ class Film:
         )
 
 
-def filmed(text: str, seconds: float | None, frame_rate: int, view: pictures.View) -> Film:
+def filmed(text: str, seconds: float | None, frame_rate: int, view: View) -> Film:
     """The film of the scene that is described in TOML."""
     with tempfile.TemporaryDirectory(prefix="carom-film-") as folder:
         path = Path(folder) / "film.mp4"
-        frames = pictures.film(text, path, seconds, frame_rate, view)
+        frames = record(text, path, seconds, frame_rate, view)
         width, height = (int(length) for length in view.size)
         return Film(path.read_bytes(), (width, height), frames, frame_rate)
+
+
+def record(
+    text: str,
+    path: str | os.PathLike[str],
+    seconds: float | None,
+    frame_rate: int,
+    view: View,
+) -> int:
+    """Films the scene that is described in TOML into a file; the number of frames."""
+    check_graphics()
+    return engine.film_scene(text, checked_path(path, ".mp4"), seconds, frame_rate, view)

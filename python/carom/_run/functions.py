@@ -5,26 +5,28 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from operator import index as as_index
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom._carom import Engine
-from carom._points import spread
-from carom._tables import IMPACT
-from carom._trajectory import RunRecord, Selection, Trajectory
+from carom._run.tables import IMPACT, records
+from carom._run.trajectory import RunRecord, Selection, Trajectory
+from carom._scene.points import spread
+from carom._scene.text import read_part
 from carom.errors import CaromError
 
-if TYPE_CHECKING:
-    from carom._world import World
-
-ForceFunction: TypeAlias = Callable[["World"], ArrayLike]
-"""Takes a world, and returns the force on each of its spheres [N], spread to shape (n, 3)."""
+Function: TypeAlias = Callable[[Any], ArrayLike]
+"""Takes the world, and returns the force on each of its spheres [N], spread to shape (n, 3)."""
 
 _FROZEN = ("positions", "velocities", "masses", "radii")
 """Arrays of a world that functions are likely to read: while they are at work, these are not to be
 written to by mistake, as by ``p -= p.mean(axis=0)``."""
+
+
+_CORRECTED = ("exact", "contact")
+"""Rules that know no other forces than constant ones, to which the scheme is added."""
 
 
 class Functions:
@@ -40,12 +42,12 @@ class Functions:
     """
 
     def __init__(self) -> None:
-        self.by_id: dict[int, ForceFunction] = {}
+        self.by_id: dict[int, Function] = {}
         self._next = -1
         self._lock = threading.RLock()
         self._is_asked = False
 
-    def add(self, force: ForceFunction) -> int:
+    def add(self, force: Function) -> int:
         """Adds a function, and returns its id."""
         number = self._next
         self.by_id[number] = force
@@ -58,14 +60,14 @@ class Functions:
         twin.by_id, twin._next = dict(self.by_id), self._next
         return twin
 
-    def __getstate__(self) -> tuple[dict[int, ForceFunction], int]:
+    def __getstate__(self) -> tuple[dict[int, Function], int]:
         return self.by_id, self._next
 
-    def __setstate__(self, state: tuple[dict[int, ForceFunction], int]) -> None:
+    def __setstate__(self, state: tuple[dict[int, Function], int]) -> None:
         self.__init__()  # type: ignore[misc]
         self.by_id, self._next = state
 
-    def step(self, world: World, dt: float | None, frames: int) -> None:
+    def step(self, world: Engine, dt: float | None, frames: int) -> None:
         """Takes frames; if one is refused, the world is as it was before the call."""
         number = count("frames", frames)
         with self._lock:
@@ -78,7 +80,7 @@ class Functions:
 
     def record(
         self,
-        world: World,
+        world: Engine,
         frames: int,
         dt: float | None,
         every: int,
@@ -93,7 +95,7 @@ class Functions:
 
             def look(frame: int) -> None:
                 if selection.has_impacts:
-                    impacts.append(world.impacts)
+                    impacts.append(records(world._impact_words(), IMPACT))
                 if (frame + 1) % every == 0:
                     states.append(world._record(0, dt, 1, single))
 
@@ -111,13 +113,15 @@ class Functions:
             raise stopped
         return trajectory
 
-    def _go(self, world: World, dt: float | None, frames: int, look: Callable[[int], None]) -> None:
+    def _go(
+        self, world: Engine, dt: float | None, frames: int, look: Callable[[int], None]
+    ) -> None:
         """Takes frames, and has ``look`` look at the world after each.
 
         What ends them leaves the world at the end of the last whole one.
         """
         length = world.frame_time if dt is None else dt
-        is_corrected = world.simulation.rule in ("exact", "contact")
+        is_corrected = read_part("simulation", world._simulation_json()).rule in _CORRECTED
         ids, own = world.ids, world.applied_forces.copy()
         has_own = bool(own.any())
         force = self._force(world)
@@ -150,7 +154,7 @@ class Functions:
                 raise
             look(frame)
 
-    def _force(self, world: World) -> NDArray[np.float64]:
+    def _force(self, world: Engine) -> NDArray[np.float64]:
         """The sum of all functions for the world of now [N], shape (n, 3)."""
         if self._is_asked:
             problem = "a force that is a function must not step the world that it acts on"

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom import _tables as tables
 from carom._carom import BatchEngine, Snapshot
-from carom._library import load
-from carom._scene import Scene
-from carom._strict import Strict
-from carom._world import World
+from carom._run import tables
+from carom._run.strict import Strict
+from carom._run.world import World
+from carom._scene.library import load
+from carom._scene.scene import Scene
 from carom.errors import CaromError, StepError
 
 

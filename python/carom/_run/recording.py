@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom._functions import count
-from carom._tables import IMPACT
-from carom._trajectory import Recorded, Selection, Trajectory
+from carom._carom import Engine
+from carom._run.functions import count
+from carom._run.tables import IMPACT
+from carom._run.trajectory import Recorded, Selection, Trajectory
 from carom.errors import CaromError
-
-if TYPE_CHECKING:
-    from carom._world import World
 
 Out = Mapping[Recorded, NDArray[np.floating]]
 """Arrays by what is recorded into them."""
@@ -59,9 +57,23 @@ def check_choice(name: str, value: object) -> bool:
 
 
 def run_into(
-    world: World, out: Out, frames: int, dt: float | None, every: int, has_impacts: bool
+    world: Engine,
+    take: Callable[[int, Selection], Trajectory],
+    out: Out,
+    frames: int,
+    every: int,
+    has_impacts: bool,
 ) -> Trajectory:
-    """Takes frames, and records them as `World.run` does, into arrays with a row for each state."""
+    """Takes frames, and records them as `World.run` does, into arrays with a row for each state.
+
+    Args:
+        world: What moves.
+        take: Takes so many frames of it, and records them.
+        out: The arrays.
+        frames: How many in all.
+        every: A state is recorded after so many of them.
+        has_impacts: Whether impacts are recorded, too.
+    """
     rows = frames // every + 1
     _check(out, rows, len(world))
     size = sum(array[0].nbytes for array in out.values())
@@ -74,7 +86,7 @@ def run_into(
     for begin in range(0, max(frames, 1), block):
         length = min(block, frames - begin)
         try:
-            piece = world._run(length, dt, every, selection)
+            piece = take(length, selection)
         except KeyboardInterrupt as error:
             stopped = error
             piece = error.trajectory  # type: ignore[attr-defined]

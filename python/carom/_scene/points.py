@@ -10,7 +10,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom._parts import Finish, Sphere
+from carom._scene.parts import Finish, Sphere
 from carom.errors import CaromError
 
 _WIDTHS = {

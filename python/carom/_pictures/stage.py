@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom import _pictures as pictures
-from carom._points import Points
-from carom._trajectory import Trajectory
+from carom._pictures.picture import painter_of
+from carom._run.methods import scene_of
+from carom._run.trajectory import Trajectory
+from carom._run.world import World
+from carom._scene.points import Points
+from carom._scene.scene import Scene
+from carom._scene.view import View
 from carom.errors import CaromError
-
-if TYPE_CHECKING:
-    from carom._scene import Scene
-    from carom._world import World
-
 
 _OUTLIERS = 2
 """How many of the positions a camera leaves out on either side of each axis [%]."""
@@ -30,15 +28,13 @@ class Stage:
     their velocities at that time.
     """
 
-    def __init__(self, run: Trajectory, scene: Scene | World | None, view: pictures.View) -> None:
+    def __init__(self, run: Trajectory, scene: Scene | World | None, view: View) -> None:
         """Of a run in surroundings; in nothing without a scene.
 
         Raises:
             CaromError: If positions were not recorded, or nothing at all.
             GraphicsError: If nothing can be drawn here.
         """
-        from carom._scene import Scene, scene_of
-
         if run._recorded("positions") is None:
             raise CaromError("quantities: a run without positions cannot be shown", "quantities")
         if not len(run):
@@ -50,7 +46,7 @@ class Stage:
         self._colors, self._finishes = _looks(run, start.ids, told)
         # What the camera and the light are fitted to: the scene, as in all pictures of it.
         has_spheres = len(start) > 0 or len(told.emitters) > 0
-        self._painter = pictures._painter(start if has_spheres else self._outlined(), view)
+        self._painter = painter_of(start if has_spheres else self._outlined(), view)
         self.size = (int(view.size[0]), int(view.size[1]))
 
     def png(self, index: int) -> bytes:

@@ -55,6 +55,10 @@ class Turn:
     """Says that a field takes a turn as scene files describe it, too: ``{"normal": (1, 0, 0)}``."""
 
 
+class Checked:
+    """Base of all parts: a field that takes one is checked by its class."""
+
+
 class FieldCheck(NamedTuple):
     """A field of a class, and what checks it."""
 
@@ -374,9 +378,7 @@ def _sequence(elements: Sequence[_Kind], where: str) -> _Kind:
 
 
 def _is_part(hint: Any) -> bool:
-    from carom._parts import Part
-
-    return isinstance(hint, type) and issubclass(hint, Part)
+    return isinstance(hint, type) and issubclass(hint, Checked)
 
 
 def _part(kinds: tuple[type, ...], needs: Sequence[Whole] = ()) -> _Kind:

@@ -1,0 +1,1 @@
+"""The lowest layer: scenes and what they are made of, as values."""

@@ -1,0 +1,88 @@
+"""How a scene is seen: camera, light, colours."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from carom._scene.checks import wrong_value
+from carom._scene.parts.kinds import (
+    UNTURNED,
+    Color,
+    FieldOfView,
+    NonNegative,
+    Positive,
+    Quaternion,
+    Vector,
+)
+from carom._scene.parts.part import Part
+
+
+@dataclass(frozen=True)
+class Camera(Part):
+    """Where to look from. The camera looks along its local -z.
+
+    Attributes:
+        position: In m.
+        rotation: How it is turned.
+        vertical_fov_degrees: Vertical field of view in degrees, in (0, 180).
+        near: Nearest distance drawn [m], > 0.
+        far: Farthest distance drawn [m], > near.
+    """
+
+    position: Vector
+    rotation: Quaternion = UNTURNED
+    vertical_fov_degrees: FieldOfView = 35.0
+    near: Positive = 0.3
+    far: Positive = 1000.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        are_numbers = not isinstance(self.near, str) and not isinstance(self.far, str)
+        if are_numbers and self.far <= self.near:
+            raise wrong_value("Camera.far", "farther than `near`", self.far)
+
+
+@dataclass(frozen=True)
+class Sun(Part):
+    """The light. It travels along its local -z.
+
+    Attributes:
+        rotation: How it is turned.
+        color: Colour of the light.
+        intensity: Brightness, >= 0; 1 is plain daylight.
+    """
+
+    rotation: Quaternion
+    color: Color
+    intensity: NonNegative = 1.0
+
+
+@dataclass(frozen=True)
+class DensityColor(Part):
+    """The colour of spheres of one density.
+
+    Attributes:
+        density: In kg/m³, > 0.
+        color: Their colour.
+    """
+
+    density: Positive
+    color: Color
+
+
+@dataclass(frozen=True)
+class Colors(Part):
+    """Colours of what has none of its own.
+
+    Attributes:
+        background: Behind everything.
+        colliders: Colliders.
+        spheres: Spheres whose density is not listed.
+        densities: Spheres by their density.
+    """
+
+    background: Color | None = None
+    colliders: Color | None = None
+    spheres: Color | None = None
+    densities: Sequence[DensityColor] = ()

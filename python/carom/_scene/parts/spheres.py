@@ -1,0 +1,82 @@
+"""Spheres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, TypeAlias
+
+from carom._scene.checks import Whole
+from carom._scene.parts.kinds import (
+    ORIGIN,
+    UNTURNED,
+    Color,
+    Finish,
+    NonNegative,
+    Positive,
+    Quaternion,
+    Restitution,
+    Vector,
+)
+from carom._scene.parts.part import Part, expect_one
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sphere(Part):
+    """A sphere, or what the spheres of a generator or an emitter have in common.
+
+    Attributes:
+        position: Centre [m]; in a generator or an emitter an offset from the place it gives.
+        velocity: Velocity [m/s]; in an emitter in the emitter's frame.
+        radius: Radius [m], > 0. Every sphere needs this or ``diameter``, but for those of a
+            `RandomFill` with a ``radius_range``.
+        diameter: Diameter [m], > 0.
+        mass: Mass [kg], > 0; 1 unless this or ``density`` is given.
+        density: Density [kg/m³], > 0.
+        restitution: Coefficient of restitution in [0, 1].
+        friction: Coulomb's coefficient of friction, >= 0, under the rules ``exact`` and
+            ``contact``; where it is missing, here and in the next three, the value of what is
+            touched counts.
+        rolling_friction: Coefficient of rolling friction, >= 0.
+        spinning_friction: Coefficient of spinning friction, >= 0.
+        tangential_restitution: Coefficient of tangential restitution in [0, 1].
+        orientation: How it is turned.
+        angular_velocity: How fast it turns, along the axis [rad/s]; in an emitter in the emitter's
+            frame.
+        inertia_factor: Moment of inertia divided by mass and square of the radius, > 0: 2/5 for a
+            solid ball, 2/3 for a thin shell.
+        color: Colour; by density or the scene's own where it is missing.
+        finish: How its surface takes light; it changes no motion.
+    """
+
+    position: Vector = ORIGIN
+    velocity: Vector = ORIGIN
+    radius: Positive | None = None
+    diameter: Positive | None = None
+    mass: Positive | None = None
+    density: Positive | None = None
+    restitution: Restitution = 1.0
+    friction: NonNegative | None = None
+    rolling_friction: NonNegative | None = None
+    spinning_friction: NonNegative | None = None
+    tangential_restitution: Restitution | None = None
+    orientation: Quaternion = UNTURNED
+    angular_velocity: Vector = ORIGIN
+    inertia_factor: Positive = 0.4
+    color: Color | None = None
+    finish: Finish = "satin"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        expect_one(self, "radius", "diameter")
+        expect_one(self, "mass", "density")
+
+
+def has_size(sphere: Sphere) -> bool:
+    """Whether a sphere says how large it is."""
+    return sphere.radius is not None or sphere.diameter is not None
+
+
+NO_SIZE = "needs `radius` or `diameter`"
+"""What is wrong with one that does not."""
+SizedSphere: TypeAlias = Annotated[Sphere, Whole(NO_SIZE, has_size)]
+"""A sphere with a radius or a diameter."""
