@@ -61,6 +61,7 @@ pub fn test() -> Outcome {
         "pdoc",
         "carom",
         "carom._carom",
+        "carom._run.bodies",
         "carom.gym",
         "carom.notebook",
         "--docformat",
