@@ -14,6 +14,7 @@ import argparse
 import math
 import time
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import torch
@@ -131,23 +132,14 @@ def train(choices: Choices) -> Agent:
             advantages = advantages_of(
                 choices, rewards, values, ends, agent.value(state).squeeze(-1)
             )
-        returns = (advantages + values).flatten()
-        all_states, all_actions = states.flatten(0, 1), actions.flatten(0, 1)
-        before, gains = likelihoods.flatten(), advantages.flatten()
-        for _ in range(choices.epochs):
-            for part in torch.randperm(per_update).chunk(choices.minibatches):
-                policy = agent.policy(all_states[part])
-                ratio = (policy.log_prob(all_actions[part]).sum(-1) - before[part]).exp()
-                gain = (gains[part] - gains[part].mean()) / (gains[part].std() + 1e-8)
-                clipped = ratio.clamp(1 - choices.clip, 1 + choices.clip)
-                policy_loss = -torch.min(gain * ratio, gain * clipped).mean()
-                value_loss = (
-                    (agent.value(all_states[part]).squeeze(-1) - returns[part]).square().mean()
-                )
-                optimiser.zero_grad()
-                (policy_loss + choices.value_weight * value_loss).backward()
-                nn.utils.clip_grad_norm_(agent.parameters(), choices.max_gradient)
-                optimiser.step()
+        tried = Tried(
+            states.flatten(0, 1),
+            actions.flatten(0, 1),
+            likelihoods.flatten(),
+            advantages.flatten(),
+            (advantages + values).flatten(),
+        )
+        improve(choices, agent, optimiser, tried)
 
         reached = np.mean(np.array(collected) > 0)
         seconds = time.perf_counter() - began
@@ -158,6 +150,35 @@ def train(choices: Choices) -> Agent:
         )
     mazes.close()
     return agent
+
+
+class Tried(NamedTuple):
+    """Actions that were tried, a row for each, and what came of them."""
+
+    states: torch.Tensor
+    actions: torch.Tensor
+    likelihoods: torch.Tensor
+    advantages: torch.Tensor
+    returns: torch.Tensor
+
+
+def improve(choices: Choices, agent: Agent, optimiser: torch.optim.Adam, tried: Tried) -> None:
+    """Makes actions likelier that were better than expected, and others less likely."""
+    for _ in range(choices.epochs):
+        for part in torch.randperm(len(tried.returns)).chunk(choices.minibatches):
+            policy = agent.policy(tried.states[part])
+            likelihoods = policy.log_prob(tried.actions[part]).sum(-1)
+            ratio = (likelihoods - tried.likelihoods[part]).exp()
+            gain = tried.advantages[part]
+            gain = (gain - gain.mean()) / (gain.std() + 1e-8)
+            clipped = ratio.clamp(1 - choices.clip, 1 + choices.clip)
+            policy_loss = -torch.min(gain * ratio, gain * clipped).mean()
+            values = agent.value(tried.states[part]).squeeze(-1)
+            value_loss = (values - tried.returns[part]).square().mean()
+            optimiser.zero_grad()
+            (policy_loss + choices.value_weight * value_loss).backward()
+            nn.utils.clip_grad_norm_(agent.parameters(), choices.max_gradient)
+            optimiser.step()
 
 
 def advantages_of(

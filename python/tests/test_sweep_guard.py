@@ -1,4 +1,4 @@
-"""A script that sweeps needs a guard, and is told so in one line."""
+"""A script that sweeps without a guard ends in one line that says so."""
 
 import subprocess
 import sys

@@ -1,8 +1,11 @@
-//! Keeps modules in order: no two modules of a crate use each other, on whatever way round.
+//! Keeps modules in order: no two of a crate, or of Python, JavaScript or C#, use each other, on
+//! whatever way round.
 
 use std::collections::{BTreeMap, VecDeque};
+use std::path::PathBuf;
 
 use crate::imports::{Import, imports};
+use crate::scripts::{Language, Script, csharp, javascript, python, scripts};
 use crate::shell::Outcome;
 use crate::sources::{Source, crates_of, folders};
 
@@ -14,26 +17,48 @@ pub fn check() -> Outcome {
             faults.extend(circles(&sources));
         }
     }
+    let (pythons, others): (Vec<Script>, Vec<Script>) =
+        scripts()?.into_iter().partition(|it| it.language == Language::Python);
+    let (javascripts, csharps): (Vec<Script>, Vec<Script>) =
+        others.into_iter().partition(|it| it.language == Language::JavaScript);
+    faults.extend(circles_of_scripts(&pythons, python::imports));
+    faults.extend(circles_of_scripts(&javascripts, javascript::imports));
+    faults.extend(circles_of_scripts(&csharps, csharp::imports));
+    python::check_layers(&pythons)?;
     if faults.is_empty() {
         return Ok(());
     }
     Err(format!("modules that use each other in a circle:\n{}", faults.join("\n")))
 }
 
-/// The groups of modules of a crate that use each other, each with one way round.
+/// The groups of modules of a crate that use each other.
 fn circles(sources: &[Source]) -> Vec<String> {
-    let imports = imports(sources);
+    let files: Vec<&PathBuf> = sources.iter().map(|it| &it.file).collect();
+    circles_among(&files, &imports(sources))
+}
+
+/// The groups of scripts that use each other.
+fn circles_of_scripts(
+    scripts: &[Script],
+    imports: fn(&[Script]) -> Vec<BTreeMap<usize, Import>>,
+) -> Vec<String> {
+    let files: Vec<&PathBuf> = scripts.iter().map(|it| &it.file).collect();
+    circles_among(&files, &imports(scripts))
+}
+
+/// The groups of files that use each other, each with one way round.
+fn circles_among(files: &[&PathBuf], imports: &[BTreeMap<usize, Import>]) -> Vec<String> {
     let tell = |group: Vec<usize>| {
-        let files = group.iter().map(|&place| sources[place].file.display().to_string());
-        let way = shortest_way_round(&imports, &group);
+        let names = group.iter().map(|&place| files[place].display().to_string());
+        let way = shortest_way_round(imports, &group);
         let steps = way.iter().map(|&(from, to, import)| {
-            let (from, to) = (sources[from].file.display(), sources[to].file.display());
+            let (from, to) = (files[from].display(), files[to].display());
             format!("      {from}:{} uses {} of {to}", import.line, import.path)
         });
         let lines: Vec<String> = steps.collect();
-        format!("  {}\n{}", files.collect::<Vec<_>>().join(", "), lines.join("\n"))
+        format!("  {}\n{}", names.collect::<Vec<_>>().join(", "), lines.join("\n"))
     };
-    components(&imports).into_iter().filter(|group| group.len() > 1).map(tell).collect()
+    components(imports).into_iter().filter(|group| group.len() > 1).map(tell).collect()
 }
 
 /// One step from a module to another that it uses.
@@ -133,7 +158,8 @@ impl Search<'_> {
 mod tests {
     use std::path::PathBuf;
 
-    use super::circles;
+    use super::{circles, circles_of_scripts};
+    use crate::scripts::{Script, javascript, python};
     use crate::sources::Source;
 
     /// A crate of modules, each with its names from the root (`a::b`) and its code.
@@ -206,5 +232,27 @@ mod tests {
             ("a::b", "use super::A; struct B;"),
         ]);
         assert_eq!(found.len(), 1, "{found:?}");
+    }
+
+    #[test]
+    fn modules_of_python_that_import_each_other_are_a_circle_wherever_they_do() {
+        let scripts = [
+            Script::of_test("python/carom/a.py", "from carom import b\n"),
+            Script::of_test("python/carom/b.py", "def f():\n    from carom.a import A\n"),
+            Script::of_test("python/carom/c.py", "import carom.a\n"),
+        ];
+        let way = "  python/carom/a.py, python/carom/b.py\n      python/carom/a.py:1 uses carom of \
+                   python/carom/b.py\n      python/carom/b.py:2 uses carom.a of python/carom/a.py";
+        assert_eq!(circles_of_scripts(&scripts, python::imports), [way]);
+    }
+
+    #[test]
+    fn modules_of_javascript_that_import_each_other_are_a_circle() {
+        let scripts = [
+            Script::of_test("web/a.js", "import { b } from \"./b/b.js\";\n"),
+            Script::of_test("web/b/b.js", "export * from \"../a.js\";\n"),
+            Script::of_test("web/c.js", "import \"./a.js\";\n"),
+        ];
+        assert_eq!(circles_of_scripts(&scripts, javascript::imports).len(), 1);
     }
 }

@@ -22,6 +22,7 @@ mod notices;
 mod python;
 mod release;
 mod schema;
+mod scripts;
 mod setup;
 mod shell;
 mod sizes;
@@ -55,8 +56,8 @@ Usage: cargo xtask COMMAND
             programs in C, C++ and C#
   header    write crates/carom-c/include/carom.h anew from the C interface
   notebook  put the viewer for notebooks into the Python package, for `pip install .`
-  lint      the checks that need no build: format, words, links and names in documents, modules that
-            use each other in a circle, files and functions that are too long
+  lint      the checks that need no build: format, words, links and names in documents, modules of
+            any language that use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
   schema    write crates/carom-scene/scenes/scene.schema.json anew from the scene types
   release   `release --dry-run` makes and checks all that a release publishes, in

@@ -6,6 +6,8 @@ use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
 use syn::{Attribute, Block, FnArg, ImplItemFn, ItemFn, ItemMod, Signature, TraitItemFn, Type};
 
+use crate::scripts::functions::functions;
+use crate::scripts::{Script, scripts};
 use crate::shell::Outcome;
 use crate::sources::{files_of, folders, is_for_tests, parse, read, seen_from_root};
 
@@ -15,6 +17,9 @@ const FILE: usize = 500;
 const FUNCTION: usize = 75;
 /// Values of a tuple that is a parameter, at most.
 const TUPLE: usize = 2;
+
+/// What users take into their project as one file may be longer.
+const TAKEN_ALONE: [&str; 1] = ["crates/carom-c/csharp/CaromWorld.cs"];
 
 /// Refuses files and functions that are too long, and parameters packed into tuples.
 pub fn check() -> Outcome {
@@ -30,7 +35,24 @@ pub fn check() -> Outcome {
             faults.extend(found.into_iter().map(|fault| format!("  {place}:{fault}")));
         }
     }
+    faults.extend(scripts()?.iter().flat_map(faults_of_script));
     if faults.is_empty() { Ok(()) } else { Err(format!("sizes:\n{}", faults.join("\n"))) }
+}
+
+/// What is too long of a script; functions of tests may be, as those of Rust may.
+fn faults_of_script(script: &Script) -> Vec<String> {
+    let place = script.file.display();
+    let mut faults = Vec::new();
+    let lines = script.text.lines().count();
+    if lines > FILE && !TAKEN_ALONE.iter().any(|it| script.file.ends_with(it)) {
+        faults.push(format!("  {place}: {lines} lines, more than {FILE}"));
+    }
+    let long = functions(script).into_iter().filter(|it| it.lines > FUNCTION);
+    for function in long.filter(|_| !script.is_test()) {
+        let (name, first, lines) = (function.name, function.line, function.lines);
+        faults.push(format!("  {place}:{first}: {name} has {lines} lines, more than {FUNCTION}"));
+    }
+    faults
 }
 
 fn faults_of(file: &Path) -> Outcome<Vec<String>> {
@@ -111,7 +133,8 @@ fn is_tuple(value: &Type) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Sizes, packs_parameters};
+    use super::{Sizes, faults_of_script, packs_parameters};
+    use crate::scripts::Script;
     use syn::visit::Visit;
 
     #[test]
@@ -135,5 +158,17 @@ mod tests {
         let mut sizes = Sizes::default();
         sizes.visit_file(&syn::parse_file(&code).unwrap());
         assert_eq!(sizes.faults.len(), 3, "{:?}", sizes.faults);
+    }
+
+    #[test]
+    fn long_scripts_are_found_and_long_functions_but_those_of_tests() {
+        let body = "    a()\n".repeat(80);
+        let long = format!("def f():\n{body}");
+        assert_eq!(faults_of_script(&Script::of_test("python/carom/a.py", &long)).len(), 1);
+        assert_eq!(faults_of_script(&Script::of_test("python/tests/a.py", &long)).len(), 0);
+        let documented = format!("def f():\n    \"\"\"Doc.\n{body}    \"\"\"\n");
+        assert_eq!(faults_of_script(&Script::of_test("python/carom/a.py", &documented)).len(), 0);
+        let many = "a();\n".repeat(501);
+        assert_eq!(faults_of_script(&Script::of_test("web/tests/a.js", &many)).len(), 1);
     }
 }

@@ -103,31 +103,41 @@ class Pictures {
   }
 }
 
+/**
+ * What the player is made of.
+ * @param {Model} model
+ * @param {number} states
+ */
+function elements(model, states) {
+  const canvas = document.createElement("canvas");
+  const button = document.createElement("button");
+  const slider = document.createElement("input");
+  const clock = document.createElement("output");
+  const bar = document.createElement("div");
+  const player = document.createElement("div");
+  player.className = "carom-animated";
+  player.style.maxWidth = `${model.get("_width")}px`;
+  [canvas.width, canvas.height] = [model.get("_width"), model.get("height")];
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", "A recorded run");
+  Object.assign(slider, {
+    type: "range",
+    min: 0,
+    max: states - 1,
+    step: 1,
+  });
+  slider.setAttribute("aria-label", "Recorded state");
+  bar.append(button, slider, clock);
+  player.append(canvas, bar);
+  return { player, canvas, button, slider, clock };
+}
+
 export default {
   /** @param {{ model: Model, el: HTMLElement }} context */
   render({ model, el }) {
     /** @type {number[]} */
     const times = model.get("_times");
-    const canvas = document.createElement("canvas");
-    const button = document.createElement("button");
-    const slider = document.createElement("input");
-    const clock = document.createElement("output");
-    const bar = document.createElement("div");
-    const player = document.createElement("div");
-    player.className = "carom-animated";
-    player.style.maxWidth = `${model.get("_width")}px`;
-    [canvas.width, canvas.height] = [model.get("_width"), model.get("height")];
-    canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", "A recorded run");
-    Object.assign(slider, {
-      type: "range",
-      min: 0,
-      max: times.length - 1,
-      step: 1,
-    });
-    slider.setAttribute("aria-label", "Recorded state");
-    bar.append(button, slider, clock);
-    player.append(canvas, bar);
+    const { player, canvas, button, slider, clock } = elements(model, times.length);
     el.replaceChildren(player);
 
     const pictures = new Pictures(model, (index, picture) => {

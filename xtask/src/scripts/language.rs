@@ -1,0 +1,23 @@
+//! The languages besides Rust.
+
+use std::path::Path;
+
+/// A language besides Rust.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Language {
+    Python,
+    JavaScript,
+    CSharp,
+}
+
+impl Language {
+    /// The language of a file, by its ending.
+    pub fn of(file: &Path) -> Option<Self> {
+        match file.extension()?.to_str()? {
+            "py" | "pyi" => Some(Self::Python),
+            "js" => Some(Self::JavaScript),
+            "cs" => Some(Self::CSharp),
+            _ => None,
+        }
+    }
+}

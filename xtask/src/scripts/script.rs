@@ -1,0 +1,33 @@
+//! A source file in a language besides Rust.
+
+use std::path::PathBuf;
+
+use super::code;
+use super::language::Language;
+
+/// A source file.
+pub struct Script {
+    /// Its file, seen from the root of the repository.
+    pub file: PathBuf,
+    pub language: Language,
+    pub text: String,
+}
+
+impl Script {
+    /// Whether it tests others.
+    pub fn is_test(&self) -> bool {
+        self.file.iter().any(|name| name == "tests")
+    }
+
+    /// Its text without comments; in Python and C# without what stands in strings, too.
+    pub fn code(&self) -> String {
+        code::of(&self.text, self.language)
+    }
+
+    #[cfg(test)]
+    pub fn of_test(file: &str, text: &str) -> Self {
+        let file = PathBuf::from(file);
+        let language = Language::of(&file).unwrap();
+        Self { file, language, text: text.to_owned() }
+    }
+}
