@@ -9,7 +9,7 @@ use crate::scripts::{Language, Script, csharp, javascript, python, scripts};
 use crate::shell::Outcome;
 use crate::sources::{Source, crates_of, folders};
 
-/// Refuses modules that use each other in a circle.
+/// Refuses modules that use each other in a circle, and layers that use those above them.
 pub fn check() -> Outcome {
     let mut faults = Vec::new();
     for folder in folders()? {
@@ -24,9 +24,8 @@ pub fn check() -> Outcome {
     faults.extend(circles_of_scripts(&pythons, python::imports));
     faults.extend(circles_of_scripts(&javascripts, javascript::imports));
     faults.extend(circles_of_scripts(&csharps, csharp::imports));
-    python::check_layers(&pythons)?;
     if faults.is_empty() {
-        return Ok(());
+        return python::check_layers(&pythons);
     }
     Err(format!("modules that use each other in a circle:\n{}", faults.join("\n")))
 }
