@@ -19,6 +19,7 @@ mod member;
 mod miri;
 mod native_hashes;
 mod notices;
+mod parts;
 mod python;
 mod release;
 mod schema;
@@ -59,7 +60,9 @@ Usage: cargo xtask COMMAND
   lint      the checks that need no build: format, words, links and names in documents, modules of
             any language that use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
-  schema    write crates/carom-scene/scenes/scene.schema.json anew from the scene types
+  schema    write crates/carom-scene/scenes/scene.schema.json anew from the scene types, and what
+            Python has of it
+  parts     write the classes of Python that scenes are made of anew from that schema
   release   `release --dry-run` makes and checks all that a release publishes, in
             target/release-files, and publishes nothing (many minutes; `--part NAME` makes one part of it,
             `--full` builds once more from every package, `--keep-viewer` takes the viewer for notebooks that
@@ -103,7 +106,8 @@ fn main() -> ExitCode {
         ["notebook"] => web::build_for_notebooks(Purpose::Use),
         ["lint"] => checks::lint(),
         ["documents"] => commands::check_plain(),
-        ["schema"] => schema::write(),
+        ["schema"] => schema::write().and_then(|()| parts::write()),
+        ["parts"] => parts::write(),
         ["soak"] => long_tests::soak("24"),
         ["soak", "--hours", hours] => long_tests::soak(hours),
         ["soak", "--again"] => long_tests::soak_again(),

@@ -7,7 +7,7 @@ import json
 import math
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
@@ -98,15 +98,8 @@ _KINDS: dict[str, type[parts.Part]] = {
 _CHOICES: dict[str, tuple[type[parts.Part], ...]] = {
     "boundary": (parts.Periodic,),
     "forces": parts.FORCES,
-    "generators": (
-        parts.Row,
-        parts.Lattice,
-        parts.StaggeredRows,
-        parts.ClosePacking,
-        parts.Ring,
-        parts.RandomFill,
-    ),
-    "shape": (parts.Ball, parts.Rectangle, parts.HalfSpace, parts.Box, parts.Container),
+    "generators": get_args(parts.Generator),
+    "shape": get_args(parts.Shape),
 }
 """What may be described under a name; tags distinguish the variants."""
 

@@ -7,8 +7,8 @@ use super::programs::{self, Program};
 use crate::commands::{self, Programs};
 use crate::shell::{CI, Outcome, cargo, cargo_with, ci_folder, finish, program};
 use crate::{
-    architecture, c_interface, circles, dependencies, documents, js_package, python, release,
-    setup, sizes, stages, wasm, web, web_tools, words,
+    architecture, c_interface, circles, dependencies, documents, js_package, parts as python_parts,
+    python, release, setup, sizes, stages, wasm, web, web_tools, words,
 };
 
 /// Names the packages whose tests run, with commas between them; where it is not set, all do.
@@ -90,6 +90,7 @@ pub fn lint() -> Outcome {
     words::check()?;
     circles::check()?;
     sizes::check()?;
+    python_parts::check()?;
     stages::check()?;
     documents::check()?;
     release::check()

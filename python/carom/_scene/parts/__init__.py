@@ -8,16 +8,8 @@ text (``"red"``), and turns (``{"normal": (1, 0, 0)}``); the engine reads these,
 world.
 """
 
-from carom._scene.parts.colliders import (
-    Ball,
-    Box,
-    Collider,
-    Container,
-    HalfSpace,
-    Rectangle,
-    Shape,
-    Side,
-)
+from carom._scene.parts.choices import CombineRule, Finish, ImpactLaw, Integrator, Rule, Side
+from carom._scene.parts.colliders import Ball, Box, Collider, Container, HalfSpace, Rectangle, Shape
 from carom._scene.parts.forces import (
     FORCES,
     Buoyancy,
@@ -43,13 +35,14 @@ from carom._scene.parts.generators import (
     StaggeredRows,
 )
 from carom._scene.parts.kinds import (
+    ORIGIN,
+    UNTURNED,
     Color,
     Count,
     Counts,
     Direction,
     EmissionPeriod,
     FieldOfView,
-    Finish,
     Finite,
     Lengths,
     NonNegative,
@@ -66,22 +59,13 @@ from carom._scene.parts.kinds import (
 )
 from carom._scene.parts.looks import Camera, Colors, DensityColor, Sun
 from carom._scene.parts.part import Part, expect
-from carom._scene.parts.simulation import (
-    Bisect,
-    CombineRule,
-    Contact,
-    Discrete,
-    Exact,
-    ImpactLaw,
-    Integrator,
-    Periodic,
-    Rule,
-    Simulation,
-)
+from carom._scene.parts.simulation import Bisect, Contact, Discrete, Exact, Periodic, Simulation
 from carom._scene.parts.spheres import SizedSphere, Sphere
 
 __all__ = [
     "FORCES",
+    "ORIGIN",
+    "UNTURNED",
     "Ball",
     "Bisect",
     "Box",

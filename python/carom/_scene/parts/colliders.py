@@ -1,16 +1,19 @@
-"""Colliders and their shapes."""
+"""Colliders and their shapes.
+
+Made by `cargo xtask parts` of the schema of scene files, which says what is to be changed.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Literal, TypeAlias
+from typing import ClassVar, TypeAlias
 
+from carom._scene.parts.choices import Finish, Side
 from carom._scene.parts.kinds import (
     ORIGIN,
     UNTURNED,
     Color,
-    Finish,
     Lengths,
     NonNegative,
     Positive,
@@ -19,6 +22,7 @@ from carom._scene.parts.kinds import (
     Vector,
 )
 from carom._scene.parts.part import Part
+from carom._scene.parts.together import simplify_open
 
 
 @dataclass(frozen=True)
@@ -66,17 +70,15 @@ class Box(Part):
     size: Lengths
 
 
-Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
-"""A side of a box in its own frame: towards -x, +x, -y, +y, -z, +z."""
-
-
 @dataclass(frozen=True)
 class Container(Part):
     """A hollow box: walls without thickness, off which spheres bounce on either side.
 
+    One sees through those that are nearer than what is in it.
+
     Attributes:
         size: Full lengths along local x, y, z [m], each > 0.
-        open: Sides without a wall: one, or several.
+        open: Sides without a wall: one, or a list; none where it is missing.
     """
 
     tag: ClassVar[str] = "container"
@@ -85,9 +87,7 @@ class Container(Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if len(self.open) == 1:
-            # As it comes back from text.
-            object.__setattr__(self, "open", self.open[0])
+        simplify_open(self)
 
 
 Shape: TypeAlias = Ball | Rectangle | HalfSpace | Box | Container
@@ -110,12 +110,14 @@ class Collider(Part):
         visible: Whether it is drawn.
         color: Its colour; the scene's own for surfaces where it is missing.
         friction: Coulomb's coefficient of friction, >= 0, under the rules ``exact`` and
-            ``contact``; where it is missing, here and in the next three, the value of what is
-            touched counts.
-        rolling_friction: Coefficient of rolling friction, >= 0.
-        spinning_friction: Coefficient of spinning friction, >= 0.
-        tangential_restitution: Coefficient of tangential restitution in [0, 1].
-        finish: How its surface takes light; it changes no motion.
+            ``contact``; that of what it touches where it is missing.
+        rolling_friction: Coefficient of rolling friction, >= 0; that of what it touches where it is
+            missing.
+        spinning_friction: Coefficient of spinning friction, >= 0; that of what it touches where it
+            is missing.
+        tangential_restitution: Coefficient of tangential restitution in [0, 1]; that of what it
+            touches where it is missing.
+        finish: How its surface takes light.
     """
 
     shape: Shape

@@ -1,4 +1,7 @@
-"""Forces and springs."""
+"""Forces and springs.
+
+Made by `cargo xtask parts` of the schema of scene files, which says what is to be changed.
+"""
 
 from __future__ import annotations
 
@@ -60,9 +63,9 @@ class PointAttractor(Part):
     """Gravity of a point mass that stays where it is, as of a sun.
 
     Attributes:
-        gravitational_parameter: G M, in m³/s²; a negative one repels.
-        position: Where it is, in m.
-        softening: Length, in m, >= 0: nearer, the force goes to zero instead of growing.
+        gravitational_parameter: Gravitational parameter G M [m³/s²]; a negative one repels.
+        position: Where it is [m].
+        softening: Softening length [m], >= 0: nearer, the force goes to zero instead of growing.
     """
 
     tag: ClassVar[str] = "point-attractor"
@@ -76,15 +79,14 @@ class MutualGravity(Part):
     """Gravity between spheres: every one attracts every other one.
 
     Attributes:
-        constant: Gravitational constant, in m³/(kg s²); nature's unless given. A negative one
-            repels.
-        softening: Length, in m, >= 0: nearer, the force goes to zero instead of growing.
+        constant: Gravitational constant [m³/(kg s²)]; nature's unless given. A negative one repels.
+        softening: Softening length [m], >= 0: nearer, the force goes to zero instead of growing.
         opening_angle: Of more than a thousand spheres, those in a cube count as one where its edge
-            divided by its distance is less than this; with 0 every pair is summed.
+            divided by its distance is less than this, in [0, 1]; with 0 every pair is summed.
     """
 
     tag: ClassVar[str] = "mutual-gravity"
-    constant: Finite = 6.67430e-11
+    constant: Finite = 6.6743e-11
     softening: NonNegative = 0.0
     opening_angle: Restitution = 0.5
 
@@ -94,8 +96,8 @@ class Wind(Part):
     """Viscous drag in a wind that is the same everywhere.
 
     Attributes:
-        velocity: Of the air, in m/s.
-        coefficient: Of drag, in kg/s, >= 0.
+        velocity: Of the air [m/s].
+        coefficient: Drag coefficient [kg/s], >= 0.
     """
 
     tag: ClassVar[str] = "wind"
@@ -108,11 +110,12 @@ class Vortex(Part):
     """Viscous drag in air that goes round an axis.
 
     Attributes:
-        circulation: In m²/s.
+        circulation: Circulation [m²/s].
         core_radius: Where the air is fastest, in m from the axis, > 0.
-        coefficient: Of drag, in kg/s, >= 0.
-        position: A point of the axis, in m.
-        axis: Its direction; the air goes round it by the right-hand rule.
+        coefficient: Drag coefficient [kg/s], >= 0.
+        position: A point of the axis [m].
+        axis: Direction of the axis, of any length but zero; the air goes round it by the right-hand
+            rule.
     """
 
     tag: ClassVar[str] = "vortex"
@@ -128,11 +131,11 @@ class QuadraticDrag(Part):
     """Drag of a medium, proportional to the square of the velocity.
 
     Attributes:
-        density: Of the medium, in kg/m³, >= 0: 1.2 for air, 1000 for water.
-        drag_coefficient: >= 0.
+        density: Of the medium [kg/m³], >= 0: 1.2 for air, 1000 for water.
+        drag_coefficient: Drag coefficient, >= 0.
         viscosity: Dynamic viscosity of the medium, in Pa s, >= 0. With one, the drag coefficient of
             slow spheres depends on the Reynolds number.
-        wind: Velocity of the medium, in m/s.
+        wind: Velocity of the medium [m/s].
     """
 
     tag: ClassVar[str] = "quadratic-drag"
@@ -147,9 +150,10 @@ class Buoyancy(Part):
     """Buoyancy in a fluid with a level surface.
 
     Attributes:
-        density: Of the fluid, in kg/m³, >= 0.
-        surface_height: Of the surface above the origin, in m.
-        gravity: In m/s², not zero: it makes the fluid heavy, and says where up is.
+        density: Of the fluid [kg/m³], >= 0.
+        surface_height: Height of the surface above the origin [m].
+        gravity: Acceleration of gravity [m/s²], not zero: it makes the fluid heavy, and says where
+            up is.
     """
 
     tag: ClassVar[str] = "buoyancy"
@@ -178,19 +182,21 @@ FORCES: tuple[type[Part], ...] = get_args(Force)
 class Spring(Part):
     """A spring with a damper beside it, or a chain of such.
 
-    Spheres go by their numbers, from 0: the single ones of the scene first, then those of
-    generators. In a running world they go by their ids (`World.add_spring`). Give ``spheres``,
-    ``sphere`` with ``anchor``, or ``chain``.
+    Spheres are named by their numbers, from 0: the single ones of the scene first, then those of
+    generators, each in the order of the file. In a running world they go by their ids
+    (`World.add_spring`). Give ``spheres``, ``sphere`` with ``anchor``, or ``chain``.
 
     Attributes:
-        stiffness: In N/m, >= 0.
-        spheres: The two spheres that it joins.
-        sphere: The sphere that it joins to a fixed point.
-        anchor: The fixed point, in m.
-        chain: First and last sphere of a chain: each is joined to the next one.
-        rest_length: Length without force, in m, >= 0; the length at the start unless given.
-        damping: In kg/s, >= 0.
-        only_pulls: Whether it is a thread, which is slack up to its rest length.
+        stiffness: Stiffness [N/m], >= 0.
+        spheres: Numbers of the two spheres that it joins. Give this, ``sphere`` with ``anchor``, or
+            ``chain``.
+        sphere: Number of the sphere that it joins to a fixed point.
+        anchor: The fixed point [m].
+        chain: Numbers of the first and the last sphere of a chain: each is joined to the next one.
+        rest_length: Length without force [m], >= 0; the length at the start of the scene unless
+            given.
+        damping: Damping [kg/s], >= 0.
+        only_pulls: Whether it only pulls, as a thread does, which is slack up to its rest length.
     """
 
     stiffness: NonNegative

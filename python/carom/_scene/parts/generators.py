@@ -1,4 +1,7 @@
-"""Where many spheres or colliders come from: emitters and generators."""
+"""Where many spheres or colliders come from: emitters and generators.
+
+Made by `cargo xtask parts` of the schema of scene files, which says what is to be changed.
+"""
 
 from __future__ import annotations
 
@@ -21,25 +24,27 @@ from carom._scene.parts.kinds import (
     ThreeCounts,
     Vector,
 )
-from carom._scene.parts.part import Part, expect_one
-from carom._scene.parts.spheres import NO_SIZE, SizedSphere, Sphere, has_size
-from carom.errors import CaromError
+from carom._scene.parts.part import Part
+from carom._scene.parts.spheres import SizedSphere, Sphere
+from carom._scene.parts.together import expect_makings, expect_sizes
 
 
 @dataclass(frozen=True)
 class Emitter(Part):
-    """Emits a sphere at the times 0, period, 2 period, ...
+    """Emits a sphere at the times 0, period, 2 period, ..., ``count`` in all.
 
     Attributes:
         sphere: What is emitted.
         period: Time between two spheres [s], > 0.
         position: Where spheres appear [m].
         rotation: How the emitter, and with it the velocity of its spheres, is turned.
-        max_spheres: How many of its spheres live at most, the oldest making place; ``None``: any.
-        needs_room: Whether a sphere is left out that would overlap another one; ``None``: under the
-            rule ``contact``.
+        max_spheres: With this many of its spheres alive, the oldest makes place; no limit where it
+            is missing.
+        needs_room: Whether a sphere is left out that would overlap another one; so under the rule
+            ``contact`` where it is missing.
         name: What it is called.
-        count: How many spheres it emits in all, those left out among them; ``None``: no end.
+        count: How many spheres it emits in all, those left out among them; no end where it is
+            missing.
     """
 
     sphere: SizedSphere
@@ -52,25 +57,17 @@ class Emitter(Part):
     count: Count | None = None
 
 
-def _expect_makings(generator: Row | Lattice | StaggeredRows | Ring) -> None:
-    """Refuses a generator that makes neither spheres nor colliders, or both."""
-    if generator.sphere is None and generator.collider is None:
-        where = type(generator).__name__
-        raise CaromError(f"{where}: needs `sphere` or `collider`", where)
-    expect_one(generator, "sphere", "collider")
-
-
 @dataclass(frozen=True)
 class Row(Part):
-    """Spheres or colliders one after the other along a line: give one of them.
+    """Spheres or colliders one after the other along a line.
 
     Attributes:
         count: How many, >= 1.
         start: Centre of the first [m].
         step: From each centre to the next [m].
-        sphere: What spheres have in common.
+        sphere: What spheres have in common. Give this or ``collider``.
         collider: What colliders have in common; its position is an offset, its name gets its
-            number.
+            number. Give this or ``sphere``.
     """
 
     tag: ClassVar[str] = "row"
@@ -82,22 +79,20 @@ class Row(Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        _expect_makings(self)
+        expect_makings(self)
 
 
 @dataclass(frozen=True)
 class Lattice(Part):
-    """Spheres or colliders on a box-shaped lattice: give one of them.
-
-    x runs fastest, then y, then z.
+    """Spheres or colliders on a box-shaped lattice; x runs fastest, then y, then z.
 
     Attributes:
         counts: How many along x, y and z, each >= 1.
         start: Centre of the first [m].
         spacing: Distance of neighbours along x, y and z [m].
-        sphere: What spheres have in common.
-        collider: What colliders have in common; its position is an offset, its name gets its three
-            numbers.
+        sphere: What spheres have in common. Give this or ``collider``.
+        collider: What colliders have in common; its position is an offset, its name gets its
+            numbers along x, y and z. Give this or ``sphere``.
     """
 
     tag: ClassVar[str] = "lattice"
@@ -109,15 +104,14 @@ class Lattice(Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        _expect_makings(self)
+        expect_makings(self)
 
 
 @dataclass(frozen=True)
 class StaggeredRows(Part):
     """Rows, each centred on the one before: staggered, in a triangle, or straight.
 
-    Of spheres, or of colliders like the pegs of a Galton board: give one of ``sphere`` and
-    ``collider``.
+    Of spheres, or of colliders like the pegs of a Galton board.
 
     Attributes:
         rows: How many rows, >= 1.
@@ -126,9 +120,9 @@ class StaggeredRows(Part):
         start: Centre of the first of the first row [m].
         step: From each to the next in a row [m].
         row_step: From the middle of each row to that of the next [m].
-        sphere: What spheres have in common.
+        sphere: What spheres have in common. Give this or ``collider``.
         collider: What colliders have in common; its position is an offset, its name gets the
-            numbers of row and place.
+            numbers of row and place. Give this or ``sphere``.
     """
 
     tag: ClassVar[str] = "staggered-rows"
@@ -142,7 +136,7 @@ class StaggeredRows(Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        _expect_makings(self)
+        expect_makings(self)
 
 
 @dataclass(frozen=True)
@@ -155,7 +149,7 @@ class ClosePacking(Part):
         counts: How many spheres in a row, layers, and rows in a layer: along x, y and z, each >= 1.
         start: Centre of the first [m].
         sphere: What they have in common.
-        spacing: Distance of the centres of neighbours [m], > 0; ``None``: the diameter.
+        spacing: Distance of the centres of neighbours [m], > 0; the diameter where it is missing.
         stacking: The order of layers: hexagonal close packing (ABAB...), or face-centred cubic
             (ABCABC...).
     """
@@ -170,17 +164,18 @@ class ClosePacking(Part):
 
 @dataclass(frozen=True)
 class Ring(Part):
-    """Spheres or colliders evenly on a circle: give one of them.
+    """Spheres or colliders evenly on a circle.
 
     Attributes:
         count: How many, >= 1.
         center: Of the circle [m].
         radius: From the centre of the circle to the places [m], > 0.
-        sphere: What spheres have in common.
+        sphere: What spheres have in common. Give this or ``collider``.
         axis: Direction about which they go round, by the right-hand rule; of any length but zero.
             The first is at the side of +x, or of +y where the axis is nearly along x.
         collider: The first collider, its position an offset; it is turned about the axis to make
-            the others, with its velocities. Its name gets the number of each.
+            the others, with its velocities. Its name gets the number of each. Give this or
+            ``sphere``.
     """
 
     tag: ClassVar[str] = "ring"
@@ -193,7 +188,7 @@ class Ring(Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        _expect_makings(self)
+        expect_makings(self)
 
 
 @dataclass(frozen=True)
@@ -206,8 +201,9 @@ class RandomFill(Part):
         max: Upper corner of the box [m].
         seed: The same seed gives the same scene.
         sphere: What they have in common.
-        speed: Speed in a random direction, on top of the common velocity [m/s], >= 0.
-        radius_range: Smallest and largest radius [m], evenly spread, instead of the common one.
+        speed: Speed [m/s], >= 0, in a random direction, on top of the common velocity.
+        radius_range: Smallest and largest radius [m], evenly distributed, instead of the common
+            one.
     """
 
     tag: ClassVar[str] = "random"
@@ -221,9 +217,7 @@ class RandomFill(Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.radius_range is None and not has_size(self.sphere):
-            problem = f"{NO_SIZE}, or give `radius_range`"
-            raise CaromError(f"RandomFill.sphere: {problem}", "RandomFill.sphere")
+        expect_sizes(self)
 
 
 Generator: TypeAlias = Row | Lattice | StaggeredRows | ClosePacking | Ring | RandomFill

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 from numpy.typing import NDArray
 
@@ -104,9 +104,6 @@ RadiusRange: TypeAlias = Annotated[
     Requirement("two positive radii in order", lambda it: 0 < it[0] <= it[1] < math.inf),
 ]
 """Smallest and largest radius [m]."""
-Finish: TypeAlias = Literal["matte", "satin", "glossy", "metal", "glass"]
-"""How a surface takes light."""
-
 ORIGIN: tuple[float, float, float] = (0.0, 0.0, 0.0)
 """The default of positions and velocities."""
 UNTURNED: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)

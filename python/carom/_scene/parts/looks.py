@@ -1,11 +1,13 @@
-"""How a scene is seen: camera, light, colours."""
+"""How a scene is seen: camera, light, colours.
+
+Made by `cargo xtask parts` of the schema of scene files, which says what is to be changed.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from carom._scene.checks import wrong_value
 from carom._scene.parts.kinds import (
     UNTURNED,
     Color,
@@ -16,16 +18,19 @@ from carom._scene.parts.kinds import (
     Vector,
 )
 from carom._scene.parts.part import Part
+from carom._scene.parts.together import expect_far_behind_near
 
 
 @dataclass(frozen=True)
 class Camera(Part):
-    """Where to look from. The camera looks along its local -z.
+    """Where to look from.
+
+    The camera looks along its local -z.
 
     Attributes:
         position: In m.
         rotation: How it is turned.
-        vertical_fov_degrees: Vertical field of view in degrees, in (0, 180).
+        vertical_fov_degrees: Vertical field of view, in degrees, in (0, 180).
         near: Nearest distance drawn [m], > 0.
         far: Farthest distance drawn [m], > near.
     """
@@ -38,14 +43,14 @@ class Camera(Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        are_numbers = not isinstance(self.near, str) and not isinstance(self.far, str)
-        if are_numbers and self.far <= self.near:
-            raise wrong_value("Camera.far", "farther than `near`", self.far)
+        expect_far_behind_near(self)
 
 
 @dataclass(frozen=True)
 class Sun(Part):
-    """The light. It travels along its local -z.
+    """The light.
+
+    It travels along its local -z.
 
     Attributes:
         rotation: How it is turned.

@@ -7,7 +7,6 @@ from dataclasses import MISSING, fields
 from typing import Any
 
 from carom._scene.checks import Checked, checks_of, listed
-from carom.errors import CaromError
 
 
 class Part(Checked):
@@ -61,10 +60,3 @@ def expect(name: str, value: object, *kinds: type[Part] | str) -> None:
     raise TypeError(
         f"{name}: must be {'' if isinstance(kinds[0], str) else 'a '}{words}, not {shown}{remedy}"
     )
-
-
-def expect_one(part: Part, first: str, second: str) -> None:
-    """Refuses a part in which two fields say the same thing."""
-    if getattr(part, first) is not None and getattr(part, second) is not None:
-        where = f"{type(part).__name__}.{second}"
-        raise CaromError(f"{where}: `{first}` says it already", where)

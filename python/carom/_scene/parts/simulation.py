@@ -1,20 +1,17 @@
-"""How a scene is stepped."""
+"""How a scene is stepped.
+
+Made by `cargo xtask parts` of the schema of scene files, which says what is to be changed.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import ClassVar, Literal, TypeAlias
+from typing import ClassVar, Literal
 
+from carom._scene.parts.choices import CombineRule, ImpactLaw, Integrator, Rule
 from carom._scene.parts.kinds import Count, NonNegative, Period, Positive
 from carom._scene.parts.part import Part
-
-Integrator: TypeAlias = Literal[
-    "semi-implicit-euler", "explicit-euler", "velocity-verlet", "runge-kutta-4"
-]
-"""How spheres move under forces, by the rules ``bisect`` and ``discrete``."""
-ImpactLaw: TypeAlias = Literal["reflection", "simultaneous", "sequential"]
-"""How impacts at one instant among spheres that touch are answered, by the rule ``exact``."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,8 +20,8 @@ class Exact(Part):
 
     Attributes:
         impact_law: How impacts at one instant among spheres that touch are answered.
-        contact_duration: How long a contact lasts at least [s], > 0: bodies that would meet sooner
-            stay together.
+        contact_duration: How long a contact lasts at least [s], > 0: bodies that would meet again
+            sooner stay together.
         max_impacts: Impacts and other work per sphere in a frame, >= 1; more makes a stepped zone,
             or without zones is refused.
         zones: Whether spheres in contact that take too much work are stepped as by the rule
@@ -54,7 +51,8 @@ class Bisect(Part):
         integrator: How spheres move under forces.
         tolerance: Distance of surfaces that counts as touching [m], >= 0.
         max_halvings: Halvings in search of a contact, >= 1.
-        max_impacts: How often two bodies may meet in a frame, >= 1.
+        max_impacts: How often two bodies may meet in a frame, >= 1; then the rest of it is taken in
+            one piece.
         wind_back: Which spheres go through the pieces into which a contact cuts the frame.
     """
 
@@ -85,7 +83,8 @@ class Contact(Part):
         sweeps: Sweeps over all contacts in a sub-step, >= 1.
         converged: Whether sweeps go on until the solution has converged: slow, to compare with.
         sleep_speed: Speed below which a ball that bears or is borne may fall asleep, as a part of
-            sqrt(a r), the speed after falling through half its radius, >= 0; with 0 none sleeps.
+            ``sqrt(a r)``, the speed after falling through half its radius, >= 0; with 0 none
+            sleeps.
     """
 
     sub_steps: Count = 8
@@ -104,12 +103,6 @@ class Periodic(Part):
 
     tag: ClassVar[str] = "periodic"
     size: Period = (math.inf, math.inf, math.inf)
-
-
-Rule: TypeAlias = Literal["exact", "contact", "bisect", "discrete"]
-"""A step rule."""
-CombineRule: TypeAlias = Literal["product", "minimum", "maximum", "average", "geometric-mean"]
-"""Coefficient of a contact from those of its two bodies."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,4 +1,7 @@
-"""Spheres."""
+"""Spheres.
+
+Made by `cargo xtask parts` of the schema of scene files, which says what is to be changed.
+"""
 
 from __future__ import annotations
 
@@ -6,18 +9,19 @@ from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
 from carom._scene.checks import Whole
+from carom._scene.parts.choices import Finish
 from carom._scene.parts.kinds import (
     ORIGIN,
     UNTURNED,
     Color,
-    Finish,
     NonNegative,
     Positive,
     Quaternion,
     Restitution,
     Vector,
 )
-from carom._scene.parts.part import Part, expect_one
+from carom._scene.parts.part import Part
+from carom._scene.parts.together import NO_SIZE, expect_one, has_size
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,21 +35,23 @@ class Sphere(Part):
             `RandomFill` with a ``radius_range``.
         diameter: Diameter [m], > 0.
         mass: Mass [kg], > 0; 1 unless this or ``density`` is given.
-        density: Density [kg/m³], > 0.
+        density: Density [kg/m³], > 0, instead of ``mass``.
         restitution: Coefficient of restitution in [0, 1].
         friction: Coulomb's coefficient of friction, >= 0, under the rules ``exact`` and
-            ``contact``; where it is missing, here and in the next three, the value of what is
-            touched counts.
-        rolling_friction: Coefficient of rolling friction, >= 0.
-        spinning_friction: Coefficient of spinning friction, >= 0.
-        tangential_restitution: Coefficient of tangential restitution in [0, 1].
+            ``contact``; that of what it touches where it is missing.
+        rolling_friction: Coefficient of rolling friction, >= 0; that of what it touches where it is
+            missing.
+        spinning_friction: Coefficient of spinning friction, >= 0; that of what it touches where it
+            is missing.
+        tangential_restitution: Coefficient of tangential restitution in [0, 1]; that of what it
+            touches where it is missing.
         orientation: How it is turned.
         angular_velocity: How fast it turns, along the axis [rad/s]; in an emitter in the emitter's
             frame.
         inertia_factor: Moment of inertia divided by mass and square of the radius, > 0: 2/5 for a
             solid ball, 2/3 for a thin shell.
         color: Colour; by density or the scene's own where it is missing.
-        finish: How its surface takes light; it changes no motion.
+        finish: How its surface takes light.
     """
 
     position: Vector = ORIGIN
@@ -71,12 +77,5 @@ class Sphere(Part):
         expect_one(self, "mass", "density")
 
 
-def has_size(sphere: Sphere) -> bool:
-    """Whether a sphere says how large it is."""
-    return sphere.radius is not None or sphere.diameter is not None
-
-
-NO_SIZE = "needs `radius` or `diameter`"
-"""What is wrong with one that does not."""
 SizedSphere: TypeAlias = Annotated[Sphere, Whole(NO_SIZE, has_size)]
 """A sphere with a radius or a diameter."""

@@ -1,0 +1,51 @@
+"""What fields of a part must be together, which no kind of a single one can say."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from carom._scene.checks import wrong_value
+from carom.errors import CaromError
+
+NO_SIZE = "needs `radius` or `diameter`"
+"""What is wrong with a sphere that does not say how large it is."""
+
+
+def has_size(sphere: Any) -> bool:
+    """Whether a sphere says how large it is."""
+    return sphere.radius is not None or sphere.diameter is not None
+
+
+def expect_one(part: Any, first: str, second: str) -> None:
+    """Refuses a part in which two fields say the same thing."""
+    if getattr(part, first) is not None and getattr(part, second) is not None:
+        where = f"{type(part).__name__}.{second}"
+        raise CaromError(f"{where}: `{first}` says it already", where)
+
+
+def expect_makings(generator: Any) -> None:
+    """Refuses a generator that makes neither spheres nor colliders, or both."""
+    if generator.sphere is None and generator.collider is None:
+        where = type(generator).__name__
+        raise CaromError(f"{where}: needs `sphere` or `collider`", where)
+    expect_one(generator, "sphere", "collider")
+
+
+def expect_sizes(filling: Any) -> None:
+    """Refuses a random filling of spheres without a size."""
+    if filling.radius_range is None and not has_size(filling.sphere):
+        where = f"{type(filling).__name__}.sphere"
+        raise CaromError(f"{where}: {NO_SIZE}, or give `radius_range`", where)
+
+
+def expect_far_behind_near(camera: Any) -> None:
+    """Refuses a camera that draws nothing."""
+    are_numbers = not isinstance(camera.near, str) and not isinstance(camera.far, str)
+    if are_numbers and camera.far <= camera.near:
+        raise wrong_value("Camera.far", "farther than `near`", camera.far)
+
+
+def simplify_open(container: Any) -> None:
+    """Has one open side be itself, as it comes back from text."""
+    if len(container.open) == 1:
+        object.__setattr__(container, "open", container.open[0])
