@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn lines_break_before_the_margin() {
-        let lines = wrapped(&"word ".repeat(25).trim_end().to_owned(), "  ", "    ");
+        let lines = wrapped("word ".repeat(25).trim_end(), "  ", "    ");
         assert_eq!(lines.iter().map(String::len).collect::<Vec<_>>(), [96, 33]);
     }
 }
