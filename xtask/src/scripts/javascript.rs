@@ -15,7 +15,8 @@ pub fn imports(scripts: &[Script]) -> Vec<BTreeMap<usize, Import>> {
         let mut found = BTreeMap::new();
         for (line, path) in imported(&script.code()) {
             let file = beside(&script.file, &path);
-            if let Some(&to) = places.get(file.as_path()) {
+            let declared = file.with_extension("d.ts");
+            if let Some(&to) = places.get(file.as_path()).or(places.get(declared.as_path())) {
                 found.entry(to).or_insert(Import { path, line });
             }
         }
@@ -62,5 +63,14 @@ mod tests {
         let found = imports(&scripts);
         let lines: Vec<_> = found[0].iter().map(|(to, import)| (*to, import.line)).collect();
         assert_eq!(lines, [(1, 1), (2, 3), (3, 4), (4, 5)]);
+    }
+
+    #[test]
+    fn declarations_import_each_other_by_the_names_of_what_they_declare() {
+        let scripts = [
+            Script::of_test("web/a.d.ts", "import type { B } from \"./b.js\";\n"),
+            Script::of_test("web/b.d.ts", ""),
+        ];
+        assert!(imports(&scripts)[0].contains_key(&1));
     }
 }

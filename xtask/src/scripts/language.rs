@@ -15,7 +15,8 @@ impl Language {
     pub fn of(file: &Path) -> Option<Self> {
         match file.extension()?.to_str()? {
             "py" | "pyi" => Some(Self::Python),
-            "js" => Some(Self::JavaScript),
+            // The declarations of TypeScript have its imports.
+            "js" | "ts" => Some(Self::JavaScript),
             "cs" => Some(Self::CSharp),
             _ => None,
         }
