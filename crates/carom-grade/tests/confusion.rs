@@ -1,5 +1,5 @@
 //! Every known mistake, planted in every SimTest: which one grading names first. Runs are in single precision,
-//! with 1e-6 m of noise, without velocities. The table of `docs/courses.md` is made here, and held to.
+//! with 1e-6 m of noise, without velocities. The table of `confusion.md` is made here, and held to.
 
 mod common;
 
@@ -78,7 +78,7 @@ fn column(scene: &str) -> Vec<Cell> {
 }
 
 #[test]
-fn mistakes_are_named_and_the_table_of_the_documents_is_current() {
+fn mistakes_are_named_and_the_table_of_them_is_current() {
     let columns: Vec<Vec<Cell>> = std::thread::scope(|scope| {
         let columns: Vec<_> = SCENES.iter().map(|scene| scope.spawn(|| column(scene))).collect();
         columns.into_iter().map(|it| it.join().unwrap()).collect()
@@ -96,18 +96,15 @@ fn mistakes_are_named_and_the_table_of_the_documents_is_current() {
         "\n{named} of {seen} pairs of a mistake and a scene where it can be seen are named.\n"
     );
     assert!(10 * named >= 9 * seen, "{table}");
-    let document = include_str!("../../../docs/courses.md");
-    assert!(document.contains(&table), "docs/courses.md should have this table:\n{table}");
+    let document = include_str!("confusion.md");
+    assert!(document.contains(&table), "confusion.md should have this table:\n{table}");
 }
 
 #[test]
-fn the_documents_explain_every_mistake() {
-    let document = include_str!("../../../docs/courses.md");
+fn the_guide_for_courses_names_every_mistake() {
+    let guide = include_str!("../../../docs/courses.md");
     for mistake in Mistake::all() {
-        // In a table, a bar is written with a backslash.
-        let [wrong, right] = [mistake.wrong(), mistake.right()].map(|it| it.replace('|', "\\|"));
-        let (name, sentence) = (mistake.name(), mistake.sentence());
-        let row = format!("| `{name}` | {sentence} | `{wrong}` | `{right}` |");
-        assert!(document.contains(&row), "docs/courses.md should have this row:\n{row}");
+        let name = format!("`{}`", mistake.name());
+        assert!(guide.contains(&name), "docs/courses.md should name {name}");
     }
 }
