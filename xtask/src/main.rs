@@ -21,6 +21,7 @@ mod native_hashes;
 mod notices;
 mod python;
 mod release;
+mod scene_reference;
 mod schema;
 mod setup;
 mod shell;
@@ -58,7 +59,7 @@ Usage: cargo xtask COMMAND
   lint      the checks that need no build: format, words, links and names in documents, modules that
             use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
-  schema    write crates/carom-scene/scenes/scene.schema.json anew from the scene types
+  schema    write scene.schema.json and fields.md in crates/carom-scene/scenes from the scene types
   release   `release --dry-run` makes and checks all that a release publishes, in
             target/release-files, and publishes nothing (many minutes; `--part NAME` makes one part of it,
             `--full` builds once more from every package, `--keep-viewer` takes the viewer for notebooks that
