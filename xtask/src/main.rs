@@ -3,6 +3,7 @@
 #![warn(clippy::unwrap_used)]
 
 mod architecture;
+mod book;
 mod c_interface;
 mod checks;
 mod circles;
@@ -28,6 +29,7 @@ mod shell;
 mod sizes;
 mod sources;
 mod stages;
+mod tools;
 mod wasm;
 mod wasm_toolchain;
 mod web;
@@ -59,6 +61,7 @@ Usage: cargo xtask COMMAND
   lint      the checks that need no build: format, words, links and names in documents, modules that
             use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
+  docs      make a site with a search of all documents, in target/book/book (installs mdbook: minutes)
   schema    write scene.schema.json and fields.md in crates/carom-scene/scenes from the scene types
   release   `release --dry-run` makes and checks all that a release publishes, in
             target/release-files, and publishes nothing (many minutes; `--part NAME` makes one part of it,
@@ -103,6 +106,7 @@ fn main() -> ExitCode {
         ["notebook"] => web::build_for_notebooks(Purpose::Use),
         ["lint"] => checks::lint(),
         ["documents"] => commands::check_plain(),
+        ["docs"] => book::build(),
         ["schema"] => schema::write(),
         ["soak"] => long_tests::soak("24"),
         ["soak", "--hours", hours] => long_tests::soak(hours),
