@@ -66,16 +66,16 @@ fn add_properties(schema: &mut Schema) {
     let mut value = schemars::json_schema!({ "type": "number" });
     allow_text(&mut value);
     let table = json!({
-        "description": "Numbers by name, for formulas: a string that begins with = may stand wherever a number may, \
-                        as in radius = \"=2*r\". A parameter may have a unit, as in \"5 cm\", or be a formula of those before it.",
+        "description": "Numbers by name, for formulas. A text that begins with = may stand wherever a number may: \
+                        radius = \"=2*r\". A parameter may have a unit, \"5 cm\", or be a formula of those before it.",
         "type": "object",
         "additionalProperties": value,
     });
     if let Some(Value::Object(properties)) = schema.get_mut("properties") {
         properties.insert(parameters::TABLE.to_owned(), table);
         let include = json!({
-            "description": "Scene files beside this one, a path or a list: what they say counts as if it stood before \
-                            what this one says; of single values, those of this one count.",
+            "description": "Other scene files, a path or a list of paths. Their lists come before those of this file; \
+                            single values of this file win.",
             "oneOf": [{ "type": "string" }, { "type": "array", "items": { "type": "string" } }],
         });
         properties.insert("include".to_owned(), include);
