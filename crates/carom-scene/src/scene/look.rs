@@ -97,16 +97,16 @@ pub struct Sun {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Colors {
-    /// Background.
+    /// Colour of the background.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub background: Option<Color>,
-    /// Colliders.
+    /// Colour of colliders.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colliders: Option<Color>,
-    /// Spheres of other densities.
+    /// Colour of spheres of other densities.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spheres: Option<Color>,
-    /// Spheres by their density.
+    /// Colours of spheres by density.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub densities: Vec<DensityColor>,
 }
