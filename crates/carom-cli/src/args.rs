@@ -109,10 +109,10 @@ pub enum Command {
     New(New),
     /// Make a scene file of a scene of Unity, or of a glTF file; lists what has no counterpart.
     Import(Import),
-    /// Check scene files; says what is wrong, and in which line.
+    /// Check scenes; says what is wrong, and in which line.
     Check {
-        /// Scene files; `-` is the standard input.
-        #[arg(required = true, value_name = "FILE")]
+        /// Scene files, or names of scenes; `-` is the standard input.
+        #[arg(required = true, value_name = "SCENE")]
         files: Vec<PathBuf>,
     },
     /// Print a scene as TOML, every default written out.

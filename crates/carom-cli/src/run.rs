@@ -18,7 +18,7 @@ use crate::failure::{Failure, both, complain};
 use crate::interruption::interruption;
 use crate::link;
 use crate::progress::Progress;
-use crate::standard_input::STANDARD;
+use crate::standard_input::{STANDARD, is_standard};
 use crate::summary::{Observer, Summary};
 
 /// Runs a scene and prints what became of it; again and again, if its file is watched. What a link
@@ -157,14 +157,6 @@ fn series(out: &Path) -> Vec<PathBuf> {
     let stem = out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let first = out.with_file_name(format!("{stem}_frames")).join("000000.vtp");
     if is_one { vec![out.with_extension("pvd"), first] } else { Vec::new() }
-}
-
-/// Whether this stands for the standard output: `-`, or the name that the system has for it. Opened by that
-/// name, a file behind it would be written from its beginning, under the summary.
-fn is_standard(path: &Path) -> bool {
-    let names: &[&str] =
-        if cfg!(unix) { &["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] } else { &[] };
-    path.as_os_str() == STANDARD || names.iter().any(|name| path.as_os_str() == *name)
 }
 
 /// Whether a trajectory of this name is an animation.

@@ -291,7 +291,7 @@ mod tests {
     #[test]
     fn no_picture_and_no_text_is_too_small_or_too_odd() {
         for (width, height) in [(0, 0), (1, 1), (5, 300), (300, 5), (16, 16)] {
-            for text in ["", " ", TEXT, "\n\u{1f3b1}\u{301}", &"x".repeat(100_000)] {
+            for text in ["", " ", TEXT, "\n\u{1f3b1}\u{301}", &"x".repeat(10_000)] {
                 stamped(width, height, 128, text);
             }
         }
