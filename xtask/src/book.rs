@@ -20,7 +20,8 @@ const MDBOOK: Tool = Tool {
     arguments: &["--no-default-features", "--features", "search"],
 };
 /// The list of pages.
-const SUMMARY: &str = "docs/SUMMARY.md";
+const SUMMARY: &str = "xtask/site/SUMMARY.md";
+const SETTINGS: &str = "xtask/site/book.toml";
 const PICTURES: &str = "docs/pictures";
 /// Where files lie that are no pages.
 const FILES: &str = concat!(env!("CARGO_PKG_REPOSITORY"), "/blob/main");
@@ -36,7 +37,7 @@ pub fn build() -> Outcome {
     }
     write(&source.join("SUMMARY.md"), &summary()?)?;
     copy(&root().join(PICTURES), &source.join(PICTURES))?;
-    copy(&root().join("book.toml"), &folder.join("book.toml"))?;
+    copy(&root().join(SETTINGS), &folder.join("book.toml"))?;
     finish("mdbook", Command::new(program).arg("build").arg(&folder))?;
     eprintln!("xtask: the site is in {}", folder.join("book").display());
     Ok(())
