@@ -1,4 +1,4 @@
-//! What spheres bounce off.
+//! Colliders of scene files.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -66,7 +66,7 @@ pub struct Collider {
 }
 
 impl Collider {
-    /// A solid collider at the origin that does not move, not turned, without a name.
+    /// Creates a solid collider at the origin, without rotation, motion or name.
     pub fn new(shape: Shape) -> Self {
         Self {
             name: String::new(),
@@ -114,8 +114,8 @@ pub enum Shape {
         /// Full lengths along local x, y, z, in m, each > 0.
         size: Vector,
     },
-    /// A hollow box: walls without thickness, off which spheres bounce on either side. One sees
-    /// through those that are nearer than what is in it.
+    /// A hollow box: walls without thickness, off which spheres bounce on both sides. Pictures
+    /// leave out the walls between the camera and the inside.
     Container {
         /// Full lengths along local x, y, z, in m, each > 0.
         size: Vector,
@@ -144,7 +144,7 @@ pub enum Side {
     Front,
 }
 
-/// How sides are written.
+/// Forms in which a file may state sides.
 #[derive(JsonSchema)]
 #[serde(untagged)]
 #[expect(dead_code, reason = "describes what is written")]
@@ -155,7 +155,7 @@ enum OneOrMore {
     More(Vec<Side>),
 }
 
-/// One side as a word, others as a list.
+/// Writes a single side as a word, several as a list.
 mod one_or_more {
     use serde::de::value::{SeqAccessDeserializer, StrDeserializer};
     use serde::de::{SeqAccess, Visitor};

@@ -24,16 +24,17 @@ pub struct Emitter {
     /// Time between two spheres, in s, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub period: f64,
-    /// With this many of its spheres alive, the oldest makes place; no limit where it is missing.
+    /// Most spheres of this emitter at one time: the oldest is removed to make place for a new one;
+    /// no limit where it is missing.
     #[schemars(range(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_spheres: Option<u32>,
-    /// How many spheres it emits in all, those left out among them; no end where it is missing.
+    /// Most spheres that it emits in all, counting those left out; no limit where it is missing.
     #[schemars(range(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u32>,
-    /// Whether a sphere is left out that would overlap another one; so under the rule `contact` where it is
-    /// missing.
+    /// Whether a sphere that would overlap another one is left out; where it is missing, under the
+    /// rule `contact` only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub needs_room: Option<bool>,
     /// What is emitted.

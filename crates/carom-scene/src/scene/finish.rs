@@ -21,8 +21,8 @@ pub enum Finish {
 }
 
 impl Finish {
-    /// Metalness and roughness, each in \[0, 1\], of a physically based material that looks like it; of
-    /// glass, those of its surface.
+    /// Metalness and roughness, each in \[0, 1\], of a physically based material that looks
+    /// similar; for glass, those of its surface.
     pub fn metallic_roughness(self) -> [f64; 2] {
         match self {
             Self::Matte => [0.0, 1.0],
@@ -33,8 +33,8 @@ impl Finish {
         }
     }
 
-    /// The opaque finish that looks most like a physically based material of this metalness and roughness, each in
-    /// \[0, 1\].
+    /// Returns the opaque finish that is most similar to a physically based material of this
+    /// metalness and roughness, each in \[0, 1\].
     pub fn of_metallic_roughness([metallic, roughness]: [f64; 2]) -> Self {
         match (metallic, roughness) {
             (0.5.., _) => Self::Metal,

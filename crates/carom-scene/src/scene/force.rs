@@ -111,7 +111,7 @@ pub enum Force {
 }
 
 impl Force {
-    /// Name of its kind, as it is written.
+    /// Name of the kind of force, as in scene files.
     pub(crate) fn kind(&self) -> &'static str {
         match self {
             Self::Constant { .. } => "constant",

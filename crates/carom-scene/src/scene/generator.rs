@@ -135,8 +135,8 @@ pub struct StaggeredRows {
     /// How many rows, >= 1.
     #[schemars(range(min = 1))]
     pub rows: u32,
-    /// How many in each row, >= 1: [13, 12] staggers rows, [1, 2, 3] is a triangle. Where there are
-    /// more rows than numbers, these begin anew.
+    /// How many in each row, >= 1: [13, 12] staggers rows, [1, 2, 3] is a triangle. The list is
+    /// repeated if there are more rows than numbers.
     #[schemars(length(min = 1))]
     pub counts: Vec<u32>,
     /// Centre of the first of the first row, in m.
@@ -155,7 +155,7 @@ pub struct StaggeredRows {
 }
 
 impl StaggeredRows {
-    /// How many places there are in all rows.
+    /// Number of places in all rows.
     fn places(&self) -> u64 {
         let sum = |counts: &[u32]| counts.iter().map(|&count| u64::from(count)).sum::<u64>();
         let (rows, length) = (self.rows as usize, self.counts.len().max(1));
@@ -165,7 +165,7 @@ impl StaggeredRows {
     }
 }
 
-/// In which order the layers of a close packing follow each other.
+/// Order of the layers of a close packing.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stacking {
@@ -177,7 +177,7 @@ pub enum Stacking {
 }
 
 impl Generator {
-    /// Name of its kind, as it is written.
+    /// Name of the kind of generator, as in scene files.
     pub(crate) fn kind(&self) -> &'static str {
         match self {
             Self::Row(_) => "row",
@@ -189,12 +189,12 @@ impl Generator {
         }
     }
 
-    /// How many spheres it makes.
+    /// Number of spheres that it creates.
     pub fn count(&self) -> u64 {
         self.sphere().map_or(0, |_| self.places())
     }
 
-    /// How many spheres or colliders it makes.
+    /// Number of spheres or colliders that it creates.
     pub(crate) fn places(&self) -> u64 {
         match self {
             Self::Row(row) => row.count.into(),
@@ -206,7 +206,7 @@ impl Generator {
         }
     }
 
-    /// What its spheres have in common; `None` if it makes colliders.
+    /// Common properties of its spheres; `None` if it creates colliders.
     pub fn sphere(&self) -> Option<&Sphere> {
         match self {
             Self::ClosePacking { sphere, .. } | Self::Random { sphere, .. } => Some(sphere),
@@ -217,7 +217,7 @@ impl Generator {
         }
     }
 
-    /// What its colliders have in common; `None` if it makes spheres.
+    /// Common properties of its colliders; `None` if it creates spheres.
     pub fn collider(&self) -> Option<&Collider> {
         match self {
             Self::ClosePacking { .. } | Self::Random { .. } => None,

@@ -1,4 +1,4 @@
-//! How a scene is seen: camera, light, colours.
+//! Camera, light and colours of scene files.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What a scene file says: one type per table of the file.
+//! Tables of scene files: one type per table.
 //!
 //! The doc comments here are the descriptions in the JSON Schema that editors show.
 
@@ -81,7 +81,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// An empty scene of this name, to be filled by code.
+    /// Creates an empty scene of this name, to be filled by code.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),

@@ -1,4 +1,4 @@
-//! Rotations as people write them, to quaternions.
+//! Reads rotations in all forms of scene files, as quaternions.
 
 use carom::{DQuat, DVec3};
 use schemars::JsonSchema;
@@ -39,7 +39,7 @@ pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Quatern
     deserializer.deserialize_any(Reader)
 }
 
-/// Reads a rotation for a field that may be missing.
+/// Reads a rotation in a field that may be missing.
 pub(super) fn read_some<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<Quaternion>, D::Error> {
@@ -99,20 +99,20 @@ fn about(axis: DVec3, degrees: f64) -> Result<Quaternion, String> {
     Ok(turn(axis, degrees).to_array())
 }
 
-/// A turn about a unit vector.
+/// Rotation about a unit vector by an angle.
 fn turn(axis: DVec3, degrees: f64) -> DQuat {
     let (sin, cos) = libm::sincos(0.5 * degrees.to_radians());
     let [x, y, z] = (axis * sin).to_array();
     DQuat::from_xyzw(x, y, z, cos)
 }
 
-/// The shortest turn of +y to a unit vector.
+/// Shortest rotation from +y to a unit vector.
 fn up_to(normal: DVec3) -> DQuat {
-    // Straight down, every horizontal axis would do.
+    // For a normal straight down, any horizontal axis is shortest.
     if normal.x == 0.0 && normal.z == 0.0 && normal.y < 0.0 {
         return DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0);
     }
-    // 1 + y, which would cancel near -1.
+    // 1 + y, without cancellation near y = -1.
     let cosine = if normal.y < 0.0 {
         (normal.x * normal.x + normal.z * normal.z) / (1.0 - normal.y)
     } else {
@@ -121,8 +121,8 @@ fn up_to(normal: DVec3) -> DQuat {
     DQuat::from_xyzw(normal.z, 0.0, -normal.x, cosine).normalize()
 }
 
-/// The rotation of a camera at `position` that looks along its local -z at `target`, +y upward in the
-/// picture (-z where it looks straight down).
+/// Rotation of a camera at `position` that looks at `target` along its local -z; +y is upward in
+/// the picture, or -z if it looks straight down.
 pub(super) fn looking_at(position: Vector, target: Vector) -> Result<Quaternion, String> {
     let way = DVec3::from_array(target) - DVec3::from_array(position);
     let ahead = direction(way.to_array(), "the way from `position` to `look_at`")?;

@@ -1,4 +1,4 @@
-//! How a scene is stepped.
+//! Settings of the simulation.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -82,12 +82,12 @@ impl Rule {
     pub const NAMES: [&str; 4] =
         [Self::Exact.name(), Self::Contact.name(), Self::Bisect.name(), Self::Discrete.name()];
 
-    /// Whether friction acts under it.
+    /// Whether friction acts under this rule.
     pub const fn has_friction(self) -> bool {
         matches!(self, Self::Exact | Self::Contact)
     }
 
-    /// Its name in scene files.
+    /// Name of the rule in scene files.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Discrete => "discrete",
@@ -140,14 +140,15 @@ pub struct Exact {
     /// How long a contact lasts at least, in s, > 0: bodies that would meet again sooner stay together.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub contact_duration: f64,
-    /// Impacts and other work per sphere in a frame, >= 1; more makes a stepped zone, or without zones is
-    /// refused.
+    /// Most impacts and other work per sphere in a frame, >= 1: above it, the spheres become a
+    /// stepped zone or, without zones, the step is refused.
     #[schemars(range(min = 1))]
     pub max_impacts: u32,
     /// Whether spheres in contact that take too much work are stepped.
     #[serde(skip_serializing_if = "is_default")]
     pub zones: Zones,
-    /// Work of a group of spheres in a tick, in contacts times iterations, >= 1; more makes a stepped zone.
+    /// Most work of a group of spheres in a tick, in contacts times iterations, >= 1: above it, the
+    /// group becomes a stepped zone.
     #[schemars(range(min = 1))]
     #[serde(skip_serializing_if = "is_default_zone_budget")]
     pub zone_budget: u32,
@@ -191,7 +192,7 @@ impl Default for Exact {
     }
 }
 
-/// What becomes of spheres in contact whose impacts take too much work.
+/// Treatment of spheres in contact whose impacts take too much work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Zones {

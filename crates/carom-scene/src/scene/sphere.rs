@@ -82,7 +82,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// A sphere at rest at a place \[m\], of 1 kg.
+    /// Creates a sphere of 1 kg at rest at `position` \[m\].
     pub fn at(position: Vector, radius: f64) -> Self {
         Self {
             position,

@@ -45,20 +45,20 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// The springs of a world, between spheres by their places in it.
+    /// Returns the springs of a world; spheres are named by their places in it.
     pub fn all_of(world: &World) -> Vec<Self> {
         let ids = world.spheres().ids();
         world.springs().filter_map(|(_, spring)| Self::of(spring, ids)).collect()
     }
 
-    /// The description of a spring between spheres of which these are the ids, ascending; `None` if one of its ends
-    /// is not among them.
+    /// Describes a spring between spheres with these ids, ascending; spheres are named by their
+    /// places in the list. Returns `None` if one of them is not in the list.
     pub fn of(spring: &carom::Spring, ids: &[SphereId]) -> Option<Self> {
         Self::naming(spring, |id| Some(ids.binary_search(&id).ok()? as u32))
     }
 
-    /// The description of a spring of a running world, where spheres go by their ids; `None` if one of these needs
-    /// more than 32 bits.
+    /// Describes a spring of a running world; spheres are named by their ids. Returns `None` if an
+    /// id needs more than 32 bits.
     pub fn by_ids(spring: &carom::Spring) -> Option<Self> {
         Self::naming(spring, |id| u32::try_from(id.number()).ok())
     }

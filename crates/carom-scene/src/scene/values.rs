@@ -1,4 +1,4 @@
-//! Values of fields: vectors, rotations, colours.
+//! Types of values in fields: vectors, rotations, colours.
 
 use carom::{DQuat, DVec3};
 
@@ -9,32 +9,32 @@ pub type Quaternion = [f64; 4];
 /// Red, green, blue, each in [0, 1] (sRGB).
 pub type Color = [f64; 3];
 
-/// What a field that counts fully is where it is missing.
+/// Default of fields that are 1 where they are missing.
 pub(super) fn one() -> f64 {
     1.0
 }
 
-/// The rotation that turns nothing.
+/// Rotation by no angle.
 pub(super) fn unturned() -> Quaternion {
     [0.0, 0.0, 0.0, 1.0]
 }
 
-/// Whether a field may be left out, for it has the value that it has where it is missing.
+/// Whether a value is the default, so that its field need not be written.
 pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-/// Whether a rotation turns nothing.
+/// Whether a rotation is the identity as written.
 pub(super) fn is_unturned(value: &Quaternion) -> bool {
     *value == unturned()
 }
 
-/// A vector, to compute with.
+/// Converts a vector to the type of `glam`.
 pub(crate) fn vector(value: Vector) -> DVec3 {
     DVec3::from_array(value)
 }
 
-/// A rotation, to compute with; of any length.
+/// Converts a rotation to the type of `glam`; its length may differ from 1.
 pub(crate) fn quaternion(value: Quaternion) -> DQuat {
     DQuat::from_array(value)
 }
