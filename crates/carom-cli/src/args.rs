@@ -43,7 +43,7 @@ pub struct Args {
 }
 
 impl Args {
-    /// Where scenes come from, and what to do.
+    /// Splits the command line into the sources of scenes and the command.
     pub fn split(self) -> (Sources, Command) {
         #[cfg(not(feature = "view"))]
         let command = self.command;
@@ -53,15 +53,15 @@ impl Args {
     }
 }
 
-/// Where scenes come from, and how many spheres they may ask for, as the command line says.
+/// Folders of scenes, and the limit on their spheres, from the command line.
 pub struct Sources {
     folders: Vec<PathBuf>,
     max_spheres: Option<u64>,
 }
 
 impl Sources {
-    /// This budget, with as many spheres as the command line, the environment or a user's
-    /// configuration allows.
+    /// Returns `usual` with the limit on spheres of the command line, the environment or the
+    /// configuration file.
     pub fn budget(&self, usual: Budget, config: &Config) -> Result<Budget, Failure> {
         const VARIABLE: &str = "CAROM_MAX_SPHERES";
         let from_environment = std::env::var(VARIABLE).ok().filter(|it| !it.is_empty());
@@ -82,7 +82,7 @@ impl Sources {
         Ok(Budget { spheres, ..usual })
     }
 
-    /// All scenes that can be found, those in the folders of a user's configuration, too.
+    /// Creates the library of all scenes, including those in the folders of the configuration file.
     pub fn library(&self, config: &Config) -> Result<Library, Failure> {
         let mut library = Library::new().within(self.budget(Budget::FILE, config)?);
         let from_environment = std::env::var_os("CAROM_SCENES").unwrap_or_default();
@@ -119,8 +119,9 @@ pub enum Command {
     Show(Show),
     /// Run a scene, or what a link leads to, and print what became of it.
     Run(Box<Run>),
-    /// Make the complete file of what a killed run left: an .npz file of NAME.npz.0.unfinished, a film of
-    /// NAME.mp4.0.unfinished. Of a .csv table, take out a last line that is cut short.
+    /// Complete the file that a killed run left unfinished: an .npz file from
+    /// NAME.npz.0.unfinished, a film from NAME.mp4.0.unfinished. In a .csv table, remove a last
+    /// line that is cut short.
     Recover(Recover),
     /// Print a link that opens a run of a scene in a browser; `carom run --link` runs it here.
     Link(Link),
@@ -168,7 +169,7 @@ pub enum Command {
 pub struct New {
     /// What the scene is called; the file is NAME.toml.
     pub name: PathBuf,
-    /// Whether a file that is there is replaced.
+    /// Whether an existing file is replaced.
     #[command(flatten)]
     pub replacing: Replacing,
 }
@@ -196,7 +197,7 @@ pub struct Import {
     /// Time worth watching in s; 10 by default.
     #[arg(long, value_name = "S", value_parser = positive)]
     pub seconds: Option<f64>,
-    /// Whether files that are there are replaced.
+    /// Whether existing files are replaced.
     #[command(flatten)]
     pub replacing: Replacing,
 }
@@ -211,7 +212,7 @@ pub struct Completions {
 /// Print a scene.
 #[derive(Debug, clap::Args)]
 pub struct Show {
-    /// Which scene.
+    /// The scene.
     #[command(flatten)]
     pub choice: Choice,
     /// Write out every sphere that generators make.
@@ -225,7 +226,7 @@ pub struct Run {
     /// Name or title of a scene, or a scene file; `-` reads the file from the standard input.
     #[arg(required_unless_present = "link")]
     pub scene: Option<String>,
-    /// What is different.
+    /// Overrides of the scene.
     #[command(flatten)]
     pub changes: Changes,
     /// Run what a link leads to, as long as it says, with all that was changed on the way; `-`
@@ -237,7 +238,7 @@ pub struct Run {
     /// unless the scene says simulation.bisect.wind_back = "all", the tutorial's way.
     #[arg(long, short, value_parser = RULES)]
     pub rule: Option<String>,
-    /// How long, in which frames.
+    /// Length of the run and of its frames.
     #[command(flatten)]
     pub length: Length,
     /// Write the trajectory; the ending tells the format: .csv, .npz (NumPy), .pvd (a series
@@ -256,7 +257,7 @@ pub struct Run {
     /// before and after; `-` as by --out. Kept by the rule `exact` only.
     #[arg(long, value_name = "PATH")]
     pub ledger: Option<PathBuf>,
-    /// Whether files that are there are replaced.
+    /// Whether existing files are replaced.
     #[command(flatten)]
     pub replacing: Replacing,
     /// Run again whenever the scene file is changed, until Ctrl-C; files are written anew each time.
@@ -279,7 +280,7 @@ pub struct Recover {
     /// Write here, instead of under the name that the file was to have.
     #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,
-    /// Whether a file that is there is replaced.
+    /// Whether an existing file is replaced.
     #[command(flatten)]
     pub replacing: Replacing,
 }
@@ -304,19 +305,19 @@ pub struct Verify {
 /// Run a scene under several rules.
 #[derive(Debug, clap::Args)]
 pub struct Compare {
-    /// Which scene.
+    /// The scene.
     #[command(flatten)]
     pub choice: Choice,
     /// The rules; the others are compared with the first.
     #[arg(long, value_delimiter = ',', value_parser = RULES, default_values = RULES)]
     pub rules: Vec<String>,
-    /// How long, in which frames.
+    /// Length of the run and of its frames.
     #[command(flatten)]
     pub length: Length,
     /// Write a row for each frame to a .csv file.
     #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,
-    /// Whether a file that is there is replaced.
+    /// Whether an existing file is replaced.
     #[command(flatten)]
     pub replacing: Replacing,
     /// Print JSON instead of a table.

@@ -1,4 +1,4 @@
-//! What `carom grade` is given.
+//! Arguments of `carom grade`.
 
 use std::path::PathBuf;
 
@@ -19,10 +19,10 @@ pub struct Grade {
     /// The scene: name, title or file; without it, the scene whose name is in the name of the run's file.
     #[arg(long)]
     pub scene: Option<String>,
-    /// What is different in the scene.
+    /// Overrides of the scene.
     #[command(flatten)]
     pub changes: Changes,
-    /// How the files are read.
+    /// Format of the files.
     #[command(flatten)]
     pub format: Format,
     /// How far a place may be off, in m, besides what rounding in single precision does.
@@ -53,7 +53,7 @@ pub struct Grade {
     /// How long the run of --plant is, instead of the scene's own duration.
     #[arg(long, short, value_name = "S", value_parser = positive, requires = "plant")]
     pub seconds: Option<f64>,
-    /// Whether files that are there are replaced.
+    /// Whether existing files are replaced.
     #[command(flatten)]
     pub replacing: Replacing,
     /// Print JSON instead of text.
@@ -105,7 +105,7 @@ fn columns(text: &str) -> Result<Columns, String> {
 }
 
 impl Format {
-    /// How to read a run in frames of this length \[s\].
+    /// Describes how to read a run with frames of this length \[s\].
     pub fn reading(&self, frame_time: f64) -> Reading {
         let length_unit = match self.length_unit {
             LengthUnit::M => 1.0,
