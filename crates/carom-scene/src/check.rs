@@ -37,7 +37,7 @@ pub(crate) fn check_numbers(scene: &Scene) -> Result<(), Problem> {
     check_tolerance(scene)
 }
 
-/// Longest name, title, and description or origin of a scene [characters].
+/// Longest name, title, and description or origin of a scene \[characters\].
 const LONGEST: [usize; 3] = [255, 500, 20_000];
 
 /// Refuses names and texts that are too long, or that contain control characters.

@@ -39,8 +39,8 @@ impl Comparison {
     /// of the first. All changes of the session are repeated at their times, except those of the
     /// simulation.
     ///
+    /// # Errors
     /// The same as those of [`Session::under`], for either simulation.
-    /// As [`Session::under`], for one of them.
     pub(crate) fn under(
         session: &Session,
         [first, second]: &[Simulation; 2],

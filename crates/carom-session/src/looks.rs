@@ -21,7 +21,6 @@ const DUE_TOLERANCE: f64 = 1e-9;
 /// A sphere gets its paint when it is added: its own, or the colour of its density. Later changes
 /// of its mass do not change the paint. The schedules of emitters are followed, because a world
 /// does not report which emitter created a sphere.
-/// world does not say which of several emitters a sphere came from.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Looks {
     /// Paints, ascending by id. Those of removed spheres are dropped from time to time.

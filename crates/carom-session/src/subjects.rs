@@ -117,7 +117,7 @@ fn set_simulation(
     Ok(())
 }
 
-/// Refuses a setup that no scene file could have. `smallest` is the radius [m] of the smallest
+/// Refuses a setup that no scene file could have. `smallest` is the radius \[m\] of the smallest
 /// sphere; errors use the names of scene files.
 fn check_writable(scene: &Scene, setup: &Setup, smallest: f64) -> Result<(), SceneError> {
     let mut probe = Setup { colliders: Vec::new(), ..setup.clone() }.scene(scene);

@@ -235,7 +235,7 @@ impl<'a> Journal<'a> {
 pub(super) struct Columns<'a, 'b> {
     reader: &'a mut BufReader<&'b mut File>,
     head: Head,
-    /// Position after the head [bytes].
+    /// Position after the head \[bytes\].
     at: u64,
 }
 

@@ -94,7 +94,7 @@ pub(super) fn parse_head(bytes: &[u8; HEAD as usize]) -> Option<Words> {
 pub struct Extent {
     /// Number of complete records.
     pub records: u64,
-    /// End of the last complete record [bytes].
+    /// End of the last complete record \[bytes\].
     pub end: u64,
     /// Number of bytes after that.
     pub rest: u64,
