@@ -11,43 +11,45 @@ use super::values::{Color, Quaternion, Vector, is_default, one, unturned};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Collider {
-    /// What it is called.
+    /// Name of the collider.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// Its form.
+    /// Shape of the collider.
     pub shape: Shape,
-    /// Where its centre is, in m.
+    /// Position of its centre, in m.
     #[serde(default)]
     pub position: Vector,
-    /// How it is turned.
+    /// Rotation of the collider.
     #[schemars(with = "rotation::Rotation")]
     #[serde(default = "unturned", deserialize_with = "rotation::read")]
     pub rotation: Quaternion,
-    /// How fast its centre moves, in m/s.
+    /// Velocity of its centre, in m/s.
     #[serde(default, skip_serializing_if = "is_default")]
     pub velocity: Vector,
-    /// How fast it turns about its centre, along the axis, in rad/s.
+    /// Angular velocity about its centre, along the axis, in rad/s.
     #[serde(default, skip_serializing_if = "is_default")]
     pub angular_velocity: Vector,
     /// Coefficient of restitution in [0, 1].
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
-    /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`; that of what it touches
-    /// where it is missing.
+    /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`; where it is
+    /// missing, that of the other body of a contact.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
-    /// Coefficient of rolling friction, >= 0; that of what it touches where it is missing.
+    /// Coefficient of rolling friction, >= 0; where it is missing, that of the other body of a
+    /// contact.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_friction: Option<f64>,
-    /// Coefficient of spinning friction, >= 0; that of what it touches where it is missing.
+    /// Coefficient of spinning friction, >= 0; where it is missing, that of the other body of a
+    /// contact.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spinning_friction: Option<f64>,
-    /// Coefficient of tangential restitution in [0, 1]; that of what it touches where it is
-    /// missing.
+    /// Coefficient of tangential restitution in [0, 1]; where it is missing, that of the other body
+    /// of a contact.
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_restitution: Option<f64>,
@@ -57,10 +59,10 @@ pub struct Collider {
     /// Whether it is drawn.
     #[serde(default = "yes", skip_serializing_if = "is_true")]
     pub visible: bool,
-    /// Its colour; the scene's own for surfaces where it is missing.
+    /// Colour; where it is missing, that of `colors.colliders`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
-    /// How its surface takes light.
+    /// How its surface reflects light.
     #[serde(default, skip_serializing_if = "is_default")]
     pub finish: Finish,
 }
@@ -94,11 +96,11 @@ impl Collider {
 pub enum Shape {
     /// A sphere.
     Sphere {
-        /// In m, > 0
+        /// Radius, in m, > 0.
         #[schemars(extend("exclusiveMinimum" = 0.0))]
         radius: f64,
     },
-    /// A rectangle in its local xz plane that faces local +y; from behind spheres pass it.
+    /// A rectangle in its local xz plane that faces local +y; spheres pass through it from behind.
     Rectangle {
         /// Full length along local x, in m, > 0.
         #[schemars(extend("exclusiveMinimum" = 0.0))]
@@ -119,7 +121,7 @@ pub enum Shape {
     Container {
         /// Full lengths along local x, y, z, in m, each > 0.
         size: Vector,
-        /// Sides without a wall: one, or a list; none where it is missing.
+        /// Sides without a wall: one, or a list; where it is missing, all sides have walls.
         #[schemars(with = "OneOrMore")]
         #[serde(default, skip_serializing_if = "Vec::is_empty", with = "one_or_more")]
         open: Vec<Side>,

@@ -11,13 +11,13 @@ use super::values::{Quaternion, Vector, unturned};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Emitter {
-    /// What it is called.
+    /// Name of the emitter.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// Where spheres appear, in m.
+    /// Position at which spheres appear, in m.
     #[serde(default)]
     pub position: Vector,
-    /// How the emitter, and with it the velocity of its spheres, is turned.
+    /// Rotation of the emitter, and of the velocity of its spheres.
     #[schemars(with = "rotation::Rotation")]
     #[serde(default = "unturned", deserialize_with = "rotation::read")]
     pub rotation: Quaternion,
@@ -37,6 +37,6 @@ pub struct Emitter {
     /// rule `contact` only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub needs_room: Option<bool>,
-    /// What is emitted.
+    /// The emitted sphere.
     pub sphere: Sphere,
 }

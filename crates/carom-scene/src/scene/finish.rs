@@ -1,22 +1,22 @@
-//! How a surface takes light.
+//! How surfaces reflect light.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How a surface takes light; it changes no motion.
+/// How a surface reflects light; it affects no motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Finish {
-    /// As chalk and felt: no highlight.
+    /// Without highlight, as chalk and felt.
     Matte,
     /// A soft highlight on spheres, none on surfaces.
     #[default]
     Satin,
-    /// As lacquer: a sharp highlight, and the sky mirrored.
+    /// With a sharp highlight and a reflection of the sky, as lacquer.
     Glossy,
-    /// Polished: the sky mirrored in its colour.
+    /// Polished: reflects the sky in its colour.
     Metal,
-    /// Clear, in a tint of its colour.
+    /// Transparent, tinted with its colour.
     Glass,
 }
 

@@ -1,4 +1,4 @@
-//! What acts on spheres.
+//! Forces of scene files.
 
 use carom::MutualGravity;
 use schemars::JsonSchema;
@@ -12,23 +12,23 @@ use super::values::{Vector, is_default};
 pub enum Force {
     /// The same force on every sphere, whatever its mass.
     Constant {
-        /// In N.
+        /// Force, in N.
         force: Vector,
     },
     /// The same acceleration for every sphere.
     Gravity {
-        /// In m/s².
+        /// Acceleration, in m/s².
         acceleration: Vector,
     },
     /// Drag against the velocity and proportional to it.
     ViscousDrag {
-        /// In kg/s, >= 0
+        /// Drag coefficient, in kg/s, >= 0.
         #[schemars(range(min = 0.0))]
         coefficient: f64,
     },
-    /// Gravity of a point mass that stays where it is, as of a sun.
+    /// Gravity of a fixed point mass, such as a sun.
     PointAttractor {
-        /// Where it is, in m.
+        /// Position of the point mass, in m.
         #[serde(default)]
         position: Vector,
         /// Gravitational parameter G M, in m³/s²; a negative one repels.
@@ -47,31 +47,33 @@ pub enum Force {
         #[schemars(range(min = 0.0))]
         #[serde(default, skip_serializing_if = "is_default")]
         softening: f64,
-        /// Of more than a thousand spheres, those in a cube count as one where its edge divided by its
-        /// distance is less than this, in [0, 1]; with 0 every pair is summed.
+        /// Accuracy of the sum, in [0, 1]: with more than a thousand spheres, those in a cube count
+        /// as one if its edge divided by its distance is less than this; with 0 every pair is
+        /// summed.
         #[schemars(range(min = 0.0, max = 1.0))]
         #[serde(default = "half")]
         opening_angle: f64,
     },
     /// Viscous drag in a wind that is the same everywhere.
     Wind {
-        /// Of the air, in m/s.
+        /// Velocity of the air, in m/s.
         velocity: Vector,
         /// Drag coefficient, in kg/s, >= 0.
         #[schemars(range(min = 0.0))]
         coefficient: f64,
     },
-    /// Viscous drag in air that goes round an axis.
+    /// Viscous drag in air that rotates about an axis.
     Vortex {
         /// A point of the axis, in m.
         #[serde(default)]
         position: Vector,
-        /// Direction of the axis, of any length but zero; the air goes round it by the right-hand rule.
+        /// Direction of the axis, of any length but zero; the air rotates about it by the
+        /// right-hand rule.
         #[serde(default = "up")]
         axis: Vector,
         /// Circulation, in m²/s.
         circulation: f64,
-        /// Where the air is fastest, in m from the axis, > 0.
+        /// Distance from the axis at which the air is fastest, in m, > 0.
         #[schemars(extend("exclusiveMinimum" = 0.0))]
         core_radius: f64,
         /// Drag coefficient, in kg/s, >= 0.
@@ -80,15 +82,15 @@ pub enum Force {
     },
     /// Drag of a medium, proportional to the square of the velocity.
     QuadraticDrag {
-        /// Of the medium, in kg/m³, >= 0: 1.2 for air, 1000 for water.
+        /// Density of the medium, in kg/m³, >= 0: 1.2 for air, 1000 for water.
         #[schemars(range(min = 0.0))]
         density: f64,
         /// Drag coefficient, >= 0.
         #[schemars(range(min = 0.0))]
         #[serde(default = "newtons_drag")]
         drag_coefficient: f64,
-        /// Dynamic viscosity of the medium, in Pa s, >= 0. With one, the drag coefficient of slow spheres
-        /// depends on the Reynolds number.
+        /// Dynamic viscosity of the medium, in Pa s, >= 0. If it is not zero, the drag coefficient
+        /// of slow spheres depends on the Reynolds number.
         #[schemars(range(min = 0.0))]
         #[serde(default, skip_serializing_if = "is_default")]
         viscosity: f64,
@@ -98,13 +100,14 @@ pub enum Force {
     },
     /// Buoyancy in a fluid with a level surface.
     Buoyancy {
-        /// Of the fluid, in kg/m³, >= 0.
+        /// Density of the fluid, in kg/m³, >= 0.
         #[schemars(range(min = 0.0))]
         density: f64,
         /// Height of the surface above the origin, in m.
         #[serde(default)]
         surface_height: f64,
-        /// Acceleration of gravity, in m/s², not zero: it makes the fluid heavy, and says where up is.
+        /// Acceleration of gravity, in m/s², not zero: it determines the weight of the fluid, and
+        /// the upward direction.
         #[serde(default = "earth")]
         gravity: Vector,
     },

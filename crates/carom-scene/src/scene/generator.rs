@@ -15,13 +15,14 @@ pub enum Generator {
     Row(Box<Row>),
     /// Spheres or colliders on a box-shaped lattice; x runs fastest, then y, then z.
     Lattice(Box<Lattice>),
-    /// Rows, each centred on the one before: staggered, in a triangle, or straight. Of spheres, or
-    /// of colliders like the pegs of a Galton board.
+    /// Rows of spheres or colliders, each centred on the one before: staggered, in a triangle, or
+    /// straight, such as the pegs of a Galton board.
     StaggeredRows(Box<StaggeredRows>),
     /// Close packing of equal spheres in hexagonal layers, one above the other along +y: in a layer
     /// rows run along x, and every second row is shifted by half a sphere.
     ClosePacking {
-        /// How many spheres in a row, layers, and rows in a layer: along x, y and z, each >= 1.
+        /// Number of spheres in a row, of layers, and of rows in a layer: along x, y and z, each >=
+        /// 1.
         counts: [u32; 3],
         /// Centre of the first, in m.
         start: Vector,
@@ -29,24 +30,24 @@ pub enum Generator {
         #[schemars(extend("exclusiveMinimum" = 0.0))]
         #[serde(default, skip_serializing_if = "Option::is_none")]
         spacing: Option<f64>,
-        /// The order of layers.
+        /// Order of the layers.
         #[serde(default)]
         stacking: Stacking,
-        /// What they have in common.
+        /// Common properties of the spheres.
         sphere: Sphere,
     },
     /// Spheres or colliders evenly on a circle.
     Ring(Box<Ring>),
     /// Spheres scattered in a box, none overlapping another sphere or a collider.
     Random {
-        /// How many, >= 1.
+        /// Number of spheres, >= 1.
         #[schemars(range(min = 1))]
         count: u32,
         /// Lower corner of the box that holds the whole spheres, in m.
         min: Vector,
         /// Upper corner of the box, in m.
         max: Vector,
-        /// The same seed gives the same scene.
+        /// Seed of the random numbers: the same seed creates the same scene.
         seed: u32,
         /// Speed, in m/s, >= 0, in a random direction, on top of the common velocity.
         #[schemars(range(min = 0.0))]
@@ -55,7 +56,7 @@ pub enum Generator {
         /// Smallest and largest radius, in m, evenly distributed, instead of the common one.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         radius_range: Option<[f64; 2]>,
-        /// What they have in common.
+        /// Common properties of the spheres.
         sphere: Sphere,
     },
 }
@@ -65,18 +66,18 @@ pub enum Generator {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = [{ "required": ["sphere"] }, { "required": ["collider"] }]))]
 pub struct Row {
-    /// How many, >= 1.
+    /// Number of places, >= 1.
     #[schemars(range(min = 1))]
     pub count: u32,
     /// Centre of the first, in m.
     pub start: Vector,
-    /// From each centre to the next, in m.
+    /// Step from each centre to the next, in m.
     pub step: Vector,
-    /// What spheres have in common. Give this or `collider`.
+    /// Common properties of spheres. Give this or `collider`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<Sphere>,
-    /// What colliders have in common; its position is an offset, its name gets its number.
-    /// Give this or `sphere`.
+    /// Common properties of colliders; the position is an offset, and the name gets the number of
+    /// the place. Give this or `sphere`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collider: Option<Collider>,
 }
@@ -86,17 +87,17 @@ pub struct Row {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = [{ "required": ["sphere"] }, { "required": ["collider"] }]))]
 pub struct Lattice {
-    /// How many along x, y and z, each >= 1.
+    /// Numbers of places along x, y and z, each >= 1.
     pub counts: [u32; 3],
     /// Centre of the first, in m.
     pub start: Vector,
     /// Distance of neighbours along x, y and z, in m.
     pub spacing: Vector,
-    /// What spheres have in common. Give this or `collider`.
+    /// Common properties of spheres. Give this or `collider`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<Sphere>,
-    /// What colliders have in common; its position is an offset, its name gets its numbers along x, y and z.
-    /// Give this or `sphere`.
+    /// Common properties of colliders; the position is an offset, and the name gets the numbers
+    /// along x, y and z. Give this or `sphere`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collider: Option<Collider>,
 }
@@ -106,23 +107,24 @@ pub struct Lattice {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = [{ "required": ["sphere"] }, { "required": ["collider"] }]))]
 pub struct Ring {
-    /// How many, >= 1.
+    /// Number of places, >= 1.
     #[schemars(range(min = 1))]
     pub count: u32,
-    /// Of the circle, in m.
+    /// Centre of the circle, in m.
     pub center: Vector,
-    /// From the centre of the circle to the places, in m, > 0.
+    /// Radius of the circle, in m, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub radius: f64,
-    /// Direction about which they go round, by the right-hand rule; of any length but zero. The
-    /// first is at the side of +x, or of +y where the axis is nearly along x.
+    /// Axis of the circle, of any length but zero; places follow each other about it by the
+    /// right-hand rule. The first is at the side of +x, or of +y if the axis is nearly along x.
     #[serde(default = "up")]
     pub axis: Vector,
-    /// What spheres have in common. Give this or `collider`.
+    /// Common properties of spheres. Give this or `collider`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<Sphere>,
-    /// The first collider, its position an offset; it is turned about the axis to make the others,
-    /// with its velocities. Its name gets the number of each. Give this or `sphere`.
+    /// The first collider; its position is an offset. It is turned about the axis, with its
+    /// velocities, to create the others. The name gets the number of the place. Give this or
+    /// `sphere`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collider: Option<Collider>,
 }
@@ -132,24 +134,24 @@ pub struct Ring {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = [{ "required": ["sphere"] }, { "required": ["collider"] }]))]
 pub struct StaggeredRows {
-    /// How many rows, >= 1.
+    /// Number of rows, >= 1.
     #[schemars(range(min = 1))]
     pub rows: u32,
-    /// How many in each row, >= 1: [13, 12] staggers rows, [1, 2, 3] is a triangle. The list is
-    /// repeated if there are more rows than numbers.
+    /// Numbers of places in each row, >= 1: [13, 12] staggers rows, [1, 2, 3] is a triangle. The
+    /// list is repeated if there are more rows than numbers.
     #[schemars(length(min = 1))]
     pub counts: Vec<u32>,
-    /// Centre of the first of the first row, in m.
+    /// Centre of the first place of the first row, in m.
     pub start: Vector,
-    /// From each to the next in a row, in m.
+    /// Step from each place to the next in a row, in m.
     pub step: Vector,
-    /// From the middle of each row to that of the next, in m.
+    /// Step from the middle of each row to that of the next, in m.
     pub row_step: Vector,
-    /// What spheres have in common. Give this or `collider`.
+    /// Common properties of spheres. Give this or `collider`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<Sphere>,
-    /// What colliders have in common; its position is an offset, its name gets the numbers of row
-    /// and place. Give this or `sphere`.
+    /// Common properties of colliders; the position is an offset, and the name gets the numbers of
+    /// row and place. Give this or `sphere`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collider: Option<Collider>,
 }

@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use super::rotation;
 use super::values::{Color, Quaternion, Vector, one, unturned};
 
-/// Where to look from. The camera looks along its local -z.
+/// The camera, which looks along its local -z.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "WrittenCamera")]
 #[schemars(with = "WrittenCamera")]
 pub struct Camera {
-    /// In m.
+    /// Position of the camera, in m.
     pub position: Vector,
     /// Rotation of the camera.
     pub rotation: Quaternion,
@@ -23,14 +23,15 @@ pub struct Camera {
     pub far: f64,
 }
 
-/// Where to look from. The camera looks along its local -z.
+/// The camera, which looks along its local -z.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Camera")]
 struct WrittenCamera {
-    /// In m.
+    /// Position of the camera, in m.
     position: Vector,
-    /// Rotation of the camera; unturned where neither it nor `look_at` is given.
+    /// Rotation of the camera; where neither this nor `look_at` is given, the camera is not
+    /// rotated.
     #[schemars(with = "rotation::Rotation")]
     #[serde(default, deserialize_with = "rotation::read_some")]
     rotation: Option<Quaternion>,
@@ -77,7 +78,7 @@ fn far() -> f64 {
     1000.0
 }
 
-/// The light. It travels along its local -z.
+/// The light, which travels along its local -z.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sun {
@@ -93,31 +94,31 @@ pub struct Sun {
     pub intensity: f64,
 }
 
-/// Colours of what has none of its own.
+/// Colours of spheres and colliders without their own, and of the background.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Colors {
-    /// Behind everything.
+    /// Colour of the background.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub background: Option<Color>,
-    /// Colliders.
+    /// Colour of colliders.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colliders: Option<Color>,
-    /// Spheres whose density is not listed.
+    /// Colour of spheres whose density is not listed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spheres: Option<Color>,
-    /// Spheres by their density.
+    /// Colours of spheres by density.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub densities: Vec<DensityColor>,
 }
 
-/// The colour of spheres of one density.
+/// Colour of spheres of one density.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DensityColor {
-    /// In kg/m³, > 0
+    /// Density, in kg/m³, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub density: f64,
-    /// Their colour.
+    /// Colour of the spheres.
     pub color: Color,
 }

@@ -31,27 +31,26 @@ pub use sphere::Sphere;
 pub use spring::Spring;
 pub use values::{Color, Quaternion, Vector};
 
-/// A Carom scene: spheres, what acts on them, what they bounce off, and how to look at it.
-/// Right-handed frame, y up, SI units.
+/// A Carom scene: spheres, forces, colliders, camera and light. Right-handed frame, y up, SI units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Short name, as typed on the command line; that of the file without its ending, unless given.
+    /// Short name for the command line; by default that of the file without its ending.
     #[serde(default)]
     pub name: String,
-    /// Name as shown to people; the scene is found by it too.
+    /// Name for people; the scene can also be found by it.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// What there is to see, in a sentence or two.
+    /// Description of the scene in a sentence or two.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub description: String,
-    /// Where the scene comes from.
+    /// Origin of the scene.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub origin: String,
-    /// How the scene is stepped.
+    /// Settings of the simulation.
     #[serde(default)]
     pub simulation: Simulation,
-    /// Forces on every sphere; they add up.
+    /// Forces on every sphere; they are summed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub forces: Vec<Force>,
     /// Single spheres.
@@ -63,19 +62,19 @@ pub struct Scene {
     /// Springs and threads, between spheres or from one to a fixed point.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub springs: Vec<Spring>,
-    /// Fixed shapes, in the order in which the rule `discrete` looks at them.
+    /// Fixed shapes, in the order in which the rule `discrete` tests them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub colliders: Vec<Collider>,
     /// Sources of spheres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub emitters: Vec<Emitter>,
-    /// Where to look from; fitted to the scene where it is missing.
+    /// The camera; where it is missing, a camera that shows the whole scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<Camera>,
     /// The light.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sun: Option<Sun>,
-    /// Colours of what has none of its own.
+    /// Colours of spheres and colliders without their own, and of the background.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub colors: Option<Colors>,
 }

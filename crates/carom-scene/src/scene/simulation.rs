@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::values::{Vector, is_default};
 
-/// How a scene is stepped.
+/// Settings of the simulation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Simulation {
@@ -14,10 +14,10 @@ pub struct Simulation {
     /// Length of a frame, in s, > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub frame_time: f64,
-    /// Time worth watching, in s, > 0: what `carom run` takes by default.
+    /// Duration of the scene, in s, > 0: `carom run` runs for this time by default.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub duration: f64,
-    /// Whether spheres collide with one another; with colliders they always do.
+    /// Whether spheres collide with one another; they always collide with colliders.
     pub spheres_collide: bool,
     /// Restitution of a contact from that of its two bodies.
     pub combine_rule: CombineRule,
@@ -26,7 +26,7 @@ pub struct Simulation {
     pub friction_combine_rule: CombineRule,
     /// Whether spheres may overlap each other or colliders at the start.
     pub allow_overlap: bool,
-    /// What is around the spheres, besides colliders.
+    /// Boundary of the space.
     pub boundary: Boundary,
     /// Parameters of the rule `exact`.
     pub exact: Exact,
@@ -104,29 +104,30 @@ impl std::fmt::Display for Rule {
     }
 }
 
-/// How impacts at one instant among spheres that touch are answered.
+/// Law for simultaneous impacts of spheres that touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ImpactLaw {
-    /// Pair after pair, as other engines do; it breaks symmetries.
+    /// Pair after pair, as in other engines; this breaks symmetries.
     Sequential,
-    /// Newton's law of restitution at all contacts at once; it does not pass impacts on.
+    /// Newton's law of restitution at all contacts at once; impacts are not passed on through a
+    /// row.
     Simultaneous,
-    /// Generalized reflection: keeps symmetries, and passes impacts on as Newton's cradle does.
+    /// Generalized reflection: it keeps symmetries, and passes impacts on as Newton's cradle does.
     #[default]
     Reflection,
 }
 
-/// What is around the spheres, besides colliders.
+/// Boundary of the space.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Boundary {
-    /// Nothing.
+    /// No boundary.
     #[default]
     Open,
-    /// A box about the origin that repeats itself without end; only with the rule `exact`.
+    /// A periodic box about the origin; only with the rule `exact`.
     Periodic {
-        /// Edges, in m, each > 0; `inf` along an axis that is open.
+        /// Edges, in m, each > 0; `inf` along an open axis.
         size: Vector,
     },
 }
@@ -135,9 +136,10 @@ pub enum Boundary {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Exact {
-    /// How impacts at one instant among spheres that touch are answered.
+    /// Law for simultaneous impacts of spheres that touch.
     pub impact_law: ImpactLaw,
-    /// How long a contact lasts at least, in s, > 0: bodies that would meet again sooner stay together.
+    /// Shortest duration of a contact, in s, > 0: bodies that would collide again sooner stay
+    /// together.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub contact_duration: f64,
     /// Most impacts and other work per sphere in a frame, >= 1: above it, the spheres become a
@@ -156,8 +158,9 @@ pub struct Exact {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(skip_serializing_if = "is_default_zone_tick")]
     pub zone_tick: f64,
-    /// Time between two force ticks, in s, > 0: springs, forces between spheres and others that are not linear
-    /// are held constant from one to the next. It is halved where springs need it.
+    /// Time between two force ticks, in s, > 0: springs, forces between spheres and other forces
+    /// that are not linear are held constant from one tick to the next. It is halved if springs
+    /// need it.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(skip_serializing_if = "is_default_force_tick")]
     pub force_tick: f64,
@@ -196,14 +199,14 @@ impl Default for Exact {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Zones {
-    /// They are stepped as by the rule `contact`, until they have come apart.
+    /// The spheres are stepped as by the rule `contact`, until they have separated.
     #[default]
     Automatic,
-    /// Every impact is answered, whatever it takes.
+    /// Every impact is answered, whatever work it takes.
     Never,
 }
 
-/// How spheres move under forces.
+/// Scheme that moves spheres under forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integrator {
@@ -232,7 +235,7 @@ pub enum CombineRule {
     Maximum,
     /// Their mean.
     Average,
-    /// The root of their product.
+    /// The square root of their product.
     GeometricMean,
 }
 
@@ -240,18 +243,19 @@ pub enum CombineRule {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bisect {
-    /// How spheres move under forces.
+    /// Scheme that moves spheres under forces.
     pub integrator: Integrator,
     /// Distance of surfaces that counts as touching, in m, >= 0.
     #[schemars(range(min = 0.0))]
     pub tolerance: f64,
-    /// Halvings in search of a contact, >= 1.
+    /// Most halvings in the search for a contact, >= 1.
     #[schemars(range(min = 1))]
     pub max_halvings: u32,
-    /// How often two bodies may meet in a frame, >= 1; then the rest of it is taken in one piece.
+    /// Most impacts of two bodies in a frame, >= 1; after them, the rest of the frame is taken in
+    /// one step.
     #[schemars(range(min = 1))]
     pub max_impacts: u32,
-    /// Which spheres go through the pieces into which a contact cuts the frame.
+    /// Spheres that are stepped in parts if a contact divides the frame.
     pub wind_back: WindBack,
 }
 
@@ -268,14 +272,14 @@ impl Default for Bisect {
     }
 }
 
-/// Which spheres go through the pieces into which a contact cuts the frame.
+/// Spheres that are stepped in parts if a contact divides the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum WindBack {
-    /// Those that take part in contacts of the same group.
+    /// Spheres that take part in contacts of the same group.
     #[default]
     Touched,
-    /// All, as the tutorial does; slow for many spheres.
+    /// All spheres, as in the tutorial; slow for many spheres.
     All,
 }
 
@@ -283,7 +287,7 @@ pub enum WindBack {
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Discrete {
-    /// How spheres move under forces.
+    /// Scheme that moves spheres under forces.
     pub integrator: Integrator,
 }
 
@@ -291,16 +295,17 @@ pub struct Discrete {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Contact {
-    /// Sub-steps of a frame, >= 1: overlaps fall with the square of their length.
+    /// Sub-steps of a frame, >= 1: overlaps are proportional to the square of their length.
     #[schemars(range(min = 1))]
     pub sub_steps: u32,
     /// Sweeps over all contacts in a sub-step, >= 1.
     #[schemars(range(min = 1))]
     pub sweeps: u32,
-    /// Whether sweeps go on until the solution has converged: slow, to compare with.
+    /// Whether sweeps continue until the solution has converged; slow, for comparisons.
     pub converged: bool,
-    /// Speed below which a ball that bears or is borne may fall asleep, as a part of `sqrt(a r)`, the speed after
-    /// falling through half its radius, >= 0; with 0 none sleeps.
+    /// Speed below which a ball that rests on others or carries them may fall asleep, as a fraction
+    /// of `sqrt(a r)`, the speed after falling through half its radius, >= 0; with 0 no ball
+    /// sleeps.
     #[schemars(range(min = 0.0))]
     #[serde(skip_serializing_if = "is_default_sleep_speed")]
     pub sleep_speed: f64,

@@ -8,7 +8,7 @@ use super::finish::Finish;
 use super::rotation;
 use super::values::{Color, Quaternion, Vector, is_default, is_unturned, one, unturned};
 
-/// A sphere, or what the spheres of a generator or an emitter have in common.
+/// A sphere, or the common properties of the spheres of a generator or an emitter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
@@ -16,7 +16,7 @@ use super::values::{Color, Quaternion, Vector, is_default, is_unturned, one, unt
     "not" = { "required": ["mass", "density"] }
 ))]
 pub struct Sphere {
-    /// Centre, in m; in a generator or an emitter an offset from the place it gives.
+    /// Centre, in m; in a generator or an emitter an offset from its place.
     #[serde(default)]
     pub position: Vector,
     /// Velocity, in m/s; in an emitter in the emitter's frame.
@@ -42,30 +42,32 @@ pub struct Sphere {
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default = "one")]
     pub restitution: f64,
-    /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`; that of what it touches
-    /// where it is missing.
+    /// Coulomb's coefficient of friction, >= 0, under the rules `exact` and `contact`; where it is
+    /// missing, that of the other body of a contact.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
-    /// Coefficient of rolling friction, >= 0; that of what it touches where it is missing.
+    /// Coefficient of rolling friction, >= 0; where it is missing, that of the other body of a
+    /// contact.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_friction: Option<f64>,
-    /// Coefficient of spinning friction, >= 0; that of what it touches where it is missing.
+    /// Coefficient of spinning friction, >= 0; where it is missing, that of the other body of a
+    /// contact.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spinning_friction: Option<f64>,
-    /// Coefficient of tangential restitution in [0, 1]; that of what it touches where it is
-    /// missing.
+    /// Coefficient of tangential restitution in [0, 1]; where it is missing, that of the other body
+    /// of a contact.
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_restitution: Option<f64>,
-    /// How it is turned at the start.
+    /// Orientation at the start.
     #[schemars(with = "rotation::Rotation")]
     #[serde(default = "unturned", deserialize_with = "rotation::read")]
     #[serde(skip_serializing_if = "is_unturned")]
     pub orientation: Quaternion,
-    /// How fast it turns, along the axis, in rad/s; in an emitter in the emitter's frame.
+    /// Angular velocity along the axis, in rad/s; in an emitter in the emitter's frame.
     #[serde(default, skip_serializing_if = "is_default")]
     pub angular_velocity: Vector,
     /// Moment of inertia divided by mass and square of the radius, > 0: 2/5 for a solid ball, 2/3
@@ -73,10 +75,10 @@ pub struct Sphere {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     #[serde(default = "solid_ball", skip_serializing_if = "is_solid_ball")]
     pub inertia_factor: f64,
-    /// Colour; by density or the scene's own where it is missing.
+    /// Colour; where it is missing, that of its density or of `colors.spheres`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
-    /// How its surface takes light.
+    /// How its surface reflects light.
     #[serde(default, skip_serializing_if = "is_default")]
     pub finish: Finish,
 }

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::values::{Vector, is_default};
 
-/// A spring with a damper beside it, or a chain of such. Spheres are named by their numbers, from 0: the
-/// single ones of the scene first, then those of generators, each in the order of the file.
+/// A spring with a parallel damper, or a chain of springs. Spheres are named by their numbers, from
+/// 0: first the single ones of the scene, then those of generators, each in the order of the file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = [
@@ -28,7 +28,7 @@ pub struct Spring {
     /// Numbers of the first and the last sphere of a chain: each is joined to the next one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chain: Option<[u32; 2]>,
-    /// Length without force, in m, >= 0; the length at the start of the scene unless given.
+    /// Length without force, in m, >= 0; by default the length at the start of the scene.
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rest_length: Option<f64>,
@@ -39,7 +39,7 @@ pub struct Spring {
     #[schemars(range(min = 0.0))]
     #[serde(default, skip_serializing_if = "is_default")]
     pub damping: f64,
-    /// Whether it only pulls, as a thread does, which is slack up to its rest length.
+    /// Whether it only pulls, as a thread does, which is slack below its rest length.
     #[serde(default, skip_serializing_if = "is_default")]
     pub only_pulls: bool,
 }
