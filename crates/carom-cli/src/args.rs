@@ -107,17 +107,17 @@ pub enum Command {
     },
     /// Write a scene file to start from: balls fall into a box, with a comment on every part.
     New(New),
-    /// Make a scene file of a scene of Unity, or of a glTF file; lists what has no counterpart.
+    /// Make a scene file from a scene of Unity or a glTF file; list the parts without a counterpart.
     Import(Import),
-    /// Check scene files; says what is wrong, and in which line.
+    /// Check scenes; print each error with its line.
     Check {
-        /// Scene files; `-` is the standard input.
-        #[arg(required = true, value_name = "FILE")]
+        /// Scene files, or names of scenes; `-` is the standard input.
+        #[arg(required = true, value_name = "SCENE")]
         files: Vec<PathBuf>,
     },
-    /// Print a scene as TOML, every default written out.
+    /// Print a scene as TOML, with every default.
     Show(Show),
-    /// Run a scene, or what a link leads to, and print what became of it.
+    /// Run a scene, or the run of a link, and print a summary.
     Run(Box<Run>),
     /// Complete the file that a killed run left unfinished: an .npz file from
     /// NAME.npz.0.unfinished, a film from NAME.mp4.0.unfinished. In a .csv table, remove a last
@@ -131,11 +131,11 @@ pub enum Command {
     /// Check this build against exact results and published values of physics. Ends with code 1 if
     /// it misses one, whichever rule `--rule` names.
     Verify(Verify),
-    /// Run a scene under several rules and print how far they come apart.
+    /// Run a scene under several rules and print the distances between their results.
     Compare(Box<Compare>),
     /// Measure how fast gases of spheres and the built-in scenes run on one core.
     Bench(Bench),
-    /// Print what a shell reads to complete words of this command line.
+    /// Print a script with which a shell completes words of this command line.
     Completions(Completions),
     /// Write manual pages, one for each command, into a folder.
     Man {
@@ -148,12 +148,11 @@ pub enum Command {
     /// Film a scene, a recorded run, or the maze game: H.264 in an mp4 file.
     ///
     /// Frames of the film are exactly 1/fps of simulated time apart. The scene is stepped by its
-    /// own frame time, as `carom run` does it: where a frame of the film falls between two of
-    /// these, balls and surfaces are shown on the straight way from one to the other. Ctrl-C ends
-    /// the film early.
+    /// own frame time, as in `carom run`. If a frame of the film falls between two of these, balls
+    /// and colliders are interpolated linearly. Ctrl-C ends the film early.
     ///
-    /// Until the film is complete, its frames are in PATH.0.unfinished, which players open, too; `carom
-    /// recover PATH` makes the film of what a killed run left there.
+    /// Until the film is complete, its frames are in PATH.0.unfinished, which players can open, too.
+    /// After a killed run, `carom recover PATH` creates the film from it.
     #[cfg(feature = "pictures")]
     Record(Box<Record>),
     /// Play the maze game in a window, or print a random maze.
@@ -229,8 +228,8 @@ pub struct Run {
     /// Overrides of the scene.
     #[command(flatten)]
     pub changes: Changes,
-    /// Run what a link leads to, as long as it says, with all that was changed on the way; `-`
-    /// reads the link from the standard input, where it is too long for a command line.
+    /// Run the scene of a link for the time of the link, with the edits made during its run; `-`
+    /// reads the link from the standard input, if it is too long for a command line.
     #[arg(long, value_name = "URL")]
     #[arg(conflicts_with_all = ["scene", "overrides", "rule", "frame_time", "seconds", "frames"])]
     pub link: Option<String>,
@@ -241,7 +240,7 @@ pub struct Run {
     /// Length of the run and of its frames.
     #[command(flatten)]
     pub length: Length,
-    /// Write the trajectory; the ending tells the format: .csv, .npz (NumPy), .pvd (a series
+    /// Write the trajectory; the ending selects the format: .csv, .npz (NumPy), .pvd (a series
     /// of .vtp files for ParaView, in a folder beside it), or .glb (an animation in glTF, for Blender, three.js
     /// and Unity). `-` writes CSV to the standard output, and
     /// the summary to the standard error stream.
@@ -260,11 +259,12 @@ pub struct Run {
     /// Whether existing files are replaced.
     #[command(flatten)]
     pub replacing: Replacing,
-    /// Run again whenever the scene file is changed, until Ctrl-C; files are written anew each time.
+    /// Run again whenever the scene file is changed, until Ctrl-C; files are rewritten each time.
     #[arg(long, short, conflicts_with = "link")]
     pub watch: bool,
-    /// End with code 1 if the run did not keep what its rule keeps: balls overlap under `exact`, an impact
-    /// loses momentum, balls are pressed through surfaces, `bisect` gives up. The summary says so in any case.
+    /// End with code 1 if the run violates a guarantee of its rule: balls overlap under `exact`, an
+    /// impact loses momentum, balls are pressed through surfaces, `bisect` gives up. The summary
+    /// reports it in any case.
     #[arg(long)]
     pub strict: bool,
     /// Print the summary as JSON.

@@ -13,6 +13,7 @@ use serde::Serialize;
 use crate::args::Compare;
 use crate::failure::Failure;
 use crate::machine::Machine;
+use crate::standard_input::is_standard;
 use crate::table::{Side, Table};
 
 /// Runs a scene under several rules and prints the distance of their results.
@@ -31,8 +32,9 @@ pub fn compare(library: &Library, args: &Compare) -> Result<(), Failure> {
         runs.push(Run::new(rule, scene.world()?));
         name = scene.name;
     }
-    args.replacing.check(args.out.as_deref())?;
-    let mut rows = args.out.as_deref().map(|path| Rows::create(path, &args.rules)).transpose()?;
+    let out = args.out.as_deref();
+    args.replacing.check(out.filter(|path| !is_standard(path)))?;
+    let mut rows = out.map(|path| Rows::create(path, &args.rules)).transpose()?;
     for _ in 0..frames {
         for run in &mut runs {
             run.step(h)?;
@@ -45,7 +47,13 @@ pub fn compare(library: &Library, args: &Compare) -> Result<(), Failure> {
         }
     }
     rows.map_or(Ok(()), Rows::finish)?;
-    Comparison::new(name, h, frames, &runs).print(args.json)?;
+    let comparison = Comparison::new(name, h, frames, &runs);
+    // If rows go to the standard output, the result goes elsewhere.
+    if out.is_some_and(is_standard) {
+        comparison.print(&mut io::stderr(), args.json)?;
+    } else {
+        comparison.print(&mut io::stdout(), args.json)?;
+    }
     Ok(())
 }
 
@@ -118,14 +126,18 @@ impl Distance {
 /// A table with a row for each frame.
 struct Rows<'a> {
     path: &'a Path,
-    out: BufWriter<File>,
+    out: BufWriter<Box<dyn Write>>,
 }
 
 impl<'a> Rows<'a> {
     fn create(path: &'a Path, rules: &[String]) -> Result<Self, Failure> {
-        let file = create_folders_of(path).and_then(|()| File::create(path));
-        let file = file.map_err(|error| cannot_write(path, &error))?;
-        let mut rows = Self { path, out: BufWriter::new(file) };
+        let out: Box<dyn Write> = if is_standard(path) {
+            Box::new(io::stdout())
+        } else {
+            let file = create_folders_of(path).and_then(|()| File::create(path));
+            Box::new(file.map_err(|error| cannot_write(path, &error))?)
+        };
+        let mut rows = Self { path, out: BufWriter::new(out) };
         let mut header = "t".to_owned();
         for rule in rules {
             header += &format!(",{rule}_rms,{rule}_max,{rule}_energy,{rule}_impacts");
@@ -209,8 +221,7 @@ impl Comparison {
         }
     }
 
-    fn print(&self, json: bool) -> io::Result<()> {
-        let mut out = io::stdout().lock();
+    fn print(&self, mut out: &mut dyn Write, json: bool) -> io::Result<()> {
         if json {
             serde_json::to_writer_pretty(&mut out, self)?;
             return writeln!(out);

@@ -88,7 +88,9 @@ fn obey(args: Args, registered: Vec<Scene>) -> Result<(), Failure> {
         Command::Scenes { json } => scenes::list(&library()?, *json),
         Command::New(new) => new::new(new),
         Command::Import(it) => import::import(it),
-        Command::Check { files } => scenes::check(files, sources.budget(Budget::FILE, &config)?),
+        Command::Check { files } => {
+            scenes::check(&library()?, files, sources.budget(Budget::FILE, &config)?)
+        }
         Command::Show(show) => scenes::show(&library()?, show),
         Command::Run(run) => run::run(&library()?, run, sources.budget(Budget::LINK, &config)?),
         Command::Recover(it) => recover::recover(it),

@@ -18,7 +18,7 @@ use crate::failure::{Failure, both, complain};
 use crate::interruption::interruption;
 use crate::link;
 use crate::progress::Progress;
-use crate::standard_input::STANDARD;
+use crate::standard_input::{STANDARD, is_standard};
 use crate::summary::{Observer, Summary};
 
 /// Runs a scene and prints a summary; repeatedly, if its file is watched. `links` limits the scene
@@ -157,14 +157,6 @@ fn series(out: &Path) -> Vec<PathBuf> {
     let stem = out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let first = out.with_file_name(format!("{stem}_frames")).join("000000.vtp");
     if is_one { vec![out.with_extension("pvd"), first] } else { Vec::new() }
-}
-
-/// Whether the path is the standard output: `-`, or the name that the system has for it. A file
-/// opened by that name would be overwritten from its start, with the summary on top.
-fn is_standard(path: &Path) -> bool {
-    let names: &[&str] =
-        if cfg!(unix) { &["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] } else { &[] };
-    path.as_os_str() == STANDARD || names.iter().any(|name| path.as_os_str() == *name)
 }
 
 /// Whether the ending of a trajectory is that of an animation.

@@ -56,19 +56,23 @@ fn as_json(entry: &Entry) -> serde_json::Value {
     }
 }
 
-/// Checks scene files; reports every broken one before the command fails.
-pub fn check(files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
+/// Checks scenes, each of a file or a name; reports every broken one before the command fails.
+pub fn check(library: &Library, files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let mut broken = 0;
     for file in files {
         let is_standard = file.as_os_str() == STANDARD;
         let name = if is_standard { standard_input::NAME.into() } else { file.to_string_lossy() };
-        let text = if is_standard {
-            SceneText::new(standard_input::text()?, &name)
+        let scene = if is_standard {
+            let text = SceneText::new(standard_input::text()?, &name);
+            text.and_then(|text| text.within(budget).scene(&[]))
+        } else if file.exists() {
+            let text = SceneText::from_file_within(file, budget);
+            text.and_then(|text| text.within(budget).scene(&[]))
         } else {
-            SceneText::from_file_within(file, budget)
+            library.find(&name, &[]).map(|(scene, _)| scene)
         };
-        match text.and_then(|text| text.within(budget).scene(&[])) {
+        match scene {
             Ok(scene) => {
                 writeln!(out, "{}: ok, \"{}\"", legible(&name), scene.name)?;
                 for advice in advice_for(&scene) {
@@ -93,7 +97,7 @@ pub fn check(files: &[PathBuf], budget: Budget) -> Result<(), Failure> {
     }
     match broken {
         0 => Ok(()),
-        _ => Err(Failure::Fault(format!("{broken} of {} scene files are broken", files.len()))),
+        _ => Err(Failure::Fault(format!("{broken} of {} scenes are broken", files.len()))),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::fmt::Display;
 use std::io::{self, Read};
+use std::path::Path;
 use std::sync::OnceLock;
 
 use carom_scene::{Budget, NotText, text_of};
@@ -34,4 +35,12 @@ pub fn text() -> Result<&'static str, Failure> {
         read => read.map_err(|error| refused(&error))?,
     };
     Ok(TEXT.get_or_init(|| text))
+}
+
+/// Whether the path is the standard output: `-`, or the name that the system has for it. A file
+/// opened by that name would be overwritten from its start, with the summary on top.
+pub fn is_standard(path: &Path) -> bool {
+    let names: &[&str] =
+        if cfg!(unix) { &["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] } else { &[] };
+    path.as_os_str() == STANDARD || names.iter().any(|name| path.as_os_str() == *name)
 }

@@ -316,6 +316,13 @@ fn what_goes_wrong_on_the_way_ends_with_code_1_and_one_line() {
 }
 
 #[test]
+fn scenes_are_checked_by_their_names_too() {
+    assert_eq!(good(&["check", "simtest1"]), "simtest1: ok, \"simtest1\"\n");
+    let text = bad(&["check", "simtest1", "simtets1"], 1);
+    assert!(text.contains("simtets1") && text.contains("did you mean \"simtest1\""), "{text}");
+}
+
+#[test]
 #[cfg(target_os = "linux")]
 fn a_full_disk_is_one_clear_line_in_every_format() {
     let folder = tempfile::tempdir().unwrap();

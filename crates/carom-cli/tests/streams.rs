@@ -109,6 +109,17 @@ fn missing_folders_are_made_for_every_format() {
 }
 
 #[test]
+fn distances_of_rules_go_to_the_standard_output_beside_no_table() {
+    let compare = ["compare", "tutorial1", "--seconds", "0.1", "--out", "-"];
+    let output = carom().args(compare).output().unwrap();
+    assert!(output.status.success());
+    let rows = String::from_utf8(output.stdout).unwrap();
+    assert!(rows.starts_with("t,exact_rms,") && rows.lines().count() == 7, "{rows}");
+    assert!(rows.lines().skip(1).all(|row| row.split(',').all(|it| it.parse::<f64>().is_ok())));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("state hash"));
+}
+
+#[test]
 fn a_picture_is_no_scene_and_the_error_says_what_it_is() {
     let folder = tempfile::tempdir().unwrap();
     let files: [(&str, &[u8], &str); 4] = [

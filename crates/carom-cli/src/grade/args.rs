@@ -25,10 +25,11 @@ pub struct Grade {
     /// Format of the files.
     #[command(flatten)]
     pub format: Format,
-    /// How far a place may be off, in m, besides what rounding in single precision does.
+    /// Tolerance of positions, in m, in addition to rounding in single precision.
     #[arg(long, value_name = "M", default_value_t = TOLERANCE, value_parser = positive)]
     pub tolerance: f64,
-    /// Write a page about the run; of several runs, or where this is a folder, a page each into this folder.
+    /// Write a page about the run; for several runs, or if this is a folder, a page for each run
+    /// into the folder.
     #[arg(long, value_name = "PATH")]
     pub report: Option<PathBuf>,
     /// Write a row for each run to a .csv file.
@@ -47,10 +48,10 @@ pub struct Grade {
         conflicts_with = "runs"
     )]
     pub plant: Vec<String>,
-    /// Where --plant writes; `-` is the standard output.
+    /// File of --plant; `-` is the standard output.
     #[arg(long, short, value_name = "PATH", default_value = "-")]
     pub out: PathBuf,
-    /// How long the run of --plant is, instead of the scene's own duration.
+    /// Length of the run of --plant, instead of the scene's own duration.
     #[arg(long, short, value_name = "S", value_parser = positive, requires = "plant")]
     pub seconds: Option<f64>,
     /// Whether existing files are replaced.

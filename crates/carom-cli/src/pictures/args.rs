@@ -77,7 +77,7 @@ pub struct Record {
     #[command(flatten)]
     pub look: Look,
     /// Film a recorded run of this scene: a table that `carom run --out` wrote, .csv. Between its
-    /// frames, balls are shown on the curve that their places and velocities tell.
+    /// frames, balls move on curves given by their positions and velocities.
     #[arg(long, value_name = "CSV")]
     pub from: Option<PathBuf>,
     /// Film the maze game in this scene: a player tilts the maze, collects everything within
