@@ -5,8 +5,8 @@ use carom_scene::scene::{Bisect, Contact, Discrete, Exact, Rule, Simulation};
 
 use crate::written::written;
 
-/// Overlap, as a fraction of the radius, from which on it is visible. Rules that only look at
-/// frames may overlap balls up to it.
+/// Largest overlap, as a fraction of the radius, that is not yet visible. Rules that only compare
+/// the ends of frames may cause overlaps.
 const OVERLAP: f64 = 0.5;
 /// Impacts of a ball per second \[1/s\] above which, under forces, balls probably lie on each
 /// other.

@@ -120,9 +120,9 @@ impl Grader {
 
     /// Computes all runs up to a time \[s\], rounded up to a multiple of 5 s.
     fn make_ready(&mut self, end: f64) {
-        // The runs of a folder have similar lengths, so runs can be reused. Longer runs have a
-        // larger spread by rounding; a verdict must not depend on what was graded before, so the
-        // length is exact.
+        // The runs of a folder have similar lengths, so computed runs are reused for the same
+        // rounded length. Longer ones would do as well, but have a larger spread by rounding, and a
+        // verdict must not depend on what was graded before.
         let end = (end / 5.0).ceil() * 5.0;
         if end == self.end && !self.runs.is_empty() {
             return;

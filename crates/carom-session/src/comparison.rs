@@ -137,7 +137,7 @@ impl Comparison {
     /// Stops going to a frame; both stay at the frame of the slower one.
     ///
     /// # Errors
-    /// None in practice: these frames were taken before without an error.
+    /// Only those that these frames had when they were first taken.
     pub fn stop_seeking(&mut self) -> Result<(), SessionError> {
         let frame = self.first.frame().min(self.second.frame());
         for session in [&mut self.first, &mut self.second] {

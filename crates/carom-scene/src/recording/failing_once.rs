@@ -8,8 +8,8 @@ pub(super) struct FailingOnce<W> {
     inner: W,
     /// Position of the next byte.
     position: u64,
-    /// End of the written bytes. After an error, seeks report this position: the zip writer needs a
-    /// consistent length to complete its archive.
+    /// End of the written bytes. After an error the position is set to it, because the parts that
+    /// the zip writer completes must not start after they end.
     end: u64,
     has_failed: bool,
 }

@@ -47,8 +47,8 @@ impl Playback {
         Ok(Self { replay, boundary, before, after })
     }
 
-    /// Returns the balls at `time` \[s\]. If `time` lies before an earlier request, the balls are
-    /// those of the last frame before that request. Returns `None` after the end of the recording.
+    /// Returns the balls at `time` \[s\], or in the last frame before the latest time requested if
+    /// that frame is later; `None` after the end of the recording.
     ///
     /// # Errors
     /// The same as those of [`Replay::next_frame`].

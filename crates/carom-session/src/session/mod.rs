@@ -113,7 +113,7 @@ impl Session {
     /// Goes back by one frame, if there is one.
     ///
     /// # Errors
-    /// None in practice: these frames were taken before without an error.
+    /// Only those that these frames had when they were first taken.
     pub fn step_back(&mut self) -> Result<(), SessionError> {
         self.seek(self.frame.saturating_sub(1));
         self.advance_seek(u64::MAX).map(drop)
@@ -122,7 +122,7 @@ impl Session {
     /// Goes back to the beginning; the frames after it are kept.
     ///
     /// # Errors
-    /// None in practice: the session started there without an error.
+    /// Only those that opening the session had.
     pub fn restart(&mut self) -> Result<(), SessionError> {
         self.seek(0);
         self.advance_seek(u64::MAX).map(drop)
