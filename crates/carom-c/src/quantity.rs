@@ -1,6 +1,6 @@
 //! Quantities of all spheres, as arrays with a row for each sphere.
 
-use carom::{DQuat, DVec3, SOLID_BALL, Sphere, SphereId, SphereMotion, Spheres, World};
+use carom::{DQuat, DVec3, SOLID_BALL, Sphere, SphereMotion, Spheres, World};
 
 use crate::pointer::{Plain, Rows, RowsMut, Strided, require_count};
 use crate::sphere::{coefficients, friction_of, refused};

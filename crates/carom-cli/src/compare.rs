@@ -1,4 +1,4 @@
-//! The command `compare`: the same scene under several rules, side by side.
+//! The command `compare`: runs the same scene under several rules.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -16,7 +16,7 @@ use crate::machine::Machine;
 use crate::standard_input::is_standard;
 use crate::table::{Side, Table};
 
-/// Runs a scene under several rules and prints how far they come apart.
+/// Runs a scene under several rules and prints the distance of their results.
 pub fn compare(library: &Library, args: &Compare) -> Result<(), Failure> {
     if args.rules.len() < 2 {
         return Err(Failure::Usage("two rules are needed to compare".to_owned()));
@@ -48,7 +48,7 @@ pub fn compare(library: &Library, args: &Compare) -> Result<(), Failure> {
     }
     rows.map_or(Ok(()), Rows::finish)?;
     let comparison = Comparison::new(name, h, frames, &runs);
-    // Beside rows on the standard output.
+    // If rows go to the standard output, the result goes elsewhere.
     if out.is_some_and(is_standard) {
         comparison.print(&mut io::stderr(), args.json)?;
     } else {
@@ -63,16 +63,16 @@ struct Run {
     world: World,
     impacts: u64,
     stepping: Duration,
-    /// To the reference, now.
+    /// Distance from the reference in the present frame.
     now: Distance,
-    /// The largest distance of all frames.
+    /// Largest distance in any frame.
     largest: Distance,
 }
 
-/// How far the spheres of two worlds are from each other, matched by id \[m\].
+/// Distance between the spheres of two worlds, matched by id \[m\].
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 struct Distance {
-    /// Root of the mean square.
+    /// Root mean square.
     rms: f64,
     max: f64,
 }
@@ -108,7 +108,7 @@ impl Run {
 }
 
 impl Distance {
-    /// Of the spheres that are in both worlds.
+    /// Computes the distance over the spheres that both worlds have.
     fn between(first: &World, second: &World) -> Self {
         let (a, b) = (first.spheres(), second.spheres());
         let (mut squares, mut max, mut count) = (0.0, 0.0_f64, 0_u32);
@@ -123,7 +123,7 @@ impl Distance {
     }
 }
 
-/// A file with a row for each frame.
+/// A table with a row for each frame.
 struct Rows<'a> {
     path: &'a Path,
     out: BufWriter<Box<dyn Write>>,
@@ -168,31 +168,31 @@ fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     Failure::Fault(format!("cannot write {}: {error}", path.display()))
 }
 
-/// What came out.
+/// Result of the command.
 #[derive(Debug, Serialize)]
 struct Comparison {
     machine: Machine,
     scene: String,
     frame_time: f64,
     frames: u64,
-    /// The rule that the others are compared with.
+    /// Rule with which the others are compared.
     reference: String,
     rules: Vec<Row>,
 }
 
-/// What came of a rule.
+/// Result of a rule.
 #[derive(Debug, Serialize)]
 struct Row {
     rule: String,
     spheres: usize,
     impacts: u64,
     energy: f64,
-    /// From that of the reference \[J\].
+    /// Difference from the energy of the reference \[J\].
     energy_error: f64,
-    /// From the places of the reference \[m\].
+    /// Distance from the spheres of the reference \[m\].
     final_distance: Distance,
     largest_distance: Distance,
-    /// Spent in steps \[s\].
+    /// Time spent in steps \[s\].
     stepping_time: f64,
     state_hash: String,
 }

@@ -1,4 +1,4 @@
-//! The commands about scenes themselves: list, check, show.
+//! The commands `scenes`, `check` and `show`.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use crate::args::Show;
 use crate::failure::{Failure, complain, legible};
 use crate::standard_input::{self, STANDARD};
 
-/// Lists every scene found.
+/// Lists every scene.
 pub fn list(library: &Library, json: bool) -> Result<(), Failure> {
     let entries = library.entries()?;
     let mut out = io::stdout().lock();
@@ -85,7 +85,7 @@ pub fn check(library: &Library, files: &[PathBuf], budget: Budget) -> Result<(),
                 } else {
                     Scene::faults_of_file(file, budget).unwrap_or_default()
                 };
-                // What a single fault says is the error itself.
+                // A single fault is identical to the error.
                 if faults.len() > 1 {
                     faults.iter().for_each(|fault| complain(&fault.to_string()));
                 } else {
@@ -101,7 +101,7 @@ pub fn check(library: &Library, files: &[PathBuf], budget: Budget) -> Result<(),
     }
 }
 
-/// What would make a sound scene better, and what in it means nothing.
+/// Advice for a valid scene, and the fields that its rule ignores.
 fn advice_for(scene: &Scene) -> Vec<String> {
     let Ok(world) = scene.world() else { return Vec::new() };
     let frames = [scene.simulation.frame_time, world.longest_stable_frame()];
