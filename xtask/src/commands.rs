@@ -14,13 +14,21 @@ use crate::markdown::{Block, Markdown};
 use crate::shell::{CI, Outcome, cargo, ci_folder, succeeds, target_folder};
 
 /// Documents whose commands run.
-const DOCUMENTS: [&str; 6] = [
+const DOCUMENTS: [&str; 14] = [
     "README.md",
     "docs/tutorial.md",
     "docs/command-line.md",
     "docs/scenes.md",
     "docs/viewer.md",
     "docs/courses.md",
+    "docs/physics/motion.md",
+    "docs/physics/contact-times.md",
+    "docs/physics/impacts.md",
+    "docs/physics/persistent-contacts.md",
+    "docs/physics/exact.md",
+    "docs/physics/zones.md",
+    "docs/physics/contact.md",
+    "docs/physics/bisect-and-discrete.md",
 ];
 /// Marks of commands that are left out.
 const LEFT_OUT: [&str; 3] = ["# opens a window", "# takes minutes", "# needs a recording"];

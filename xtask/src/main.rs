@@ -3,6 +3,7 @@
 #![warn(clippy::unwrap_used)]
 
 mod architecture;
+mod book;
 mod c_interface;
 mod checks;
 mod circles;
@@ -22,6 +23,7 @@ mod notices;
 mod parts;
 mod python;
 mod release;
+mod scene_reference;
 mod schema;
 mod scripts;
 mod setup;
@@ -29,6 +31,7 @@ mod shell;
 mod sizes;
 mod sources;
 mod stages;
+mod tools;
 mod wasm;
 mod wasm_toolchain;
 mod web;
@@ -60,9 +63,10 @@ Usage: cargo xtask COMMAND
   lint      the checks that need no build: format, words, links and names in documents, modules of
             any language that use each other in a circle, files and functions that are too long
   documents run the commands that README.md and docs/ show, except those that draw
-  schema    write crates/carom-scene/scenes/scene.schema.json anew from the scene types, and what
-            Python has of it
-  parts     write the classes of Python that scenes are made of anew from that schema
+  docs      make a site with a search of all documents, in target/book/book (installs mdbook: minutes)
+  schema    write scene.schema.json and fields.md in crates/carom-scene/scenes from the scene types, and
+            the classes of Python that scenes are made of
+  parts     write these classes alone, from the schema that is there
   release   `release --dry-run` makes and checks all that a release publishes, in
             target/release-files, and publishes nothing (many minutes; `--part NAME` makes one part of it,
             `--full` builds once more from every package, `--keep-viewer` takes the viewer for notebooks that
@@ -106,7 +110,8 @@ fn main() -> ExitCode {
         ["notebook"] => web::build_for_notebooks(Purpose::Use),
         ["lint"] => checks::lint(),
         ["documents"] => commands::check_plain(),
-        ["schema"] => schema::write().and_then(|()| parts::write()),
+        ["docs"] => book::build(),
+        ["schema"] => schema::write(),
         ["parts"] => parts::write(),
         ["soak"] => long_tests::soak("24"),
         ["soak", "--hours", hours] => long_tests::soak(hours),

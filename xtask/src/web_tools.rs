@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::shell::{Outcome, cargo_with, finish, output, root, target_folder};
+use crate::shell::{Outcome, finish, root};
+use crate::tools::Tool;
 
 /// The folder of the page.
 pub fn folder() -> PathBuf {
@@ -13,22 +14,9 @@ pub fn folder() -> PathBuf {
 /// The command `wasm-bindgen` of the version that the modules are built with, installed into the
 /// target folder where the system has another or none.
 pub fn wasm_bindgen() -> Outcome<PathBuf> {
-    let version = locked_version("wasm-bindgen")?;
-    let own = target_folder().join("tools");
-    let installed = own.join("bin/wasm-bindgen");
-    for program in [PathBuf::from("wasm-bindgen"), installed.clone()] {
-        let is_same = |text: String| text.trim() == format!("wasm-bindgen {version}");
-        if output(&program, &["--version"]).is_some_and(is_same) {
-            return Ok(program);
-        }
-    }
-    let root = own.to_string_lossy();
-    // Unlocked, as it comes: what it was locked with is not in every registry. As it is quickest built:
-    // it runs for seconds.
-    let install = ["install", "wasm-bindgen-cli", "--version", &version, "--root", &root];
-    let quick = [("CARGO_PROFILE_DEV_DEBUG", "false"), ("CARGO_INCREMENTAL", "0")];
-    cargo_with(&[&install[..], &["--force", "--debug"]].concat(), &quick)?;
-    Ok(installed)
+    let version = &locked_version("wasm-bindgen")?;
+    Tool { package: "wasm-bindgen-cli", program: "wasm-bindgen", version, arguments: &[] }
+        .installed()
 }
 
 /// The version of a package in `Cargo.lock`.

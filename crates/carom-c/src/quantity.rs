@@ -1,6 +1,6 @@
 //! Quantities of all spheres, as arrays with a row for each sphere.
 
-use carom::{DQuat, DVec3, SOLID_BALL, Sphere, SphereId, Spheres, World};
+use carom::{DQuat, DVec3, SOLID_BALL, Sphere, SphereMotion, Spheres, World};
 
 use crate::pointer::{Plain, Rows, RowsMut, Strided, require_count};
 use crate::sphere::{coefficients, friction_of, refused};
@@ -293,18 +293,19 @@ fn set_vectors(
         return Err(Failure::new(CaromStatus::Invalid, problem));
     }
     let ids = spheres.ids().iter();
-    let motions: Vec<(SphereId, DVec3, DVec3)> = match quantity {
+    let motion = |(&id, (&position, &velocity))| SphereMotion { id, position, velocity };
+    let motions: Vec<SphereMotion> = match quantity {
         CaromQuantity::AppliedForces => return Ok(world.set_applied_forces(&new)?),
         CaromQuantity::AngularVelocities => {
             return set_others(world, (quantity, name), |row| new[row].to_array());
         }
         CaromQuantity::Positions => {
             let both = new.iter().zip(spheres.velocities());
-            ids.zip(both).map(|(&id, (&position, &velocity))| (id, position, velocity)).collect()
+            ids.zip(both).map(motion).collect()
         }
         _ => {
             let both = spheres.positions().iter().zip(&new);
-            ids.zip(both).map(|(&id, (&position, &velocity))| (id, position, velocity)).collect()
+            ids.zip(both).map(motion).collect()
         }
     };
     Ok(world.set_motions(&motions)?)

@@ -14,18 +14,13 @@ fn blocks(document: &str) -> Vec<String> {
 }
 
 #[test]
-fn the_first_program_of_the_guide_is_one_that_tests_run() {
-    let program = read("examples/bouncing_ball.c");
-    assert_eq!(blocks(&read("../../docs/c.md"))[0], program);
-}
-
-#[test]
-fn the_lines_of_the_readme_are_of_a_program_that_tests_run() {
+fn the_first_lines_of_guide_and_readme_are_of_a_program_that_tests_run() {
     let program = read("examples/bouncing_ball.c");
     let lines: Vec<&str> = program.lines().map(str::trim).collect();
-    let block = &blocks(&read("../../README.md"))[0];
-    for line in block.lines() {
-        assert!(lines.contains(&line.trim()), "{line}");
+    for document in ["../../docs/c.md", "../../README.md"] {
+        for line in blocks(&read(document))[0].lines() {
+            assert!(lines.contains(&line.trim()), "{document}: {line}");
+        }
     }
 }
 

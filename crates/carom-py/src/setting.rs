@@ -1,6 +1,6 @@
 //! Quantities of spheres, set to what Python gives.
 
-use carom::{DQuat, DVec3, Sphere, SphereId, World};
+use carom::{DQuat, DVec3, Sphere, SphereId, SphereMotion, World};
 
 use crate::failure::Failure;
 use crate::quantity::{Column, Quantity};
@@ -18,8 +18,8 @@ pub fn set_all(world: &mut World, quantity: Quantity, values: &[f64]) -> Result<
                 _ => old.positions(),
             };
             let motion = |((id, new), &kept): ((SphereId, DVec3), &DVec3)| match quantity {
-                Quantity::Positions => (id, new, kept),
-                _ => (id, kept, new),
+                Quantity::Positions => SphereMotion { id, position: new, velocity: kept },
+                _ => SphereMotion { id, position: kept, velocity: new },
             };
             let motions: Vec<_> = ids.into_iter().zip(vectors()).zip(kept).map(motion).collect();
             world.set_motions(&motions).map_err(about)

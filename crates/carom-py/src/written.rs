@@ -1,6 +1,6 @@
 //! What scripts write into arrays of spheres, as worlds take it over.
 
-use carom::{Error, World};
+use carom::{Error, Sphere, SphereMotion, World};
 
 use crate::failure::Failure;
 use crate::quantity::Quantity;
@@ -95,7 +95,9 @@ fn set(
         Quantity::AppliedForces => set_all(world, *quantity, values),
         Quantity::Positions | Quantity::Velocities => {
             let spheres = rows.iter().map(|&row| sphere(world, row));
-            let motions: Vec<_> = spheres.map(|(id, it)| (id, it.position, it.velocity)).collect();
+            let motion =
+                |(id, Sphere { position, velocity, .. })| SphereMotion { id, position, velocity };
+            let motions: Vec<_> = spheres.map(motion).collect();
             world.set_motions(&motions).map_err(|error| Failure::from(error).about(quantity.name()))
         }
         _ => rows.iter().try_for_each(|&row| {

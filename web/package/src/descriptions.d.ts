@@ -28,13 +28,13 @@ export interface SphereDescription {
   density?: number;
   /** Coefficient of restitution in [0, 1]; 1 unless given. */
   restitution?: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
   tangentialRestitution?: number;
   /** How it is turned, x, y, z, w; not turned unless given. */
   orientation?: Quaternion;
@@ -60,13 +60,13 @@ export interface Sphere {
   mass: number;
   /** Coefficient of restitution in [0, 1]. */
   restitution: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
   tangentialRestitution?: number;
   /** How it is turned, x, y, z, w; not turned unless given. */
   orientation?: [number, number, number, number];
@@ -161,13 +161,13 @@ export interface ColliderDescription {
   angularVelocity?: Vector;
   /** Coefficient of restitution in [0, 1]; 1 unless given. */
   restitution?: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
   tangentialRestitution?: number;
   /** A trigger reports contact at the end of a frame, and deflects nothing. */
   trigger?: boolean;
@@ -193,13 +193,13 @@ export interface Collider {
   /** [rad/s] */
   angularVelocity: [number, number, number];
   restitution: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`; that of what it touches unless given. */
+  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0; that of what it touches unless given. */
+  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]; that of what it touches unless given. */
+  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
   tangentialRestitution?: number;
   trigger: boolean;
   visible: boolean;

@@ -8,7 +8,7 @@ use crate::commands::{self, Programs};
 use crate::shell::{CI, Outcome, cargo, cargo_with, ci_folder, finish, program};
 use crate::{
     architecture, c_interface, circles, dependencies, documents, js_package, parts as python_parts,
-    python, release, setup, sizes, stages, wasm, web, web_tools, words,
+    python, release, scene_reference, setup, sizes, stages, wasm, web, web_tools, words,
 };
 
 /// Names the packages whose tests run, with commas between them; where it is not set, all do.
@@ -92,6 +92,7 @@ pub fn lint() -> Outcome {
     sizes::check()?;
     python_parts::check()?;
     stages::check()?;
+    scene_reference::check()?;
     documents::check()?;
     release::check()
 }

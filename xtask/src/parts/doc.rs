@@ -4,8 +4,23 @@
 pub const WIDTH: usize = 100;
 
 /// Units that stand in brackets in Python, the longer of those that begin alike first.
-const UNITS: [&str; 12] =
-    ["m³/(kg s²)", "m³/s²", "m²/s", "m/s²", "m/s", "m", "rad/s", "kg/m³", "kg/s", "kg", "N/m", "s"];
+const UNITS: [&str; 15] = [
+    "m³/(kg s²)",
+    "m³/s²",
+    "m²/s",
+    "m/s²",
+    "m/s",
+    "m",
+    "rad/s",
+    "kg/m³",
+    "kg/s",
+    "kg",
+    "N/m",
+    "N",
+    "Pa s",
+    "degrees",
+    "s",
+];
 
 /// A description of the schema in the words of Python: units in brackets, code in two backquotes.
 pub fn of(description: &str) -> String {

@@ -11,7 +11,7 @@ mod ways;
 
 use std::sync::Arc;
 
-use carom::{Contact, DQuat, DVec3, Error, SphereId, World};
+use carom::{Contact, DQuat, DVec3, Error, SphereId, SphereMotion, World};
 use carom_scene::scene::Scene;
 
 use crate::error::EpisodeError;
@@ -73,7 +73,7 @@ pub struct Episodes {
     /// Takes the frames of balls with friction.
     rolling: Option<Alone>,
     /// Working memory of resets.
-    moved: Vec<(SphereId, DVec3, DVec3)>,
+    moved: Vec<SphereMotion>,
 }
 
 impl Episodes {
@@ -192,12 +192,13 @@ impl Episodes {
         self.moved.clear();
         for &index in balls {
             let ball = &mut self.balls[index];
-            let place = match start {
+            let position = match start {
                 Start::Maze => self.arena.maze().start(),
                 Start::Random => ball.choose(self.arena.starts()),
             };
-            ball.begin(place, &self.arena);
-            self.moved.push((self.world.spheres().ids()[index], place, DVec3::ZERO));
+            ball.begin(position, &self.arena);
+            let id = self.world.spheres().ids()[index];
+            self.moved.push(SphereMotion { id, position, velocity: DVec3::ZERO });
         }
         self.world.set_motions(&self.moved)?;
         if self.rolling.is_some() {

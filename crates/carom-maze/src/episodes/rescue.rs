@@ -1,6 +1,6 @@
 //! Balls that meet walls too often in a frame, and take it by another rule.
 
-use carom::{DVec3, Discrete, Sphere, SphereId, World};
+use carom::{DVec3, Discrete, Sphere, SphereId, SphereMotion, World};
 
 use super::Arena;
 use super::alone::Alone;
@@ -53,7 +53,11 @@ impl Rescue {
         let ball = world.sphere(id)?;
         self.parked.push(Parked { id, ball, weight: *weight });
         *weight = arena.weight() * DVec3::NEG_Y;
-        Ok(world.set_motions(&[(id, arena.maze().start(), DVec3::ZERO)])?)
+        Ok(world.set_motions(&[SphereMotion {
+            id,
+            position: arena.maze().start(),
+            velocity: DVec3::ZERO,
+        }])?)
     }
 
     /// Lets the parked balls take their frame, and puts them back.
@@ -66,7 +70,8 @@ impl Rescue {
         for &Parked { id, ball, weight } in &self.parked {
             self.frames += 1;
             let after = self.alone.take_frame(id, ball, weight, balls, arena)?;
-            world.set_motions(&[(id, after.position, after.velocity)])?;
+            let Sphere { position, velocity, .. } = after;
+            world.set_motions(&[SphereMotion { id, position, velocity }])?;
         }
         Ok(())
     }

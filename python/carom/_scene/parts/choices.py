@@ -8,7 +8,9 @@ from __future__ import annotations
 from typing import Literal, TypeAlias
 
 Finish: TypeAlias = Literal["matte", "satin", "glossy", "metal", "glass"]
-"""How a surface takes light; it changes no motion.
+"""How a surface reflects light.
+
+It changes no motion.
 
 - ``"matte"``: As chalk and felt: no highlight.
 - ``"satin"``: A soft highlight on spheres, none on surfaces.
@@ -17,7 +19,7 @@ Finish: TypeAlias = Literal["matte", "satin", "glossy", "metal", "glass"]
 - ``"glass"``: Clear, in a tint of its colour.
 """
 Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
-"""A side of a box in its own frame.
+"""A side of a box in its own coordinates.
 
 - ``"left"``: Towards -x.
 - ``"right"``: Towards +x.
@@ -29,7 +31,7 @@ Side: TypeAlias = Literal["left", "right", "bottom", "top", "back", "front"]
 Integrator: TypeAlias = Literal[
     "semi-implicit-euler", "explicit-euler", "velocity-verlet", "runge-kutta-4"
 ]
-"""How spheres move under forces.
+"""Scheme that moves spheres under forces.
 
 - ``"semi-implicit-euler"``: Velocity first, then position with the new velocity. First order.
 - ``"explicit-euler"``: Position with the old velocity, then velocity. First order.
@@ -37,23 +39,22 @@ Integrator: TypeAlias = Literal[
 - ``"runge-kutta-4"``: Fourth order.
 """
 ImpactLaw: TypeAlias = Literal["reflection", "simultaneous", "sequential"]
-"""How impacts at one instant among spheres that touch are answered.
+"""Law for several impacts at one instant.
 
-- ``"reflection"``: Generalized reflection: keeps symmetries, and passes impacts on as Newton's
+- ``"reflection"``: Generalized reflection. Keeps symmetries and passes impacts on, as Newton's
   cradle does.
-- ``"simultaneous"``: Newton's law of restitution at all contacts at once; it does not pass impacts
-  on.
-- ``"sequential"``: Pair after pair, as other engines do; it breaks symmetries.
+- ``"simultaneous"``: Newton's law at all contacts at once. Does not pass impacts on.
+- ``"sequential"``: One pair after the other, as other engines do. Breaks symmetries.
 """
 Rule: TypeAlias = Literal["exact", "contact", "bisect", "discrete"]
-"""A step rule.
+"""How the world goes through a frame.
 
-- ``"exact"``: Fly in closed form from impact to impact, each at its own time: nothing is missed.
-- ``"contact"``: Cut frames into sub-steps and solve all contacts of each together: for heaps and
+- ``"exact"``: Flies in closed form from impact to impact, each at its own time; misses nothing.
+- ``"contact"``: Cuts frames into sub-steps and solves all contacts of each together; for heaps and
   friction.
-- ``"bisect"``: Wind back what intersects and find the time of contact by bisection (the tutorial's
-  rule).
-- ``"discrete"``: Move every sphere by the frame, then answer what overlaps (the course's rule).
+- ``"bisect"``: Winds back what intersects and finds the time of contact by bisection (the
+  tutorial's rule).
+- ``"discrete"``: Moves every sphere by the frame, then answers overlaps (the course's rule).
 """
 CombineRule: TypeAlias = Literal["product", "minimum", "maximum", "average", "geometric-mean"]
 """Coefficient of a contact from those of its two bodies.

@@ -39,7 +39,9 @@ class Ball(Part):
 
 @dataclass(frozen=True)
 class Rectangle(Part):
-    """A rectangle in its local xz plane that faces local +y; from behind spheres pass it.
+    """A rectangle in its local xz plane that faces local +y.
+
+    Spheres pass it from behind.
 
     Attributes:
         size_x: Full length along local x [m], > 0.
@@ -72,13 +74,13 @@ class Box(Part):
 
 @dataclass(frozen=True)
 class Container(Part):
-    """A hollow box: walls without thickness, off which spheres bounce on either side.
+    """A hollow box.
 
-    One sees through those that are nearer than what is in it.
+    Its walls have no thickness; spheres bounce off both sides.
 
     Attributes:
         size: Full lengths along local x, y, z [m], each > 0.
-        open: Sides without a wall: one, or a list; none where it is missing.
+        open: Sides without a wall: one, or a list. By default none.
     """
 
     tag: ClassVar[str] = "container"
@@ -99,25 +101,25 @@ class Collider(Part):
     """A shape that spheres bounce off, at rest or moved from outside.
 
     Attributes:
-        shape: Its form.
-        position: Where its centre is [m].
-        rotation: How it is turned.
-        velocity: How fast its centre moves [m/s].
-        angular_velocity: How fast it turns about its centre, along the axis [rad/s].
+        shape: Shape.
+        position: Position of its centre [m].
+        rotation: Rotation about its centre.
+        velocity: Velocity of its centre [m/s].
+        angular_velocity: Angular velocity about its centre [rad/s].
         restitution: Coefficient of restitution in [0, 1].
-        trigger: A trigger reports contact and deflects nothing.
-        name: What it is called.
-        visible: Whether it is drawn.
-        color: Its colour; the scene's own for surfaces where it is missing.
+        trigger: Whether it only reports spheres and deflects none.
+        name: Name, for reports.
+        visible: Whether it is drawn; true by default.
+        color: Colour. If missing, that of the scene's colliders.
         friction: Coulomb's coefficient of friction, >= 0, under the rules ``exact`` and
-            ``contact``; that of what it touches where it is missing.
-        rolling_friction: Coefficient of rolling friction, >= 0; that of what it touches where it is
-            missing.
-        spinning_friction: Coefficient of spinning friction, >= 0; that of what it touches where it
-            is missing.
-        tangential_restitution: Coefficient of tangential restitution in [0, 1]; that of what it
-            touches where it is missing.
-        finish: How its surface takes light.
+            ``contact``. If missing, the other body's value counts.
+        rolling_friction: Coefficient of rolling friction, >= 0. If missing, the other body's value
+            counts.
+        spinning_friction: Coefficient of spinning friction, >= 0. If missing, the other body's
+            value counts.
+        tangential_restitution: Coefficient of tangential restitution in [0, 1]. If missing, the
+            other body's value counts.
+        finish: How its surface reflects light.
     """
 
     shape: Shape

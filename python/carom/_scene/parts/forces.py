@@ -27,7 +27,7 @@ class ConstantForce(Part):
     """The same force on every sphere, whatever its mass.
 
     Attributes:
-        force: In N.
+        force: Force [N].
     """
 
     tag: ClassVar[str] = "constant"
@@ -39,7 +39,7 @@ class Gravity(Part):
     """The same acceleration for every sphere.
 
     Attributes:
-        acceleration: In m/s².
+        acceleration: Acceleration [m/s²].
     """
 
     tag: ClassVar[str] = "gravity"
@@ -51,7 +51,7 @@ class ViscousDrag(Part):
     """Drag against the velocity and proportional to it.
 
     Attributes:
-        coefficient: In kg/s, >= 0.
+        coefficient: Drag coefficient [kg/s], >= 0.
     """
 
     tag: ClassVar[str] = "viscous-drag"
@@ -60,12 +60,13 @@ class ViscousDrag(Part):
 
 @dataclass(frozen=True)
 class PointAttractor(Part):
-    """Gravity of a point mass that stays where it is, as of a sun.
+    """Gravity of a fixed point mass, such as a sun.
 
     Attributes:
-        gravitational_parameter: Gravitational parameter G M [m³/s²]; a negative one repels.
-        position: Where it is [m].
-        softening: Softening length [m], >= 0: nearer, the force goes to zero instead of growing.
+        gravitational_parameter: Gravitational parameter G M [m³/s²]. A negative one repels.
+        position: Position of the point [m].
+        softening: Softening length [m], >= 0. At smaller distances the force falls to zero. By
+            default 0.
     """
 
     tag: ClassVar[str] = "point-attractor"
@@ -76,13 +77,14 @@ class PointAttractor(Part):
 
 @dataclass(frozen=True)
 class MutualGravity(Part):
-    """Gravity between spheres: every one attracts every other one.
+    """Gravity between all pairs of spheres.
 
     Attributes:
-        constant: Gravitational constant [m³/(kg s²)]; nature's unless given. A negative one repels.
-        softening: Softening length [m], >= 0: nearer, the force goes to zero instead of growing.
-        opening_angle: Of more than a thousand spheres, those in a cube count as one where its edge
-            divided by its distance is less than this, in [0, 1]; with 0 every pair is summed.
+        constant: Gravitational constant [m³/(kg s²)]. A negative one repels.
+        softening: Softening length [m], >= 0. At smaller distances the force falls to zero. By
+            default 0.
+        opening_angle: Accuracy above a thousand spheres, in [0, 1]: a cube of spheres counts as one
+            if its edge divided by its distance is smaller. With 0 every pair is summed.
     """
 
     tag: ClassVar[str] = "mutual-gravity"
@@ -96,7 +98,7 @@ class Wind(Part):
     """Viscous drag in a wind that is the same everywhere.
 
     Attributes:
-        velocity: Of the air [m/s].
+        velocity: Velocity of the air [m/s].
         coefficient: Drag coefficient [kg/s], >= 0.
     """
 
@@ -107,14 +109,14 @@ class Wind(Part):
 
 @dataclass(frozen=True)
 class Vortex(Part):
-    """Viscous drag in air that goes round an axis.
+    """Viscous drag in air that circles an axis.
 
     Attributes:
         circulation: Circulation [m²/s].
-        core_radius: Where the air is fastest, in m from the axis, > 0.
+        core_radius: Distance from the axis at which the air is fastest [m], > 0.
         coefficient: Drag coefficient [kg/s], >= 0.
         position: A point of the axis [m].
-        axis: Direction of the axis, of any length but zero; the air goes round it by the right-hand
+        axis: Direction of the axis, of any length but zero. The air circles it by the right-hand
             rule.
     """
 
@@ -131,11 +133,11 @@ class QuadraticDrag(Part):
     """Drag of a medium, proportional to the square of the velocity.
 
     Attributes:
-        density: Of the medium [kg/m³], >= 0: 1.2 for air, 1000 for water.
+        density: Density of the medium [kg/m³], >= 0: 1.2 for air, 1000 for water.
         drag_coefficient: Drag coefficient, >= 0.
-        viscosity: Dynamic viscosity of the medium, in Pa s, >= 0. With one, the drag coefficient of
+        viscosity: Dynamic viscosity of the medium [Pa s], >= 0. With it, the drag coefficient of
             slow spheres depends on the Reynolds number.
-        wind: Velocity of the medium [m/s].
+        wind: Velocity of the medium [m/s]. By default at rest.
     """
 
     tag: ClassVar[str] = "quadratic-drag"
@@ -150,10 +152,9 @@ class Buoyancy(Part):
     """Buoyancy in a fluid with a level surface.
 
     Attributes:
-        density: Of the fluid [kg/m³], >= 0.
+        density: Density of the fluid [kg/m³], >= 0.
         surface_height: Height of the surface above the origin [m].
-        gravity: Acceleration of gravity [m/s²], not zero: it makes the fluid heavy, and says where
-            up is.
+        gravity: Acceleration of gravity in the fluid [m/s²], not zero. It points down.
     """
 
     tag: ClassVar[str] = "buoyancy"
@@ -180,23 +181,23 @@ FORCES: tuple[type[Part], ...] = get_args(Force)
 
 @dataclass(frozen=True, kw_only=True)
 class Spring(Part):
-    """A spring with a damper beside it, or a chain of such.
+    """A spring with a damper, or a chain of them.
 
-    Spheres are named by their numbers, from 0: the single ones of the scene first, then those of
-    generators, each in the order of the file. In a running world they go by their ids
-    (`World.add_spring`). Give ``spheres``, ``sphere`` with ``anchor``, or ``chain``.
+    Numbers of spheres begin at 0: the single spheres of the scene first, then those of generators,
+    each in the order of the file. In a running world they go by their ids (`World.add_spring`).
+    Give ``spheres``, ``sphere`` with ``anchor``, or ``chain``.
 
     Attributes:
         stiffness: Stiffness [N/m], >= 0.
-        spheres: Numbers of the two spheres that it joins. Give this, ``sphere`` with ``anchor``, or
+        spheres: Numbers of the two joined spheres. Give this, ``sphere`` with ``anchor``, or
             ``chain``.
-        sphere: Number of the sphere that it joins to a fixed point.
+        sphere: Number of the sphere that is joined to a fixed point.
         anchor: The fixed point [m].
-        chain: Numbers of the first and the last sphere of a chain: each is joined to the next one.
-        rest_length: Length without force [m], >= 0; the length at the start of the scene unless
-            given.
+        chain: Numbers of the first and the last sphere of a chain. Each sphere is joined to the
+            next one.
+        rest_length: Length without force [m], >= 0. By default the length at the start.
         damping: Damping [kg/s], >= 0.
-        only_pulls: Whether it only pulls, as a thread does, which is slack up to its rest length.
+        only_pulls: Whether it only pulls, as a thread; it is slack up to its rest length.
     """
 
     stiffness: NonNegative

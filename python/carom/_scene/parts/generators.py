@@ -31,20 +31,19 @@ from carom._scene.parts.together import expect_makings, expect_sizes
 
 @dataclass(frozen=True)
 class Emitter(Part):
-    """Emits a sphere at the times 0, period, 2 period, ..., ``count`` in all.
+    """A source of spheres: one at the times 0, period, 2 period, ...
 
     Attributes:
-        sphere: What is emitted.
+        sphere: The sphere that it emits.
         period: Time between two spheres [s], > 0.
-        position: Where spheres appear [m].
-        rotation: How the emitter, and with it the velocity of its spheres, is turned.
-        max_spheres: With this many of its spheres alive, the oldest makes place; no limit where it
-            is missing.
-        needs_room: Whether a sphere is left out that would overlap another one; so under the rule
-            ``contact`` where it is missing.
-        name: What it is called.
-        count: How many spheres it emits in all, those left out among them; no end where it is
-            missing.
+        position: Position at which spheres appear [m].
+        rotation: Rotation of the emitter; it turns the velocity of its spheres, too.
+        max_spheres: Most of its spheres at one time; the oldest goes before another comes. By
+            default no limit.
+        needs_room: Whether a sphere that would overlap another one is left out. By default only
+            under the rule ``contact``.
+        name: Name, for reports.
+        count: Spheres in all, those left out included. By default no end.
     """
 
     sphere: SizedSphere
@@ -64,10 +63,10 @@ class Row(Part):
     Attributes:
         count: How many, >= 1.
         start: Centre of the first [m].
-        step: From each centre to the next [m].
-        sphere: What spheres have in common. Give this or ``collider``.
-        collider: What colliders have in common; its position is an offset, its name gets its
-            number. Give this or ``sphere``.
+        step: Vector from each place to the next [m].
+        sphere: Properties of the spheres. Give this or ``collider``.
+        collider: Properties of the colliders. The position is an offset; the name gets a number.
+            Give this or ``sphere``.
     """
 
     tag: ClassVar[str] = "row"
@@ -90,9 +89,9 @@ class Lattice(Part):
         counts: How many along x, y and z, each >= 1.
         start: Centre of the first [m].
         spacing: Distance of neighbours along x, y and z [m].
-        sphere: What spheres have in common. Give this or ``collider``.
-        collider: What colliders have in common; its position is an offset, its name gets its
-            numbers along x, y and z. Give this or ``sphere``.
+        sphere: Properties of the spheres. Give this or ``collider``.
+        collider: Properties of the colliders. The position is an offset; the name gets numbers
+            along x, y and z. Give this or ``sphere``.
     """
 
     tag: ClassVar[str] = "lattice"
@@ -118,11 +117,11 @@ class StaggeredRows(Part):
         counts: How many in each row, >= 1: (13, 12) staggers rows, (1, 2, 3) is a triangle. Where
             there are more rows than numbers, these begin anew.
         start: Centre of the first of the first row [m].
-        step: From each to the next in a row [m].
-        row_step: From the middle of each row to that of the next [m].
-        sphere: What spheres have in common. Give this or ``collider``.
-        collider: What colliders have in common; its position is an offset, its name gets the
-            numbers of row and place. Give this or ``sphere``.
+        step: Vector from each place to the next in a row [m].
+        row_step: Vector from the middle of each row to that of the next [m].
+        sphere: Properties of the spheres. Give this or ``collider``.
+        collider: Properties of the colliders. The position is an offset; the name gets the numbers
+            of row and place. Give this or ``sphere``.
     """
 
     tag: ClassVar[str] = "staggered-rows"
@@ -146,10 +145,10 @@ class ClosePacking(Part):
     In a layer rows run along x, and every second row is shifted by half a sphere.
 
     Attributes:
-        counts: How many spheres in a row, layers, and rows in a layer: along x, y and z, each >= 1.
+        counts: Spheres in a row, layers, and rows in a layer (along x, y and z), each >= 1.
         start: Centre of the first [m].
-        sphere: What they have in common.
-        spacing: Distance of the centres of neighbours [m], > 0; the diameter where it is missing.
+        sphere: Properties of the spheres.
+        spacing: Distance of the centres of neighbours [m], > 0. By default the diameter.
         stacking: The order of layers: hexagonal close packing (ABAB...), or face-centred cubic
             (ABCABC...).
     """
@@ -168,14 +167,13 @@ class Ring(Part):
 
     Attributes:
         count: How many, >= 1.
-        center: Of the circle [m].
-        radius: From the centre of the circle to the places [m], > 0.
-        sphere: What spheres have in common. Give this or ``collider``.
-        axis: Direction about which they go round, by the right-hand rule; of any length but zero.
-            The first is at the side of +x, or of +y where the axis is nearly along x.
-        collider: The first collider, its position an offset; it is turned about the axis to make
-            the others, with its velocities. Its name gets the number of each. Give this or
-            ``sphere``.
+        center: Centre of the circle [m].
+        radius: Radius of the circle [m], > 0.
+        sphere: Properties of the spheres. Give this or ``collider``.
+        axis: Axis of the circle, of any length but zero. Places follow the right-hand rule. The
+            first is at the side of +x, or of +y if the axis is nearly along x.
+        collider: The first collider; the position is an offset. The others are turned about the
+            axis, with their velocities; the name gets a number. Give this or ``sphere``.
     """
 
     tag: ClassVar[str] = "ring"
@@ -197,13 +195,13 @@ class RandomFill(Part):
 
     Attributes:
         count: How many, >= 1.
-        min: Lower corner of the box that holds the whole spheres [m].
+        min: Lower corner of the box [m]. Whole spheres lie in it.
         max: Upper corner of the box [m].
-        seed: The same seed gives the same scene.
-        sphere: What they have in common.
-        speed: Speed [m/s], >= 0, in a random direction, on top of the common velocity.
-        radius_range: Smallest and largest radius [m], evenly distributed, instead of the common
-            one.
+        seed: Seed; the same seed gives the same scene.
+        sphere: Properties of the spheres.
+        speed: Speed in a random direction [m/s], >= 0, added to the velocity of ``sphere``.
+        radius_range: Smallest and largest radius [m], evenly distributed, instead of that of
+            ``sphere``.
     """
 
     tag: ClassVar[str] = "random"

@@ -23,14 +23,14 @@ from carom._scene.parts.together import expect_far_behind_near
 
 @dataclass(frozen=True)
 class Camera(Part):
-    """Where to look from.
+    """A camera.
 
-    The camera looks along its local -z.
+    It looks along its local -z.
 
     Attributes:
-        position: In m.
+        position: Position [m].
         rotation: How it is turned.
-        vertical_fov_degrees: Vertical field of view, in degrees, in (0, 180).
+        vertical_fov_degrees: Vertical field of view [degrees], in (0, 180).
         near: Nearest distance drawn [m], > 0.
         far: Farthest distance drawn [m], > near.
     """
@@ -68,8 +68,8 @@ class DensityColor(Part):
     """The colour of spheres of one density.
 
     Attributes:
-        density: In kg/m³, > 0.
-        color: Their colour.
+        density: Density [kg/m³], > 0.
+        color: Colour of these spheres.
     """
 
     density: Positive
@@ -78,13 +78,13 @@ class DensityColor(Part):
 
 @dataclass(frozen=True)
 class Colors(Part):
-    """Colours of what has none of its own.
+    """Colours of things without their own colour.
 
     Attributes:
-        background: Behind everything.
-        colliders: Colliders.
-        spheres: Spheres whose density is not listed.
-        densities: Spheres by their density.
+        background: Colour of the background.
+        colliders: Colour of colliders.
+        spheres: Colour of spheres of other densities.
+        densities: Colours of spheres by density.
     """
 
     background: Color | None = None

@@ -19,19 +19,18 @@ class Exact(Part):
     """Parameters of the rule ``exact``.
 
     Attributes:
-        impact_law: How impacts at one instant among spheres that touch are answered.
-        contact_duration: How long a contact lasts at least [s], > 0: bodies that would meet again
-            sooner stay together.
-        max_impacts: Impacts and other work per sphere in a frame, >= 1; more makes a stepped zone,
-            or without zones is refused.
+        impact_law: Law for several impacts at one instant.
+        contact_duration: Shortest duration of a contact [s], > 0. Bodies that would meet again
+            sooner stay in contact.
+        max_impacts: Most impacts and other work of a sphere in a frame, >= 1. More makes a stepped
+            zone; without zones the step is refused.
         zones: Whether spheres in contact that take too much work are stepped as by the rule
             ``contact``, until they have come apart.
-        zone_budget: Work of a group of spheres in a tick, in contacts times iterations, >= 1; more
-            makes a stepped zone.
-        zone_tick: Time between two ticks, at which zones are stepped [s], > 0.
-        force_tick: Time between two force ticks [s], > 0: springs, forces between spheres and
-            others that are not linear are held constant from one to the next. It is halved where
-            springs need it.
+        zone_budget: Most work of a group of spheres in a tick, in contacts times iterations, >= 1.
+            More makes a stepped zone. By default 300,000.
+        zone_tick: Time between two ticks, at which zones are stepped [s], > 0. By default 1/480.
+        force_tick: Time between two force ticks [s], > 0. Springs and other forces that are not
+            linear are constant from one to the next. Stiff springs shorten it. By default 1/240.
     """
 
     impact_law: ImpactLaw = "reflection"
@@ -48,12 +47,12 @@ class Bisect(Part):
     """Parameters of the rule ``bisect``.
 
     Attributes:
-        integrator: How spheres move under forces.
+        integrator: Scheme that moves spheres under forces.
         tolerance: Distance of surfaces that counts as touching [m], >= 0.
-        max_halvings: Halvings in search of a contact, >= 1.
-        max_impacts: How often two bodies may meet in a frame, >= 1; then the rest of it is taken in
-            one piece.
-        wind_back: Which spheres go through the pieces into which a contact cuts the frame.
+        max_halvings: Halvings of a search for a contact, >= 1.
+        max_impacts: Most impacts of two bodies in a frame, >= 1. After them the rest of the frame
+            is one piece.
+        wind_back: Which spheres a contact winds back.
     """
 
     integrator: Integrator = "semi-implicit-euler"
@@ -68,7 +67,7 @@ class Discrete(Part):
     """Parameters of the rule ``discrete``.
 
     Attributes:
-        integrator: How spheres move under forces.
+        integrator: Scheme that moves spheres under forces.
     """
 
     integrator: Integrator = "semi-implicit-euler"
@@ -79,12 +78,11 @@ class Contact(Part):
     """Parameters of the rule ``contact``.
 
     Attributes:
-        sub_steps: Sub-steps of a frame, >= 1: overlaps fall with the square of their length.
+        sub_steps: Sub-steps of a frame, >= 1. Overlaps fall with the square of their length.
         sweeps: Sweeps over all contacts in a sub-step, >= 1.
-        converged: Whether sweeps go on until the solution has converged: slow, to compare with.
-        sleep_speed: Speed below which a ball that bears or is borne may fall asleep, as a part of
-            ``sqrt(a r)``, the speed after falling through half its radius, >= 0; with 0 none
-            sleeps.
+        converged: Whether sweeps go on until the solution converges. Slow; for comparison.
+        sleep_speed: Speed below which a supported ball may fall asleep, as a part of ``sqrt(a r)``,
+            >= 0. With 0 none sleeps. By default 0.02.
     """
 
     sub_steps: Count = 8
@@ -95,7 +93,7 @@ class Contact(Part):
 
 @dataclass(frozen=True)
 class Periodic(Part):
-    """A box about the origin that repeats itself without end; only with the rule ``exact``.
+    """A periodic box about the origin; only under the rule ``exact``.
 
     Attributes:
         size: Edges [m], each > 0; infinite along an axis that is open.
@@ -107,17 +105,19 @@ class Periodic(Part):
 
 @dataclass(frozen=True, kw_only=True)
 class Simulation(Part):
-    """How a scene is stepped.
+    """Rule, frame and other settings of the simulation.
 
     Attributes:
-        rule: The step rule.
+        rule: The rule.
         frame_time: Length of a frame [s], > 0.
         duration: Time worth watching [s], > 0: what a run takes by default.
-        spheres_collide: Whether spheres collide with one another; with colliders they always do.
-        combine_rule: Restitution of a contact from that of its two bodies.
-        friction_combine_rule: Friction of a contact from that of its two bodies.
+        spheres_collide: Whether spheres collide with each other. They always collide with
+            colliders.
+        combine_rule: How the restitution of a contact follows from those of its bodies.
+        friction_combine_rule: How the friction of a contact follows from those of its bodies. By
+            default ``geometric-mean``.
         allow_overlap: Whether spheres may overlap each other or colliders at the start.
-        boundary: What is around the spheres, besides colliders.
+        boundary: Open space or a periodic box.
         exact: Parameters of the rule ``exact``.
         bisect: Parameters of the rule ``bisect``.
         discrete: Parameters of the rule ``discrete``.

@@ -29,29 +29,28 @@ class Sphere(Part):
     """A sphere, or what the spheres of a generator or an emitter have in common.
 
     Attributes:
-        position: Centre [m]; in a generator or an emitter an offset from the place it gives.
-        velocity: Velocity [m/s]; in an emitter in the emitter's frame.
+        position: Centre [m]. In a generator or an emitter: an offset from the place that it gives.
+        velocity: Velocity [m/s]. In an emitter: in the emitter's coordinates.
         radius: Radius [m], > 0. Every sphere needs this or ``diameter``, but for those of a
             `RandomFill` with a ``radius_range``.
         diameter: Diameter [m], > 0.
-        mass: Mass [kg], > 0; 1 unless this or ``density`` is given.
-        density: Density [kg/m³], > 0, instead of ``mass``.
+        mass: Mass [kg], > 0; 1 if neither this nor ``density`` is given.
+        density: Density [kg/m³], > 0. Give this or ``mass``.
         restitution: Coefficient of restitution in [0, 1].
         friction: Coulomb's coefficient of friction, >= 0, under the rules ``exact`` and
-            ``contact``; that of what it touches where it is missing.
-        rolling_friction: Coefficient of rolling friction, >= 0; that of what it touches where it is
-            missing.
-        spinning_friction: Coefficient of spinning friction, >= 0; that of what it touches where it
-            is missing.
-        tangential_restitution: Coefficient of tangential restitution in [0, 1]; that of what it
-            touches where it is missing.
+            ``contact``. If missing, the other body's value counts.
+        rolling_friction: Coefficient of rolling friction, >= 0. If missing, the other body's value
+            counts.
+        spinning_friction: Coefficient of spinning friction, >= 0. If missing, the other body's
+            value counts.
+        tangential_restitution: Coefficient of tangential restitution in [0, 1]. If missing, the
+            other body's value counts.
         orientation: How it is turned.
-        angular_velocity: How fast it turns, along the axis [rad/s]; in an emitter in the emitter's
-            frame.
-        inertia_factor: Moment of inertia divided by mass and square of the radius, > 0: 2/5 for a
-            solid ball, 2/3 for a thin shell.
-        color: Colour; by density or the scene's own where it is missing.
-        finish: How its surface takes light.
+        angular_velocity: Angular velocity [rad/s]. In an emitter: in the emitter's coordinates.
+        inertia_factor: Moment of inertia divided by mass and square of the radius, > 0: 0.4 for a
+            solid ball (default), 2/3 for a thin shell.
+        color: Colour. If missing, that of its density, else that of the scene's spheres.
+        finish: How its surface reflects light.
     """
 
     position: Vector = ORIGIN
