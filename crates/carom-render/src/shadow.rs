@@ -8,7 +8,7 @@ use glam::{Mat4, Vec3, Vec4};
 pub(crate) struct LightView {
     /// From positions relative to the eye to the light's map.
     pub map_from_eye: Mat4,
-    /// The direction to the light, and two directions across it.
+    /// The direction in which light travels, and two directions across it.
     pub axes: [Vec3; 3],
     /// Size of a texel \[m\].
     pub texel: f32,
