@@ -1,4 +1,5 @@
-//! Forces that are functions: under every rule they are those of the engine, and what is no number is an error.
+//! Forces that are functions equal those of the engine under every rule; a force that is not a
+//! number is an error.
 
 use std::ffi::{CString, c_void};
 use std::ptr::{null, null_mut};
