@@ -38,7 +38,7 @@ after(async () => {
 });
 
 /**
- * Requests a path as it stands, without the tidying that `fetch` does.
+ * Requests a path without the normalisation of `fetch`.
  *
  * @param {string} path
  * @param {Record<string, string>} [headers]
