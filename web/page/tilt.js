@@ -23,7 +23,7 @@ let isUsed = false;
 let slope = null;
 
 /**
- * The slope when tilting began; it counts as level, because nobody holds a telephone level.
+ * The slope when tilting began; it counts as level, because a telephone is never held level.
  *
  * @type {Slope | null}
  */
