@@ -1,4 +1,4 @@
-// The server of static files.
+// The server serves static files and nothing outside of its folder.
 
 import assert from "node:assert/strict";
 import { mkdir, mkdtemp, rm, writeFile } from "node:fs/promises";

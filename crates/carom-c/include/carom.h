@@ -2,14 +2,14 @@
 //
 // Right-handed coordinate system, y up, SI units. docs/c.md is the guide.
 //
-// Every function but a few ends in a CaromStatus. After any status but CAROM_STATUS_OK, carom_last_error() says what
-// was wrong, and the world is as it was before the call.
+// Almost every function returns a CaromStatus. After any status but CAROM_STATUS_OK the world is unchanged, and
+// carom_last_error() returns the reason.
 //
-// Pointers: null is refused, unless a function says what it means. Any other pointer must lead to what the function says:
-// to one value, to a text that ends in a zero, or to as many rows as are counted beside it, each `stride` bytes after the
-// one before. It may be unaligned. Only during a call does the library use it; what it is given it copies.
+// Pointers: null is refused, unless a function states its meaning. Any other pointer must lead to what the function
+// states: one value, a text that ends in a zero, or the stated number of rows with `stride` bytes from one to the next.
+// It may be unaligned. The library uses it only during the call, and copies what it needs.
 //
-// Handles (CaromWorld, CaromSnapshot) are never given twice: one that was freed is refused.
+// Handles (CaromWorld, CaromSnapshot) are never reused: a freed one is refused.
 //
 // Made by `cargo xtask header`; do not edit.
 

@@ -150,7 +150,7 @@ pub unsafe extern "C" fn carom_world_add_gravity(
 ) -> CaromStatus {
     call(|| {
         let one = Strided { stride: 0, count: 1 };
-        // SAFETY: the caller's array is null or lies so, as the header demands.
+        // SAFETY: the caller's array is null or has this layout, as the header demands.
         let acceleration = unsafe { Rows::new(acceleration, one, 3, "acceleration") }?.row(0);
         let number = add_described(world, scene::Force::Gravity { acceleration })?;
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.

@@ -42,7 +42,7 @@ pub unsafe extern "C" fn carom_world_ids(
     count: *mut usize,
 ) -> CaromStatus {
     call(|| {
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(ids, Strided { stride, count: capacity }, count, "ids") }?;
         world.with(|inner| room.fill(of_list(inner, list)?.into_iter()))
     })

@@ -50,7 +50,7 @@ pub unsafe extern "C" fn carom_world_overlaps(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(overlaps, array, count, "overlaps") }?;
         if tolerance.is_nan() || tolerance < 0.0 {
             let problem = format!("`tolerance` must be zero or positive, not {tolerance}");

@@ -165,7 +165,7 @@ pub unsafe extern "C" fn carom_world_read(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: the caller's array is null or lies so, as the header demands.
+    // SAFETY: the caller's array is null or has this layout, as the header demands.
     unsafe { read(world, quantity, values, Strided { stride, count }) }
 }
 
@@ -178,7 +178,7 @@ pub unsafe extern "C" fn carom_world_read_f32(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: the caller's array is null or lies so, as the header demands.
+    // SAFETY: the caller's array is null or has this layout, as the header demands.
     unsafe { read(world, quantity, values, Strided { stride, count }) }
 }
 
@@ -192,7 +192,7 @@ pub unsafe extern "C" fn carom_world_write(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: the caller's array is null or lies so, as the header demands.
+    // SAFETY: the caller's array is null or has this layout, as the header demands.
     unsafe { write(world, quantity, values, Strided { stride, count }) }
 }
 
@@ -205,7 +205,7 @@ pub unsafe extern "C" fn carom_world_write_f32(
     stride: usize,
     count: usize,
 ) -> CaromStatus {
-    // SAFETY: the caller's array is null or lies so, as the header demands.
+    // SAFETY: the caller's array is null or has this layout, as the header demands.
     unsafe { write(world, quantity, values, Strided { stride, count }) }
 }
 

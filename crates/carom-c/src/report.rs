@@ -211,7 +211,7 @@ pub unsafe extern "C" fn carom_world_impacts(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(impacts, array, count, "impacts") }?;
         world.with(|inner| room.fill(inner.world.report().impacts.iter().map(impact)))
     })
@@ -229,7 +229,7 @@ pub unsafe extern "C" fn carom_world_contacts(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(contacts, array, count, "contacts") }?;
         world.with(|inner| room.fill(inner.world.contacts().iter().map(contact)))
     })
@@ -247,7 +247,7 @@ pub unsafe extern "C" fn carom_world_triggers(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride, count: capacity };
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(triggers, array, count, "triggers") }?;
         world.with(|inner| room.fill(inner.world.report().triggers.iter().map(trigger)))
     })

@@ -71,7 +71,7 @@ pub unsafe extern "C" fn carom_world_from_scene(
         let mut world = unsafe { Out::new(world, "world") }?;
         // SAFETY: the caller's text is null or ends in a zero, as the header demands.
         let name = unsafe { text(name, "name") }?;
-        // SAFETY: the caller's texts are null or so many, as the header demands.
+        // SAFETY: the caller's texts are null or `override_count` texts, as the header demands.
         let overrides = unsafe { texts(overrides, override_count, "overrides") }?;
         let (scene, _) = Library::new().find(name, &parsed(&overrides)?)?;
         world.set(made(scene)?);
@@ -93,7 +93,7 @@ pub unsafe extern "C" fn carom_world_from_toml(
         let mut world = unsafe { Out::new(world, "world") }?;
         // SAFETY: the caller's text is null or ends in a zero, as the header demands.
         let toml = unsafe { text(toml, "toml") }?;
-        // SAFETY: the caller's texts are null or so many, as the header demands.
+        // SAFETY: the caller's texts are null or `override_count` texts, as the header demands.
         let overrides = unsafe { texts(overrides, override_count, "overrides") }?;
         world.set(made(Scene::from_toml_with(toml, "scene", &parsed(&overrides)?)?)?);
         Ok(())

@@ -94,7 +94,7 @@ pub unsafe extern "C" fn carom_snapshot_to_bytes(
 ) -> CaromStatus {
     call(|| {
         let array = Strided { stride: 0, count: capacity };
-        // SAFETY: the caller's array and pointer are null or lead there, as the header demands.
+        // SAFETY: the caller's array and pointer are null or valid, as the header demands.
         let room = unsafe { Room::new(bytes, array, size, "bytes") }?;
         let held = SNAPSHOTS.get(snapshot.id)?;
         let Held { snapshot, described } = &*held;
@@ -115,7 +115,7 @@ pub unsafe extern "C" fn carom_snapshot_from_bytes(
         // SAFETY: the caller's pointer is null or leads to its value, as the header demands.
         let mut place = unsafe { Out::new(snapshot, "snapshot") }?;
         let array = Strided { stride: 0, count: size };
-        // SAFETY: the caller's array is null or lies so, as the header demands.
+        // SAFETY: the caller's array is null or has this layout, as the header demands.
         let bytes: Vec<u8> = unsafe { Rows::new(bytes, array, 1, "bytes") }?.values().collect();
         let Checkpoint { snapshot, scene, palette } = Checkpoint::from_bytes(&bytes)?;
         let described = Described::new(scene, palette);

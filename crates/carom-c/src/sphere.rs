@@ -140,11 +140,11 @@ pub unsafe extern "C" fn carom_world_add_spheres(
 ) -> CaromStatus {
     call(|| {
         refuse_too_many(count)?;
-        // SAFETY: the caller's array is null or lies so, as the header demands.
+        // SAFETY: the caller's array is null or has this layout, as the header demands.
         let spheres = unsafe { Rows::new(spheres, Strided { stride, count }, 1, "spheres") }?;
         let added = world.with(|inner| add_all(inner, &spheres))?;
         if !ids.is_null() {
-            // SAFETY: the caller's array is null or lies so, as the header demands.
+            // SAFETY: the caller's array is null or has this layout, as the header demands.
             let mut ids = unsafe { RowsMut::new(ids, Strided { stride: 0, count }, 1, "ids") }?;
             added.iter().enumerate().for_each(|(row, id)| ids.set_row(row, [id.number()]));
         }
@@ -225,7 +225,7 @@ pub unsafe extern "C" fn carom_world_remove_spheres(
 ) -> CaromStatus {
     call(|| {
         refuse_too_many(count)?;
-        // SAFETY: the caller's array is null or lies so, as the header demands.
+        // SAFETY: the caller's array is null or has this layout, as the header demands.
         let ids = unsafe { Rows::new(ids, Strided { stride: 0, count }, 1, "ids") }?;
         let ids: Vec<SphereId> = ids.values().map(SphereId::from_number).collect();
         world.with(|inner| Ok(inner.world.remove_spheres(&ids)?))

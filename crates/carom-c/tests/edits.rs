@@ -94,16 +94,16 @@ fn every_quantity_is_read_as_it_was_written_and_gaps_are_left_alone() {
         let rows: Vec<f64> =
             all.iter().flat_map(|it| [numbers(it, quantity), vec![GAP]].concat()).collect();
         let (width, mut read) = (rows.len() / 5, vec![GAP; rows.len()]);
-        // SAFETY: five rows that lie so.
+        // SAFETY: five rows of this layout.
         ok(unsafe { carom_world_write(world, quantity, rows.as_ptr(), 8 * width, 5) });
-        // SAFETY: room for five rows that lie so.
+        // SAFETY: room for five rows of this layout.
         ok(unsafe { carom_world_read(world, quantity, read.as_mut_ptr(), 8 * width, 5) });
         assert_eq!(bits(&read), bits(&rows), "quantity {quantity}");
         // All numbers above fit into 32 bits.
         let mut narrow = vec![GAP as f32; rows.len()];
-        // SAFETY: room for five rows that lie so.
+        // SAFETY: room for five rows of this layout.
         ok(unsafe { carom_world_read_f32(world, quantity, narrow.as_mut_ptr(), 4 * width, 5) });
-        // SAFETY: five rows that lie so.
+        // SAFETY: five rows of this layout.
         ok(unsafe { carom_world_write_f32(world, quantity, narrow.as_ptr(), 4 * width, 5) });
         let narrow: Vec<f64> = narrow.into_iter().map(f64::from).collect();
         assert_eq!(bits(&narrow), bits(&rows), "quantity {quantity}");

@@ -364,7 +364,7 @@ fn no_number_in_a_sphere(bench: &mut Bench) -> (CaromStatus, &'static [CaromStat
 
 fn first_id(world: CaromWorld) -> u64 {
     let (mut ids, mut length) = (vec![0; 1000], 0);
-    // SAFETY: so many places.
+    // SAFETY: as many places as stated.
     ok(unsafe { carom_world_ids(world, 0, ids.as_mut_ptr(), 0, 1000, &raw mut length) });
     ids[0]
 }
@@ -402,7 +402,7 @@ fn no_number_in_an_array(bench: &mut Bench) -> (CaromStatus, &'static [CaromStat
     rows[bench.below((width * count) as u32) as usize] = number;
     let narrow: Vec<f32> = rows.iter().map(|&number| number as f32).collect();
     let is_narrow = bench.below(2) == 0;
-    // SAFETY: so many rows.
+    // SAFETY: as many rows as stated.
     let status = unsafe {
         if is_narrow {
             carom_world_write_f32(bench.world, quantity, narrow.as_ptr(), 0, count)
@@ -488,7 +488,7 @@ fn no_bytes(bench: &mut Bench) -> (CaromStatus, &'static [CaromStatus]) {
         bytes.splice(0..0, *b"carom\x1a\r\n");
     }
     let mut snapshot = CaromSnapshot::default();
-    // SAFETY: so many bytes, and a place for a snapshot.
+    // SAFETY: as many bytes as stated, and a place for a snapshot.
     let status =
         unsafe { carom_snapshot_from_bytes(bytes.as_ptr(), bytes.len(), &raw mut snapshot) };
     (status, &[CaromStatus::Snapshot])

@@ -171,7 +171,7 @@ fn springs_that_make_no_sense_are_refused_and_change_nothing() {
         assert_eq!(set, status, "{spring:?}: {}", message());
     }
     assert_eq!([0, 1].map(|id| read(world, id)), springs());
-    // SAFETY: null is refused, and so is what is not there.
+    // SAFETY: null and unknown ids are refused.
     unsafe {
         assert_eq!(carom_world_add_spring(world, null(), null_mut()), CaromStatus::Null);
         assert_eq!(carom_world_set_spring(world, 0, null()), CaromStatus::Null);

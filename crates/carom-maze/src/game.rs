@@ -36,7 +36,7 @@ pub enum GameState {
 /// An event in a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GameEvent {
-    /// The ball touched a collectible, which vanished.
+    /// The ball touched a collectible, which disappeared.
     Collected {
         /// Index of the collectible in [`Maze::collectibles`].
         index: usize,

@@ -31,7 +31,7 @@ pub struct Drawing {
     pub has_grid: bool,
 }
 
-/// What is painted on a ball.
+/// A pattern painted on a ball.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Pattern {
     /// Nothing.
@@ -103,7 +103,7 @@ pub struct Arrow {
     pub end: DVec3,
     /// sRGB.
     pub color: Color,
-    /// In pixels.
+    /// Width in pixels.
     pub width: f64,
     /// Whether the line ends in an arrow head.
     pub head: bool,

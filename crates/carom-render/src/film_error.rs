@@ -27,9 +27,9 @@ pub enum FilmError {
          {SMALLEST_SIDE}, and at most {LONGER_SIDE} and {SHORTER_SIDE}"
     )]
     Size {
-        /// Pixels of a row.
+        /// Width in pixels.
         width: u32,
-        /// Rows.
+        /// Height in pixels.
         height: u32,
     },
     /// A film cannot have this frame rate.

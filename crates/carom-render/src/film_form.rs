@@ -7,9 +7,9 @@ use crate::film_error::{
 /// Size and rate of a film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct FilmForm {
-    /// Pixels of a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
     pub frames_per_second: u32,
 }

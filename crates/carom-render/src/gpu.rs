@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GpuError {
-    /// There is no graphics driver at all.
+    /// There is no graphics driver.
     #[error(
         "no graphics adapter found; a software driver is enough (Debian, Ubuntu: apt-get install \
          mesa-vulkan-drivers; Fedora: dnf install mesa-vulkan-drivers): {0}"
@@ -26,19 +26,19 @@ pub enum GpuError {
     /// The picture has no pixels, or is larger than the device can draw.
     #[error("a picture of {width} x {height} pixels cannot be drawn: between 1 and {largest} each")]
     Size {
-        /// In pixels.
+        /// Width in pixels.
         width: u32,
-        /// In pixels.
+        /// Height in pixels.
         height: u32,
-        /// Most pixels along an edge.
+        /// Largest edge in pixels.
         largest: u32,
     },
     /// The device has too little memory for the picture.
     #[error("there is too little graphics memory for a picture of {width} x {height} pixels")]
     Memory {
-        /// In pixels.
+        /// Width in pixels.
         width: u32,
-        /// In pixels.
+        /// Height in pixels.
         height: u32,
     },
 }
@@ -46,11 +46,11 @@ pub enum GpuError {
 /// A device to draw with, and the queue of its work.
 #[derive(Debug, Clone)]
 pub struct Gpu {
-    /// What the adapter calls itself.
+    /// Name of the adapter.
     pub adapter: String,
     /// The device.
     pub device: wgpu::Device,
-    /// Its work.
+    /// The queue of its work.
     pub queue: wgpu::Queue,
 }
 

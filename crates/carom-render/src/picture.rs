@@ -17,9 +17,9 @@ pub enum PictureError {
     /// The size does not match the number of bytes.
     #[error("a picture of {width} x {height} pixels cannot consist of {bytes} bytes")]
     Size {
-        /// Pixels of a row.
+        /// Width in pixels.
         width: u32,
-        /// Rows.
+        /// Height in pixels.
         height: u32,
         /// Bytes of the pixels.
         bytes: usize,
@@ -44,9 +44,9 @@ pub enum PictureError {
 /// A picture: 8 bits each of red, green, blue (sRGB) and opacity, in rows from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Picture {
-    /// Pixels of a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
     /// `4 width height` bytes; colours are not multiplied by the opacity.
     pub pixels: Vec<u8>,

@@ -87,7 +87,7 @@ fn write(picture: &mut Picture, text: &str, part: f32, place: Place) {
 struct Line {
     /// Height of the text \[px\].
     size: f32,
-    /// In px.
+    /// Width \[px\].
     width: f32,
     glyphs: Vec<Glyph>,
 }

@@ -63,7 +63,7 @@ enum Thumbnail {
     Impossible,
 }
 
-/// In points.
+/// Size of a thumbnail in points.
 const THUMBNAIL: Vec2 = Vec2::new(176.0, 99.0);
 
 /// A thumbnail shows the scene at this part of its duration, but at most `LATEST` \[s\] after the

@@ -92,7 +92,7 @@ pub trait Host {
 
 /// A film that is being written.
 pub trait FilmMaker {
-    /// Adds a picture as the frame with this number, from 0 on.
+    /// Adds a picture as the frame with this number, from 0.
     ///
     /// # Errors
     /// If it cannot be added; the film can still be finished.

@@ -95,9 +95,9 @@ pub fn show_closable<'open>(
 #[derive(Debug, Clone, Copy)]
 pub struct Beside {
     pub title: &'static str,
-    /// At the right; else at the left.
+    /// Whether it is at the right, else at the left.
     pub is_right: bool,
-    /// Least, usual and largest width, in points.
+    /// Smallest, default and largest width, in points.
     pub widths: [f32; 3],
 }
 

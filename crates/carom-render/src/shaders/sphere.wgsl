@@ -58,7 +58,7 @@ struct Pixel {
     @builtin(frag_depth) depth: f32,
 }
 
-// Where the ray through a pixel meets a sphere.
+// The point where the ray through a pixel meets a sphere.
 struct Hit {
     point: vec3<f32>,
     normal: vec3<f32>,

@@ -9,7 +9,7 @@ use super::value::{Field, number, tick, vector};
 /// Largest number of springs in the list.
 const LISTED: usize = 24;
 
-/// Stiffness of a new spring for a ball of 1 kg \[N/(m kg)\]; its lighter ball swings about once a
+/// Stiffness of a new spring per mass of its lighter ball \[N/(m kg)\]; that ball swings about once a
 /// second.
 const NEW_STIFFNESS: f64 = 40.0;
 

@@ -19,7 +19,7 @@ pub(super) struct Viewpoint {
     aspect: f64,
     /// The preset in use until the user moves the camera; it adapts to the shape of the picture.
     preset: Option<Preset>,
-    /// Whether the camera keeps all balls in the picture.
+    /// Whether the camera keeps the scene in the picture.
     fits: bool,
     /// Position of the followed ball in the last picture \[m\].
     followed: Option<DVec3>,
@@ -52,7 +52,7 @@ impl Viewpoint {
         self.orbit
     }
 
-    /// Returns whether the camera keeps all balls in the picture.
+    /// Returns whether the camera keeps the scene in the picture.
     pub fn fits(&self) -> bool {
         self.fits
     }
@@ -67,7 +67,7 @@ impl Viewpoint {
         *self = Self { preset: Some(preset), framed: self.framed.take(), ..Self::default() };
     }
 
-    /// Starts or stops keeping all balls in the picture.
+    /// Starts or stops keeping the scene in the picture.
     pub fn toggle_fit(&mut self) {
         self.fits ^= true;
         self.preset = None;
