@@ -519,7 +519,7 @@ CaromStatus carom_world_free(CaromWorld world);
 int32_t carom_world_is_valid(CaromWorld world);
 
 /// With `stop` 1, stops the step in progress on a world, within milliseconds under the rule
-/// `exact`, and lets further ones return CAROM_STATUS_STOPPED. With 0, allows steps again. Any
+/// `exact`, and refuses further ones with CAROM_STATUS_STOPPED. With 0, allows steps again. Any
 /// thread can call this at any time.
 CaromStatus carom_world_set_stop(CaromWorld world, int32_t stop);
 
@@ -605,14 +605,14 @@ CaromStatus carom_world_count(CaromWorld world, size_t *count);
 /// `stride` bytes from one row to the next (0: no gaps). `count` must be the number of spheres.
 CaromStatus carom_world_read(CaromWorld world, int32_t quantity, double *values, size_t stride, size_t count);
 
-/// Reads a quantity as carom_world_read() does, in 32 bits, for drawing.
+/// Reads a quantity as carom_world_read() does, in 32-bit numbers for drawing.
 CaromStatus carom_world_read_f32(CaromWorld world, int32_t quantity, float *values, size_t stride, size_t count);
 
 /// Writes a quantity (CaromQuantity) of all spheres from rows in the layout of carom_world_read().
 /// If a number is refused, none is written.
 CaromStatus carom_world_write(CaromWorld world, int32_t quantity, const double *values, size_t stride, size_t count);
 
-/// Writes a quantity as carom_world_write() does, from 32 bits.
+/// Writes a quantity as carom_world_write() does, from 32-bit numbers.
 CaromStatus carom_world_write_f32(CaromWorld world, int32_t quantity, const float *values, size_t stride, size_t count);
 
 /// Returns a solid half-space below y = 0, at rest, with restitution 1 and without its own

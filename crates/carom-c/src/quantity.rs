@@ -169,7 +169,7 @@ pub unsafe extern "C" fn carom_world_read(
     unsafe { read(world, quantity, values, Strided { stride, count }) }
 }
 
-/// Reads a quantity as carom_world_read() does, in 32 bits, for drawing.
+/// Reads a quantity as carom_world_read() does, in 32-bit numbers for drawing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_read_f32(
     world: CaromWorld,
@@ -196,7 +196,7 @@ pub unsafe extern "C" fn carom_world_write(
     unsafe { write(world, quantity, values, Strided { stride, count }) }
 }
 
-/// Writes a quantity as carom_world_write() does, from 32 bits.
+/// Writes a quantity as carom_world_write() does, from 32-bit numbers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_world_write_f32(
     world: CaromWorld,

@@ -119,7 +119,7 @@ pub extern "C" fn carom_world_is_valid(world: CaromWorld) -> i32 {
 }
 
 /// With `stop` 1, stops the step in progress on a world, within milliseconds under the rule
-/// `exact`, and lets further ones return CAROM_STATUS_STOPPED. With 0, allows steps again. Any
+/// `exact`, and refuses further ones with CAROM_STATUS_STOPPED. With 0, allows steps again. Any
 /// thread can call this at any time.
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_world_set_stop(world: CaromWorld, stop: i32) -> CaromStatus {

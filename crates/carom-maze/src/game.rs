@@ -18,7 +18,7 @@ const MOST_IMPACTS: u32 = 2_000;
 /// Depth of overlap with the maze beyond which a ball is moved out \[m\]. Far more than the error
 /// of the rule `exact` at turning surfaces, far less than is visible.
 const SUNK: f64 = 1e-6;
-/// The same depth for a ball with friction, as a part of its radius: sub-steps have a larger error.
+/// [`SUNK`] for a ball with friction, as a part of its radius: sub-steps have a larger error.
 const STEPPED_SUNK: f64 = 0.02;
 
 /// State of a game.

@@ -32,10 +32,10 @@ const NEAR_PLANE: [f64; 2] = [100.0, 4.0];
 /// farther, in radii of that box and in radii of the balls.
 const STAYING: [f64; 2] = [1.0, 40.0];
 
-/// The same distance for balls that go farther than [`STAYING`] while others stay.
+/// [`STAYING`] for balls that go farther than that while others stay.
 const LEAVING: [f64; 2] = [0.25, 12.0];
 
-/// The same distance if all balls go farther: no ball becomes a dot beside others.
+/// [`STAYING`] if all balls go farther than that: no ball becomes a dot beside others.
 const ALL_LEAVING: [f64; 2] = [2.0, 250.0];
 
 impl Framing {

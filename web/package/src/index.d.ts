@@ -656,8 +656,8 @@ export class World {
   /** Coefficients of tangential restitution in [0, 1], as `frictions`. */
   readonly tangentialRestitutions: Float64Array;
   /**
-   * Writes for each sphere the 4 by 4 matrix that maps the unit sphere to it, with its rotation, in
-   * columns: for `THREE.InstancedMesh.instanceMatrix.array`.
+   * Writes for each sphere the 4 by 4 matrix that maps the unit sphere to it, with its rotation,
+   * column by column: for `THREE.InstancedMesh.instanceMatrix.array`.
    * @throws {RangeError} if `matrices` is too short
    */
   writeMatrices(matrices: Float32Array | Float64Array | number[]): void;

@@ -4,8 +4,8 @@
 const SIZE = 16;
 
 /**
- * Writes for each sphere the matrix that maps the unit sphere to it, with its rotation, in columns:
- * the format of `InstancedMesh.instanceMatrix.array` in three.js.
+ * Writes for each sphere the matrix that maps the unit sphere to it, with its rotation, column by
+ * column: the format of `InstancedMesh.instanceMatrix.array` in three.js.
  *
  * @throws {RangeError} if `matrices` is too short
  */
