@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::dormant::{self, Dormant, Partner};
-use super::rest;
+use super::rest::note_moving;
 use super::row::Row;
 use super::slots::Slots;
 use super::solver::Solver;
@@ -142,7 +142,7 @@ fn near_restless(solver: &Solver) -> Vec<bool> {
             }
         }
     }
-    rest::note_moving(&solver.slots, &bearing, solver.h, &mut is_near);
+    note_moving(&solver.slots, &bearing, solver.h, &mut is_near);
     spread(&mut is_near, &bearing, Some(NEAR));
     is_near
 }
