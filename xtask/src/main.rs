@@ -1,4 +1,4 @@
-//! `cargo xtask`: sets up what is missing, then demonstrates, checks, or brings files up to date.
+//! `cargo xtask`: installs what is missing, then runs demonstrations or checks, or updates files.
 
 #![warn(clippy::unwrap_used)]
 

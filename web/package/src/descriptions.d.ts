@@ -1,93 +1,99 @@
 // What worlds are made of: spheres, shapes, forces, springs, and how they are stepped.
 
-/** Three numbers x, y, z: an array, a typed array, or anything that yields them, as `THREE.Vector3`. */
+/** Three numbers x, y, z: an array, a typed array, or any iterable, for example `THREE.Vector3`. */
 export type Vector = Iterable<number>;
 
-/** A rotation x, y, z, w, of any length but zero, as four numbers. */
+/** A rotation as a quaternion x, y, z, w of any length but zero. */
 export type Quaternion = Iterable<number>;
 
 /** Red, green, blue in [0, 1] (sRGB). */
 export type Color = [number, number, number];
 
-/** How a surface takes light: a soft highlight (`satin`) unless given. */
+/** How a surface reflects light; the default is `satin`, a soft highlight. */
 export type Finish = "matte" | "satin" | "glossy" | "metal" | "glass";
 
-/** A sphere as it is added. */
+/** Properties of a new sphere. */
 export interface SphereDescription {
-  /** Centre [m]; the origin unless given. */
+  /** Centre [m]; default: the origin. */
   position?: Vector;
-  /** [m/s]; at rest unless given. */
+  /** Velocity [m/s]; default: at rest. */
   velocity?: Vector;
-  /** [m], > 0. Give this or `diameter`. */
+  /** Radius [m], > 0. Give this or `diameter`. */
   radius?: number;
-  /** [m], > 0. Give this or `radius`. */
+  /** Diameter [m], > 0. Give this or `radius`. */
   diameter?: number;
-  /** [kg], > 0; 1 unless this or `density` is given. */
+  /** Mass [kg], > 0; default: 1 if `density` is not given. */
   mass?: number;
-  /** [kg/m³], > 0, instead of `mass`. */
+  /** Density [kg/m³], > 0, instead of `mass`. */
   density?: number;
-  /** Coefficient of restitution in [0, 1]; 1 unless given. */
+  /** Coefficient of restitution in [0, 1]; default: 1. */
   restitution?: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
+  /**
+   * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; default: that of the
+   * touching body.
+   */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
+  /** Coefficient of rolling friction, >= 0; default: that of the touching body. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
+  /** Coefficient of spinning friction, >= 0; default: that of the touching body. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
+  /** Coefficient of tangential restitution in [0, 1]; default: that of the touching body. */
   tangentialRestitution?: number;
-  /** How it is turned, x, y, z, w; not turned unless given. */
+  /** Orientation x, y, z, w; default: not rotated. */
   orientation?: Quaternion;
-  /** Along the axis [rad/s]; it does not turn unless given. */
+  /** Angular velocity [rad/s]; default: no rotation. */
   angularVelocity?: Vector;
-  /** Moment of inertia divided by m r², > 0; 0.4, that of a solid ball, unless given. */
+  /** Moment of inertia divided by m r², > 0; default: 0.4, that of a solid ball. */
   inertiaFactor?: number;
-  /** By density, or the scene's own, unless given. */
+  /** Colour; default: by density, or the scene's own. */
   color?: Iterable<number>;
-  /** How its surface takes light; it changes no motion. */
+  /** How the surface reflects light; without effect on motion. */
   finish?: Finish;
 }
 
-/** A sphere as it is. */
+/** A sphere in a world. */
 export interface Sphere {
   /** Centre [m]. */
   position: [number, number, number];
-  /** [m/s] */
+  /** Velocity [m/s]. */
   velocity: [number, number, number];
-  /** [m] */
+  /** Radius [m]. */
   radius: number;
-  /** [kg] */
+  /** Mass [kg]. */
   mass: number;
   /** Coefficient of restitution in [0, 1]. */
   restitution: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
+  /**
+   * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; if missing, that of the
+   * touching body.
+   */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
+  /** Coefficient of rolling friction, >= 0; if missing, that of the touching body. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
+  /** Coefficient of spinning friction, >= 0; if missing, that of the touching body. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
+  /** Coefficient of tangential restitution in [0, 1]; if missing, that of the touching body. */
   tangentialRestitution?: number;
-  /** How it is turned, x, y, z, w; not turned unless given. */
+  /** Orientation x, y, z, w; if missing, not rotated. */
   orientation?: [number, number, number, number];
-  /** Along the axis [rad/s]; it does not turn unless given. */
+  /** Angular velocity [rad/s]; if missing, no rotation. */
   angularVelocity?: [number, number, number];
-  /** Moment of inertia divided by m r², > 0; 0.4, that of a solid ball, unless given. */
+  /** Moment of inertia divided by m r², > 0; if missing, 0.4, that of a solid ball. */
   inertiaFactor?: number;
   /** Red, green, blue (sRGB). */
   color: Color;
-  /** How its surface takes light; it changes no motion. */
+  /** How the surface reflects light; without effect on motion. */
   finish?: Finish;
 }
 
-/** What a generator makes: spheres, or colliders whose names get the numbers of their places. */
+/** What a generator makes: spheres, or colliders, whose names get their index. */
 export type Generated = { sphere: SphereDescription } | { collider: ColliderDescription };
 
-/** Places for many spheres or colliders, as scene files describe them. */
+/** Positions of many spheres or colliders, as in scene files. */
 export type Generator =
   | { row: { count: number; start: Vector; step: Vector } & Generated }
   | { lattice: { counts: Vector; start: Vector; spacing: Vector } & Generated }
-  /** Rows, each centred on the one before; `counts` begin anew where there are more rows. */
+  /** Rows, each centred on the one before; `counts` repeat if there are more rows. */
   | {
       staggeredRows: {
         rows: number;
@@ -97,20 +103,20 @@ export type Generator =
         rowStep: Vector;
       } & Generated;
     }
-  /** Hexagonal layers, one above the other along +y; `spacing` is the diameter unless given. */
+  /** Hexagonal layers, one above the other along +y; the default `spacing` is the diameter. */
   | {
       closePacking: {
         counts: Vector;
         start: Vector;
         spacing?: number;
-        /** `"hcp"` unless given. */
+        /** Default: `"hcp"`. */
         stacking?: "hcp" | "fcc";
         sphere: SphereDescription;
       };
     }
   /**
-   * Evenly on a circle, about an axis that points up unless given; colliders are turned about it
-   * along with their places.
+   * Evenly on a circle about an axis, which points up by default. Colliders are rotated about it
+   * with their positions.
    */
   | {
       ring: {
@@ -132,79 +138,85 @@ export type Generator =
       };
     };
 
-/** Form of a collider in its own frame. Lengths are full ones [m], > 0. */
+/** Shape of a collider in its own frame. Lengths are full lengths [m], > 0. */
 export type Shape =
   | { sphere: { radius: number } }
-  /** In the local xz plane, facing local +y; from behind spheres pass it. */
+  /** In the local xz plane, facing local +y; spheres pass through it from behind. */
   | { rectangle: { sizeX: number; sizeZ: number } }
   /** Everything below the local xz plane. */
   | "half-space"
   | { box: { size: [number, number, number] } }
-  /** Hollow: walls without thickness, off which spheres bounce on either side. */
+  /** Hollow: walls without thickness, with spheres bouncing off on both sides. */
   | { container: { size: [number, number, number]; open?: Side | Side[] } };
 
 /** A side of a box in its own frame: towards -x, +x, -y, +y, -z, +z. */
 export type Side = "left" | "right" | "bottom" | "top" | "back" | "front";
 
-/** A surface as it is added. */
+/** Properties of a new collider. */
 export interface ColliderDescription {
   shape: Shape;
-  /** What it is called. */
+  /** Name. */
   name?: string;
-  /** Of its centre [m]; the origin unless given. */
+  /** Position of its centre [m]; default: the origin. */
   position?: Vector;
-  /** x, y, z, w; not turned unless given. */
+  /** Rotation x, y, z, w; default: not rotated. */
   rotation?: Quaternion;
-  /** Of its centre [m/s]. */
+  /** Velocity of its centre [m/s]. */
   velocity?: Vector;
-  /** About its centre, along the axis [rad/s]. */
+  /** Angular velocity about its centre [rad/s]. */
   angularVelocity?: Vector;
-  /** Coefficient of restitution in [0, 1]; 1 unless given. */
+  /** Coefficient of restitution in [0, 1]; default: 1. */
   restitution?: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
+  /**
+   * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; default: that of the
+   * touching body.
+   */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
+  /** Coefficient of rolling friction, >= 0; default: that of the touching body. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
+  /** Coefficient of spinning friction, >= 0; default: that of the touching body. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
+  /** Coefficient of tangential restitution in [0, 1]; default: that of the touching body. */
   tangentialRestitution?: number;
-  /** A trigger reports contact at the end of a frame, and deflects nothing. */
+  /** Whether it is a trigger, which reports contact at the end of a frame but deflects nothing. */
   trigger?: boolean;
-  /** Whether it is to be drawn. */
+  /** Whether it is drawn. */
   visible?: boolean;
-  /** The scene's own unless given. */
+  /** Colour; default: the scene's own. */
   color?: Iterable<number>;
-  /** How its surface takes light; it changes no motion. */
+  /** How the surface reflects light; without effect on motion. */
   finish?: Finish;
 }
 
-/** A surface as it is. */
+/** A collider in a world. */
 export interface Collider {
   id: number;
   name: string;
   shape: Shape;
-  /** [m] */
+  /** Position of its centre [m]. */
   position: [number, number, number];
-  /** x, y, z, w */
+  /** Rotation x, y, z, w. */
   rotation: [number, number, number, number];
-  /** [m/s] */
+  /** Velocity [m/s]. */
   velocity: [number, number, number];
-  /** [rad/s] */
+  /** Angular velocity [rad/s]. */
   angularVelocity: [number, number, number];
   restitution: number;
-  /** Coulomb's coefficient of friction, >= 0, by `exact` and `contact`. If missing, the other body's value counts. */
+  /**
+   * Coulomb's coefficient of friction, >= 0, under `exact` and `contact`; if missing, that of the
+   * touching body.
+   */
   friction?: number;
-  /** Coefficient of rolling friction, >= 0. If missing, the other body's value counts. */
+  /** Coefficient of rolling friction, >= 0; if missing, that of the touching body. */
   rollingFriction?: number;
-  /** Coefficient of spinning friction, >= 0. If missing, the other body's value counts. */
+  /** Coefficient of spinning friction, >= 0; if missing, that of the touching body. */
   spinningFriction?: number;
-  /** Coefficient of tangential restitution in [0, 1]. If missing, the other body's value counts. */
+  /** Coefficient of tangential restitution in [0, 1]; if missing, that of the touching body. */
   tangentialRestitution?: number;
   trigger: boolean;
   visible: boolean;
   color: Color;
-  /** How its surface takes light; it changes no motion. */
+  /** How the surface reflects light; without effect on motion. */
   finish?: Finish;
 }
 
@@ -212,19 +224,19 @@ export interface Collider {
 export type Force =
   /** The same acceleration for every sphere [m/s²]. */
   | { gravity: { acceleration: Vector } }
-  /** The same force on every sphere, whatever its mass [N]. */
+  /** The same force on every sphere [N], whatever its mass. */
   | { constant: { force: Vector } }
-  /** Against the velocity and proportional to it; the coefficient [kg/s], >= 0. */
+  /** Against the velocity and proportional to it; coefficient [kg/s], >= 0. */
   | { viscousDrag: { coefficient: number } }
   /** Gravity of a fixed point mass: G M [m³/s²]; `position` and `softening` [m]. */
   | {
       pointAttractor: { gravitationalParameter: number; position?: Vector; softening?: number };
     }
-  /** Gravity between spheres: nature's constant [m³/(kg s²)] unless given; `softening` [m]. */
+  /** Gravity between spheres; constant [m³/(kg s²)], by default nature's; `softening` [m]. */
   | { mutualGravity: { constant?: number; softening?: number; openingAngle?: number } }
-  /** Viscous drag in a wind [m/s]; the coefficient [kg/s], >= 0. */
+  /** Viscous drag in wind [m/s]; coefficient [kg/s], >= 0. */
   | { wind: { velocity: Vector; coefficient: number } }
-  /** Viscous drag in air that goes round an axis: circulation [m²/s], core radius [m]. */
+  /** Viscous drag in air that circles an axis: circulation [m²/s], core radius [m]. */
   | {
       vortex: {
         circulation: number;
@@ -234,7 +246,10 @@ export type Force =
         axis?: Vector;
       };
     }
-  /** Drag of a medium by the square of the velocity: density [kg/m³], viscosity [Pa s], wind [m/s]. */
+  /**
+   * Drag by the square of the velocity relative to a medium: density [kg/m³], viscosity [Pa s],
+   * wind [m/s].
+   */
   | {
       quadraticDrag: {
         density: number;
@@ -246,75 +261,79 @@ export type Force =
   /** Buoyancy in a fluid with a level surface: density [kg/m³], height [m], gravity [m/s²]. */
   | { buoyancy: { density: number; surfaceHeight?: number; gravity?: Vector } };
 
-/** What a spring joins: two spheres, or a sphere and a fixed point `anchor` [m]. Spheres go by their ids. */
+/** Ends of a spring: ids of two spheres, or the id of a sphere and a fixed point `anchor` [m]. */
 export type SpringEnds = { spheres: [number, number] } | { sphere: number; anchor: Vector };
 
-/** How a spring pulls. */
+/** Properties of a spring. */
 export interface SpringNumbers {
-  /** Length without force [m], >= 0; the length at the moment it is added unless given. */
+  /** Length without force [m], >= 0; default: the length when the spring is added. */
   restLength?: number;
-  /** [N/m], >= 0 */
+  /** Stiffness [N/m], >= 0. */
   stiffness: number;
-  /** [kg/s], >= 0; 0 unless given. */
+  /** Damping [kg/s], >= 0; default: 0. */
   damping?: number;
-  /** Whether it only pulls, as a thread does, which is slack up to its rest length. */
+  /** Whether it is a thread, which only pulls and is slack up to its rest length. */
   onlyPulls?: boolean;
 }
 
-/** A spring with a damper beside it, as it is added. */
+/** Properties of a new spring with a damper. */
 export type SpringDescription = SpringEnds & SpringNumbers;
 
-/** What changes of a spring. */
+/** Changes of a spring. */
 export interface SpringChanges extends Partial<SpringNumbers> {
-  /** Ids of the two spheres that it joins, instead of what it joined. */
+  /** Ids of its two spheres, instead of its present ends. */
   spheres?: [number, number];
-  /** Id of the sphere at its first end, of a spring that ends at a point. */
+  /** Id of the sphere at its first end, for a spring that ends at a point. */
   sphere?: number;
-  /** The fixed point [m] at which it ends. */
+  /** The fixed point at its second end [m]. */
   anchor?: Vector;
 }
 
-/** A spring as it is: it has `spheres`, or `sphere` and `anchor`. */
+/** A spring in a world: with `spheres`, or with `sphere` and `anchor`. */
 export interface Spring extends Required<SpringNumbers> {
   id: number;
-  /** Ids of the two spheres that it joins. */
+  /** Ids of its two spheres. */
   spheres?: [number, number];
-  /** Id of the sphere that it joins to a fixed point. */
+  /** Id of the sphere that it connects to a fixed point. */
   sphere?: number;
   /** The fixed point [m]. */
   anchor?: [number, number, number];
 }
 
-/** How spheres move under forces, by `bisect` and `discrete`; `exact` needs none. */
+/** How spheres move under forces, for `bisect` and `discrete`; `exact` needs none. */
 export type Integrator =
   "semi-implicit-euler" | "explicit-euler" | "velocity-verlet" | "runge-kutta-4";
 
-/** Coefficient of a contact from those of its two bodies. */
+/** How the coefficient of a contact follows from those of its two bodies. */
 export type CombineRule = "product" | "minimum" | "maximum" | "average" | "geometric-mean";
 
-/** How a world is stepped. */
+/** Simulation settings. */
 export interface Simulation {
-  /** `exact` (the default) finds every impact at its own time. */
+  /** `exact` (the default) finds every impact at its exact time. */
   rule: "exact" | "contact" | "bisect" | "discrete";
-  /** Length of a frame [s], > 0; 1/60 unless given. */
+  /** Frame time [s], > 0; default: 1/60. */
   frameTime: number;
-  /** Time worth watching [s], > 0. */
+  /** Duration that is worth watching [s], > 0. */
   duration: number;
-  /** Whether spheres collide with one another; with colliders they always do. */
+  /** Whether spheres collide with each other; they always collide with colliders. */
   spheresCollide: boolean;
-  /** Restitution of a contact from that of its two bodies. */
+  /** How the restitution of a contact follows from those of its two bodies. */
   combineRule: CombineRule;
-  /** Friction of a contact from that of its two bodies; `geometric-mean` unless given. */
+  /**
+   * How the friction of a contact follows from those of its two bodies; default: `geometric-mean`.
+   */
   frictionCombineRule?: CombineRule;
   /** Whether spheres may overlap at the start. */
   allowOverlap: boolean;
-  /** A box about the origin that repeats itself [m], `Infinity` along an open axis; by `exact`. */
+  /** A periodic box about the origin [m], `Infinity` along an open axis; under `exact`. */
   boundary: "open" | { periodic: { size: [number, number, number] } };
-  /** Parameters of `exact`: how impacts at one instant among spheres that touch are answered; how
-   *  long a contact lasts [s]; impacts per sphere and frame at most; whether spheres in contact that
-   *  take too much work are stepped ("automatic" unless given), from which work of a group in a tick
-   *  on, in contacts times iterations, and how long a tick is [s]; how long forces without a closed
-   *  form are held [s]. */
+  /**
+   * Parameters of `exact`: how simultaneous impacts among touching spheres are resolved; duration
+   * of a contact [s]; largest number of impacts per sphere and frame; whether contacts that take
+   * too much work are stepped (default: "automatic"), from which work of a group in a tick on, in
+   * contacts times iterations, and the length of a tick [s]; how long forces without a closed form
+   * are held constant [s].
+   */
   exact: {
     impactLaw: "reflection" | "simultaneous" | "sequential";
     contactDuration: number;
@@ -334,13 +353,15 @@ export interface Simulation {
   };
   /** Parameters of `discrete`. */
   discrete: { integrator: Integrator };
-  /** Parameters of `contact`: sub-steps of a frame, sweeps over all contacts in each, whether sweeps go
-   *  on until the solution has converged, and below which part of sqrt(a r), the speed after falling
-   *  through half its radius, a ball may fall asleep, none with 0; 8, 2, false and 0.02 unless given. */
+  /**
+   * Parameters of `contact`: sub-steps per frame, sweeps over all contacts in each, whether sweeps
+   * continue until convergence, and the speed below which a ball may fall asleep, as a part of
+   * sqrt(a r), the speed after falling half its radius (0: never). Defaults: 8, 2, false and 0.02.
+   */
   contact?: { subSteps: number; sweeps: number; converged: boolean; sleepSpeed: number };
 }
 
-/** New values for how a world is stepped; what is not named stays. */
+/** Changes of the simulation settings; missing ones stay. */
 export type SimulationChanges = Partial<
   Omit<Simulation, "exact" | "bisect" | "discrete" | "contact">
 > & {
@@ -350,13 +371,13 @@ export type SimulationChanges = Partial<
   contact?: Partial<NonNullable<Simulation["contact"]>>;
 };
 
-/** What a scene says besides what there is in its world. */
+/** A scene without the contents of its world. */
 export interface Scene {
   name: string;
   title?: string;
   description?: string;
   origin?: string;
-  /** Sources of spheres, in the words of scene files. */
+  /** Emitters of spheres in the format of scene files. */
   emitters?: object[];
   /** Looks along its local -z. */
   camera?: {

@@ -1,108 +1,116 @@
 // What worlds report of their last step.
 
-import type { Force } from "./descriptions.js";
-
-/** Two bodies that met. */
+/** An impact of two bodies. */
 export interface Impact {
-  /** Since the start of the frame [s]. */
+  /** Time since the start of the frame [s]. */
   time: number;
-  /** Ids: of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */
+  /** Ids of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */
   between: { spheres: [number, number] } | { collider: number; sphere: number };
-  /** Where on the surface of body 1 [m]. */
+  /** Point on the surface of body 1 [m]. */
   point: [number, number, number];
   /** Unit normal from body 1 to body 2. */
   normal: [number, number, number];
-  /** Along the normal before the impact [m/s], > 0. */
+  /** Speed along the normal before the impact [m/s], > 0. */
   approachSpeed: number;
-  /** Along the normal after it [m/s]. */
+  /** Speed along the normal after the impact [m/s]. */
   separationSpeed: number;
-  /** On body 2 along the normal, on body 1 against it [N s]. */
+  /** Impulse along the normal [N s], on body 2; the opposite acts on body 1. */
   impulse: number;
-  /** Of friction, across the normal: on body 2, and against it on body 1 [N s]. */
+  /** Impulse of friction across the normal [N s], on body 2; the opposite acts on body 1. */
   tangentialImpulse: [number, number, number];
 }
 
-/** Two bodies that stay in contact, and the force between them. */
+/** Two bodies in persistent contact, and the force between them. */
 export interface PersistentContact {
-  /** Ids: of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */
+  /** Ids of two spheres, bodies 1 and 2, or of a collider, body 1, and a sphere, body 2. */
   between: { spheres: [number, number] } | { collider: number; sphere: number };
-  /** Where on the surface of body 1 [m]. */
+  /** Point on the surface of body 1 [m]. */
   point: [number, number, number];
   /** Unit normal from body 1 to body 2. */
   normal: [number, number, number];
-  /** Distance of the two surfaces [m]: zero but for rounding, negative where they overlap. */
+  /** Distance of the two surfaces [m]: zero up to rounding, negative if they overlap. */
   gap: number;
-  /** On body 2 along the normal, on body 1 against it [N], >= 0. */
+  /** Force along the normal [N], >= 0, on body 2; the opposite acts on body 1. */
   normalForce: number;
-  /** Force of friction on body 2, across the normal, and against it on body 1 [N]; zero under rules
-   *  without friction. */
+  /**
+   * Force of friction across the normal [N], on body 2; the opposite acts on body 1. Zero under
+   * rules without friction.
+   */
   tangentialForce: [number, number, number];
-  /** Whether the surfaces slide on each other, or would at the least touch: friction is as large as
-   *  it can be. */
+  /**
+   * Whether the surfaces slide on each other, or would under the smallest tangential force:
+   * friction is at its limit.
+   */
   isSliding: boolean;
 }
 
-/** The work of a frame by stage: counts that depend on the world alone, not on the machine. */
+/** The work of a frame by stage: counts that depend only on the world, not on the machine. */
 export interface StageCounts {
-  /** How often the next events of a sphere were predicted, by `exact`. */
+  /** Number of predictions of a sphere's next events, under `exact`. */
   predictions: number;
-  /** Pairs of spheres that were tested for a meeting; by other rules, for a contact. */
+  /** Pairs of spheres tested for an impact, or under other rules for a contact. */
   pairTests: number;
-  /** Events taken from the queue, void ones among them, by `exact`. */
+  /** Events taken from the queue, with outdated ones, under `exact`. */
   events: number;
-  /** How many of these events were cell crossings. */
+  /** Number of cell crossings among these events. */
   cellCrossings: number;
-  /** Groups of touching bodies that were answered as a whole, by `exact`. */
+  /** Groups of touching bodies resolved as a whole, under `exact`. */
   groups: number;
-  /** Iterations of the solvers of these groups, each counted once for every contact. */
+  /** Iterations of the solvers of these groups, counted once per contact. */
   solverIterations: number;
-  /** How often neighbours were found anew, by `contact`. */
+  /** Number of neighbour searches, under `contact`. */
   searches: number;
-  /** How often all contacts were gone through, by `contact`. */
+  /** Number of sweeps over all contacts, under `contact`. */
   sweeps: number;
-  /** Contacts that a sweep goes through at the end of the frame, by `contact`. */
+  /** Contacts per sweep at the end of the frame, under `contact`. */
   contacts: number;
 }
 
-/** What became of the energy in a frame: `totalEnergy()` changes by these, by the work of forces that
- *  have no potential, and by the error of the integration. */
+/**
+ * Changes of the energy in a frame: `totalEnergy()` changes by these, by the work of forces without
+ * a potential, and by the error of the integration.
+ */
 export interface EnergyAccount {
-  /** Work of contacts [J]: what restitution and friction took, <= 0 but for errors. */
+  /** Work of contacts [J]: the change by restitution and friction, <= 0 up to errors. */
   contacts: number;
   /** Work of moving colliders [J]. */
   colliders: number;
-  /** Work of moving spheres out of what they overlap [J]. */
+  /** Work of the correction of overlaps [J]. */
   correction: number;
-  /** Energy of emitted spheres, less that of those taken out [J]. */
+  /** Energy of emitted spheres minus that of removed ones [J]. */
   emission: number;
 }
 
-/** How good the solution of a frame is: by `contact`, and in the stepped zones of `exact`; else 0. */
+/** Quality of the solution of a frame under `contact`, and in stepped zones of `exact`; else 0. */
 export interface ContactAccount {
-  /** Sub-steps in which impulses were scaled down for them not to add energy. */
+  /** Sub-steps in which impulses were reduced so that they add no energy. */
   limitedSubSteps: number;
-  /** Largest change of a normal impulse in the last sweep, as a part of the largest impulse. */
+  /** Largest change of a normal impulse in the last sweep, relative to the largest impulse. */
   residual: number;
-  /** Largest overlap before it was corrected, as a part of the sum of radii. */
+  /** Largest overlap before its correction, relative to the sum of radii. */
   largestOverlap: number;
-  /** Spheres that sleep at the end of the frame: at rest, until something comes near or changes. */
+  /** Sleeping spheres at the end of the frame: at rest until something comes near or changes. */
   asleep: number;
-  /** How often a sphere was pressed into a surface by half its radius, in each sub-step: no motion keeps
-   *  apart what presses it. */
+  /**
+   * How often a sphere was pressed into a surface by half its radius, summed over sub-steps: no
+   * motion can separate what squeezes it.
+   */
   squeezed: number;
 }
 
-/** Spheres that were not moved from impact to impact by `exact`, but stepped: their contacts took too
- *  much work. How good their motion is, `ContactAccount` tells. */
+/**
+ * Spheres that `exact` stepped instead of moving them from impact to impact, because their contacts
+ * took too much work. `ContactAccount` has the quality of their motion.
+ */
 export interface ZoneAccount {
   /** Spheres in a zone at the end of the frame. */
   spheres: number;
-  /** Time that they spent in it in this frame, of all together [s]. */
+  /** Total time of all spheres in zones in this frame [s]. */
   sphereSeconds: number;
   /** Ticks at which a zone was stepped. */
   ticks: number;
-  /** Spheres that came into a zone. */
+  /** Spheres that joined a zone. */
   joined: number;
-  /** Spheres that left one. */
+  /** Spheres that left a zone. */
   left: number;
 }
