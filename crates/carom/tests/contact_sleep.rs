@@ -124,7 +124,7 @@ fn a_ball_falls_asleep_after_a_time_that_goes_as_the_root_of_radius_over_gravity
     };
     let usual = frames_awake(0.1, 9.81);
     assert!(usual.is_some());
-    for (radius, g) in [(0.4, 9.81), (0.1, 0.0981), (0.1 * 2f64.powi(-20), 9.81)] {
+    for (radius, g) in [(0.4, 9.81), (0.1, 0.0981), (0.1 / 1_048_576.0, 9.81)] {
         assert_eq!(frames_awake(radius, g), usual, "{radius} m, {g} m/s²");
     }
 }

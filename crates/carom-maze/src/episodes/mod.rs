@@ -11,7 +11,7 @@ mod ways;
 
 use std::sync::Arc;
 
-use carom::{Contact, DQuat, DVec3, Error, SphereId, SphereMotion, World};
+use carom::{Contact, DQuat, DVec3, Error, SphereMotion, World};
 use carom_scene::scene::Scene;
 
 use crate::error::EpisodeError;
