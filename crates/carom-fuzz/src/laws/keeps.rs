@@ -1,14 +1,10 @@
-//! Laws that hold of every world, or of those of a rule.
+//! What rules keep: energy, places, the account of what moving colliders do.
 
-use carom::{DQuat, DVec3, StopRequest, World};
+use carom::{BodyPair, DQuat, DVec3, World};
+use carom_scene::Scene;
 use carom_scene::scene::{Boundary, Collider, Force, Rule, Shape};
-use carom_scene::{Checkpoint, Palette, Scene};
 
 use crate::fault::Fault;
-use crate::target::PATIENCE;
-
-/// Frames that a world is taken.
-const FRAMES: usize = 64;
 
 /// Part of the energy by which the account of a frame of `exact` may be open: the square of the angle by which a normal
 /// turns in a piece of path along a curve.
@@ -26,116 +22,13 @@ const CONTACT_GAIN: f64 = 1e-3;
 const OVERLAP: f64 = 1e-6;
 const MISS: f64 = 1e-7;
 
-/// Takes a world some frames, and checks what must hold of it.
-///
-/// # Errors
-/// The law that does not hold.
-pub fn check(scene: &Scene) -> Result<(), Fault> {
-    let mut world = world(scene)?;
-    let middle = run(scene, &mut world, FRAMES / 2, Seen::default())?;
-    let (snapshot, bytes) = (world.snapshot(), checkpoint(scene, &world)?);
-    let seen = run(scene, &mut world, FRAMES / 2, middle)?;
-    let end = world.state_hash();
-    let is_same = |it: &World, what: &str| {
-        let hash = it.state_hash();
-        law(hash == end, || format!("ends otherwise {what}: {hash}, not {end}"))
-    };
+/// Part of the impulses of moving colliders, times the speeds of these, by which their work may differ from impulses times
+/// ways: rounding of a sum, and of the places where they are at an impact.
+const OPEN_WORK: f64 = 1e-12;
 
-    world.restore(&snapshot);
-    run(scene, &mut world, FRAMES / 2, middle)?;
-    is_same(&world, "from a snapshot")?;
-
-    let read = Checkpoint::from_bytes(&bytes);
-    let read = read.map_err(|error| Fault::Law(format!("its checkpoint is refused: {error}")))?;
-    let mut other = self::world(scene)?;
-    other.restore(&read.snapshot);
-    run(scene, &mut other, FRAMES / 2, middle)?;
-    is_same(&other, "from a checkpoint")?;
-
-    let mut other = self::world(scene)?;
-    run(scene, &mut other, FRAMES, Seen::default())?;
-    is_same(&other, "the second time")?;
-    if scene.simulation.rule == Rule::Exact && !is_driven(scene) && seen == Seen::default() {
-        check_other_frames(scene, &world)?;
-    }
-    Ok(())
-}
-
-/// What was seen of a run.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-struct Seen {
-    /// Whether spheres were stepped, which loses what holds of events.
-    zone: bool,
-    /// Whether a contact lasted: its forces may be held for a time.
-    contact: bool,
-}
-
-/// Whether surfaces move, which do work, and are where frames take them.
-fn is_driven(scene: &Scene) -> bool {
-    scene.colliders.iter().any(|it| it.velocity != [0.0; 3])
-}
-
-fn law(holds: bool, broken: impl FnOnce() -> String) -> Result<(), Fault> {
-    if holds { Ok(()) } else { Err(Fault::Law(broken())) }
-}
-
-fn world(scene: &Scene) -> Result<World, Fault> {
-    let mut world = scene.world().map_err(|it| Fault::Law(format!("makes no world: {it}")))?;
-    let began = std::time::Instant::now();
-    world.set_stop_request(Some(StopRequest::new(move || began.elapsed() > PATIENCE)));
-    Ok(world)
-}
-
-fn checkpoint(scene: &Scene, world: &World) -> Result<Vec<u8>, Fault> {
-    let palette = Palette::new(scene).map_err(|it| Fault::Law(format!("has no colours: {it}")))?;
-    let bytes = Checkpoint::bytes_of(&world.snapshot(), scene, &palette);
-    bytes.map_err(|it| Fault::Law(format!("has no bytes: {it}")))
-}
-
-/// Takes a world some frames, and checks the laws of its rule after each; tells what was seen until then, with what was
-/// before.
-fn run(scene: &Scene, world: &mut World, frames: usize, before: Seen) -> Result<Seen, Fault> {
-    let keeps = Keeps::of(scene);
-    let mut seen = before;
-    let (mut energy, mut was_stepped) = (world.total_energy(), false);
-    let mut scale = energy.abs().max(world.kinetic_energy());
-    for _ in 0..frames {
-        let report = world.step(scene.simulation.frame_time);
-        let report = report.map_err(|it| match it {
-            carom::Error::Stopped { .. } => Fault::Slow(PATIENCE),
-            it => Fault::Law(format!("stops: {it}")),
-        })?;
-        let in_zone = report.zone_account.joined > 0 || report.zone_account.spheres > 0;
-        seen.zone |= in_zone;
-        let account = report.energy_account;
-        seen.contact |= !world.contacts().is_empty();
-        let at = format!("at {} s", world.time());
-        let now = world.total_energy();
-        let given = [account.contacts, account.colliders, account.emission];
-        scale = given.iter().fold(scale.max(world.kinetic_energy()), |most, it| most.max(it.abs()));
-        law(now.is_finite(), || format!("has energy {now} {at}"))?;
-        let rest = now - energy - account.total();
-        let is_closed = keeps.account.is_none_or(|most| rest.abs() <= most * scale);
-        law(in_zone || was_stepped || is_closed, || {
-            format!(
-                "has {rest:e} J too much for its account {account:?}, its energy being {scale:e} J, {at}"
-            )
-        })?;
-        let gain = now - energy - account.correction.max(0.0);
-        // A frame after one of stepped spheres may end what that began.
-        let uncertain = keeps.speed_error * momenta(world);
-        let is_kept = keeps.gain.is_none_or(|most| gain <= most * scale + uncertain);
-        law(in_zone || was_stepped || is_kept, || {
-            format!("gains {gain:e} J, its energy being {scale:e} J, {at}")
-        })?;
-        (energy, was_stepped) = (now, in_zone);
-        check_places(world, &keeps, seen.zone).map_err(|it| Fault::Law(format!("{it} {at}")))?;
-    }
-    Ok(seen)
-}
-
-/// What the rule of a scene keeps.
-struct Keeps {
+/// What the rule of a scene keeps in its world, and what was seen of that so far.
+#[derive(Debug, Clone)]
+pub struct Keeps {
     /// Part of the energy by which the account of a frame may be open.
     account: Option<f64>,
     /// Part of the energy that a frame may add.
@@ -145,10 +38,25 @@ struct Keeps {
     no_overlap: bool,
     /// The container that keeps what is inside.
     container: Option<Collider>,
+    /// Energy after the frame before \[J\].
+    energy: f64,
+    /// The largest energy of any kind so far \[J\].
+    scale: f64,
+    /// Whether spheres were stepped in the frame before, and whether they ever were.
+    was_stepped: bool,
+    has_been_stepped: bool,
+    /// Time of the world after the frame before \[s\].
+    time: f64,
+}
+
+/// Whether surfaces move, which do work, and are where frames take them.
+pub fn is_driven(scene: &Scene) -> bool {
+    scene.colliders.iter().any(|it| it.velocity != [0.0; 3] || it.angular_velocity != [0.0; 3])
 }
 
 impl Keeps {
-    fn of(scene: &Scene) -> Self {
+    /// What is kept of a world that its scene has just made.
+    pub fn of(scene: &Scene, world: &World) -> Self {
         let rule = scene.simulation.rule;
         let is_driven = is_driven(scene);
         let mut colliders = scene.colliders.iter();
@@ -164,6 +72,7 @@ impl Keeps {
             && scene.forces.iter().all(is_constant);
         let keeps_energy = has_account && scene.emitters.is_empty();
         let open = if is_driven { OPEN_ACCOUNT_OF_MOVERS } else { OPEN_ACCOUNT };
+        let energy = world.total_energy();
         Self {
             account: (rule == Rule::Exact && has_account).then_some(open),
             gain: match rule {
@@ -171,10 +80,114 @@ impl Keeps {
                 _ => None,
             },
             speed_error: if rule == Rule::Contact { speed_of_sub_step(scene) } else { 0.0 },
-            no_overlap: rule == Rule::Exact && !is_driven,
+            no_overlap: rule == Rule::Exact
+                && !is_driven
+                && scene.simulation.spheres_collide
+                // What is emitted has room where it overlaps by a thousandth.
+                && scene.emitters.is_empty()
+                && !scene.colliders.iter().any(passes),
             container: container.filter(|_| is_kept).cloned(),
+            energy,
+            scale: energy.abs().max(world.kinetic_energy()),
+            was_stepped: false,
+            has_been_stepped: false,
+            time: world.time(),
         }
     }
+
+    /// Checks a world after a step.
+    ///
+    /// # Errors
+    /// What was not kept.
+    pub fn check(&mut self, world: &World) -> Result<(), Fault> {
+        let zones = world.report().zone_account;
+        let in_zone = zones.joined > 0 || zones.spheres > 0;
+        self.has_been_stepped |= in_zone;
+        // A frame after one of stepped spheres may end what that began.
+        let is_exact = !in_zone && !self.was_stepped;
+        self.check_energy(world, is_exact)
+            .and_then(|()| self.check_work(world))
+            .and_then(|()| self.check_places(world))
+            .map_err(|said| Fault::Law(format!("{said}, at {} s", world.time())))?;
+        (self.was_stepped, self.time) = (in_zone, world.time());
+        Ok(())
+    }
+
+    fn check_energy(&mut self, world: &World, is_exact: bool) -> Result<(), String> {
+        let account = world.report().energy_account;
+        let now = world.total_energy();
+        if !now.is_finite() {
+            return Err(format!("has energy {now}"));
+        }
+        let given = [account.contacts, account.colliders, account.emission];
+        let most = self.scale.max(world.kinetic_energy());
+        self.scale = given.iter().fold(most, |most, it| most.max(it.abs()));
+        let (change, scale) = (now - self.energy, self.scale);
+        self.energy = now;
+        let rest = change - account.total();
+        if is_exact && self.account.is_some_and(|most| rest.abs() > most * scale) {
+            return Err(format!(
+                "has {rest:e} J too much for its account {account:?}, its energy being {scale:e} J"
+            ));
+        }
+        let gain = change - account.correction.max(0.0);
+        let uncertain = self.speed_error * momenta(world);
+        if is_exact && self.gain.is_some_and(|most| gain > most * scale + uncertain) {
+            return Err(format!("gains {gain:e} J, its energy being {scale:e} J"));
+        }
+        Ok(())
+    }
+
+    /// Force times way: the work that moving colliders did in the impacts of a group is that of their impulses on the way of
+    /// the surface.
+    fn check_work(&self, world: &World) -> Result<(), String> {
+        let report = world.report();
+        for group in &report.groups {
+            let (mut work, mut scale) = (0.0, 0.0);
+            for impact in &report.impacts[group.first..group.first + group.count] {
+                let BodyPair::Collider { collider, .. } = impact.between else { continue };
+                let Ok(collider) = world.collider(collider) else { continue };
+                // Colliders are where the frame ends.
+                let left = world.time() - (self.time + impact.time);
+                let arm = impact.point - (collider.pose.position - left * collider.velocity);
+                let velocity = collider.velocity + collider.angular_velocity.cross(arm);
+                let impulse = impact.impulse * impact.normal + impact.tangential_impulse;
+                work += impulse.dot(velocity);
+                let turning = collider.angular_velocity.length() * arm.length();
+                scale += impulse.length() * (collider.velocity.length() + turning);
+            }
+            let told = group.collider_work;
+            if (told - work).abs() > OPEN_WORK * scale {
+                return Err(format!("has {told:e} J of colliders, whose impulses did {work:e} J"));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_places(&self, world: &World) -> Result<(), String> {
+        let spheres = world.spheres();
+        if spheres.positions().iter().any(|it| !it.is_finite()) {
+            return Err("is nowhere".to_owned());
+        }
+        if let Some(container) = &self.container
+            && let Some(out) = spheres.positions().iter().find(|&&it| is_out(it, container))
+        {
+            return Err(format!("has a sphere outside its container, at {out}"));
+        }
+        let smallest = spheres.radii().iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = spheres.radii().iter().copied().fold(0.0, f64::max);
+        let overlap = world.overlaps(0.0).into_iter().map(|it| it.depth).fold(0.0, f64::max);
+        let is_exact = self.no_overlap && !self.has_been_stepped;
+        if is_exact && overlap > OVERLAP * smallest + MISS * largest {
+            return Err(format!("overlaps by {:e} of its smallest radius", overlap / smallest));
+        }
+        Ok(())
+    }
+}
+
+/// Whether spheres come through it from behind.
+fn passes(collider: &Collider) -> bool {
+    matches!(collider.shape, Shape::Rectangle { .. })
 }
 
 /// Sum of the sizes of all momenta \[kg m/s\].
@@ -194,45 +207,13 @@ fn speed_of_sub_step(scene: &Scene) -> f64 {
     length * gravity.sum::<f64>()
 }
 
-/// Whether the centre of a sphere is outside a container.
+/// Whether the centre of a sphere is outside a container without open sides.
 fn is_out(center: DVec3, container: &Collider) -> bool {
-    let Shape::Container { size, .. } = container.shape else { return false };
+    let Shape::Container { size, ref open } = container.shape else { return false };
+    if !open.is_empty() {
+        return false;
+    }
     let rotation = DQuat::from_array(container.rotation).normalize();
     let place = rotation.inverse() * (center - DVec3::from_array(container.position));
     place.abs().cmpgt(0.5 * DVec3::from_array(size)).any()
-}
-
-fn check_places(world: &World, keeps: &Keeps, in_zone: bool) -> Result<(), String> {
-    let spheres = world.spheres();
-    if spheres.positions().iter().any(|it| !it.is_finite()) {
-        return Err("is nowhere".to_owned());
-    }
-    if let Some(container) = &keeps.container
-        && let Some(out) = spheres.positions().iter().find(|&&it| is_out(it, container))
-    {
-        return Err(format!("has a sphere outside its container, at {out}"));
-    }
-    let smallest = spheres.radii().iter().copied().fold(f64::INFINITY, f64::min);
-    let largest = spheres.radii().iter().copied().fold(0.0, f64::max);
-    let overlap = world.overlaps(0.0).into_iter().map(|it| it.depth).fold(0.0, f64::max);
-    if keeps.no_overlap && !in_zone && overlap > OVERLAP * smallest + MISS * largest {
-        return Err(format!("overlaps by {:e} of its smallest radius", overlap / smallest));
-    }
-    Ok(())
-}
-
-/// Frames of half the length come to the same place: forces that are held know no frames.
-fn check_other_frames(scene: &Scene, end: &World) -> Result<(), Fault> {
-    let mut scene = scene.clone();
-    scene.simulation.frame_time *= 0.5;
-    let mut world = world(&scene)?;
-    if run(&scene, &mut world, 2 * FRAMES, Seen::default())? != Seen::default() {
-        return Ok(());
-    }
-    let (positions, expected) = (world.spheres().positions(), end.spheres().positions());
-    law(positions == expected, || {
-        let pairs = positions.iter().zip(expected);
-        let far = pairs.map(|(one, other)| (*one - *other).length()).fold(0.0, f64::max);
-        format!("comes to another place by frames of half the length, {far:e} m away")
-    })
 }

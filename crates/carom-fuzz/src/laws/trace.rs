@@ -1,0 +1,119 @@
+//! What was seen of a run.
+
+use carom::{Boundary, DVec3, World};
+
+/// A run, frame by frame.
+#[derive(Debug, Clone, Default)]
+pub struct Trace {
+    pub boundary: Boundary,
+    /// The start, and the end of each frame.
+    pub frames: Vec<Frame>,
+}
+
+/// A world at the end of a frame.
+#[derive(Debug, Clone, Default)]
+pub struct Frame {
+    /// \[s\]
+    pub time: f64,
+    /// By id, ascending.
+    pub bodies: Vec<Body>,
+    /// What contacts took of the energy in the frame \[J\].
+    pub lost: f64,
+    /// Kinetic energy \[J\].
+    pub energy: f64,
+    /// Events of the frame under the rule `exact`.
+    pub events: u64,
+    /// Whether spheres were stepped in it, which loses what holds of events.
+    pub in_zone: bool,
+    /// Whether a contact persists.
+    pub in_contact: bool,
+    /// Whether spheres sleep.
+    pub asleep: bool,
+}
+
+/// A sphere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Body {
+    pub id: u64,
+    pub radius: f64,
+    pub position: DVec3,
+    pub velocity: DVec3,
+    /// Angular velocity \[rad/s\].
+    pub spin: DVec3,
+}
+
+impl Trace {
+    /// A run that begins with this world.
+    pub fn new(world: &World) -> Self {
+        Self { boundary: world.settings().boundary, frames: vec![Frame::of(world)] }
+    }
+
+    /// How many frames it takes to as many events; all where there are fewer.
+    pub fn until_events(&self, most: u64) -> usize {
+        let mut events = 0;
+        let is_before = |frame: &&Frame| {
+            events += frame.events;
+            events <= most
+        };
+        self.frames.iter().take_while(is_before).count()
+    }
+}
+
+impl Frame {
+    /// What is seen of a world before its first frame.
+    fn of(world: &World) -> Self {
+        let spheres = world.spheres();
+        let bodies = spheres.ids().iter().enumerate().map(|(index, id)| Body {
+            id: id.number(),
+            radius: spheres.radii()[index],
+            position: spheres.positions()[index],
+            velocity: spheres.velocities()[index],
+            spin: spheres.angular_velocities().get(index).copied().unwrap_or_default(),
+        });
+        Self {
+            time: world.time(),
+            bodies: bodies.collect(),
+            energy: world.kinetic_energy(),
+            ..Self::default()
+        }
+    }
+
+    /// What is seen of a world after a step.
+    pub fn after_step(world: &World) -> Self {
+        let report = world.report();
+        Self {
+            lost: report.energy_account.contacts,
+            events: report.work.events,
+            in_zone: report.zone_account.joined > 0 || report.zone_account.spheres > 0,
+            in_contact: !world.contacts().is_empty(),
+            asleep: report.contact_account.asleep > 0,
+            ..Self::of(world)
+        }
+    }
+
+    /// Adds what happened in the frame before it.
+    pub fn add_before(&mut self, before: &Self) {
+        self.lost += before.lost;
+        self.events += before.events;
+        self.in_zone |= before.in_zone;
+        self.in_contact |= before.in_contact;
+        self.asleep |= before.asleep;
+    }
+
+    /// Farthest point of a sphere from the origin along an axis \[m\].
+    pub fn extent(&self) -> f64 {
+        let reach = |body: &Body| body.position.abs().max_element() + body.radius;
+        self.bodies.iter().map(reach).fold(0.0, f64::max)
+    }
+
+    /// Largest speed of a point of a sphere \[m/s\].
+    pub fn speed(&self) -> f64 {
+        let speed = |body: &Body| body.velocity.length() + body.radius * body.spin.length();
+        self.bodies.iter().map(speed).fold(0.0, f64::max)
+    }
+
+    /// Whether it is another one to the bit.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.time == other.time && self.bodies == other.bodies
+    }
+}
