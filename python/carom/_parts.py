@@ -47,7 +47,6 @@ _IN_32_BITS = Requirement("in [0, 2^32)", lambda value: 0 <= value < 2**32)
 _ALL_POSITIVE = Requirement(
     "positive and finite along every axis", lambda it: _are_finite(it) and min(it) > 0
 )
-_PERIOD = Requirement("finite and longer than 1e-9 s", lambda value: 1e-9 < value < math.inf)
 _FIELD_OF_VIEW = Requirement("between 0 and 180", lambda value: 0 < value < 180)
 _QUATERNION = Requirement("a quaternion x, y, z, w that is finite and not zero", _is_turn)
 _THREE = Numbers("three numbers", 3)
@@ -557,7 +556,7 @@ class Emitter(Part):
     """
 
     sphere: SizedSphere
-    period: Annotated[float, _PERIOD]
+    period: Annotated[float, _POSITIVE]
     position: Vector = _ORIGIN
     rotation: Quaternion = _UNTURNED
     max_spheres: Count | None = None
