@@ -1,7 +1,7 @@
 //! The same world in frames of a third of the length: under `exact` a frame only says when to look.
 
 use carom_scene::Scene;
-use carom_scene::scene::Rule;
+use carom_scene::scene::{Boundary, Rule};
 
 use super::keeps::is_driven;
 use super::pair::{Agreement, Law, Pair};
@@ -10,7 +10,10 @@ use super::trace::Trace;
 pub const LAW: Law = Law { name: "in other frames", pair };
 
 fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
-    if scene.simulation.rule != Rule::Exact {
+    // In a periodic box what moves has no images: it is met in the box in which a flight began, and one that
+    // reaches over a face on one side of it.
+    let is_periodic = scene.simulation.boundary != Boundary::Open;
+    if scene.simulation.rule != Rule::Exact || is_periodic && is_driven(scene) {
         return None;
     }
     let length = scene.simulation.frame_time;

@@ -3,7 +3,7 @@
 
 use carom::DVec3;
 use carom_scene::Scene;
-use carom_scene::scene::{Boundary, Collider, Emitter, Force, Rule, Shape, Sphere, Spring};
+use carom_scene::scene::{Boundary, Collider, Emitter, Force, Shape, Sphere, Spring};
 
 use super::pair::{Agreement, Law, Pair};
 use super::trace::Frame;
@@ -11,12 +11,12 @@ use super::trace::Frame;
 /// Lengths a millionth, masses a million times, times some ten thousandths.
 pub const SMALLER: Law = Law {
     name: "scaled down",
-    pair: |scene, _| pair(scene, Scale { length: -20, mass: 20, time: -14 }),
+    pair: |scene, _| Some(pair(scene, Scale { length: -20, mass: 20, time: -14 })),
 };
 
 pub const LARGER: Law = Law {
     name: "scaled up",
-    pair: |scene, _| pair(scene, Scale { length: 20, mass: -20, time: 17 }),
+    pair: |scene, _| Some(pair(scene, Scale { length: 20, mass: -20, time: 17 })),
 };
 
 /// Powers of two by which a world is scaled.
@@ -34,21 +34,19 @@ impl Scale {
     }
 }
 
-fn pair(scene: &Scene, scale: Scale) -> Option<Pair> {
-    // What is due within a nanosecond is emitted with a frame, whatever the scale.
-    if scene.simulation.rule != Rule::Exact && !scene.emitters.is_empty() {
-        return None;
-    }
+fn pair(scene: &Scene, scale: Scale) -> Pair {
     let back = Scale { length: -scale.length, mass: -scale.mass, time: -scale.time };
     let pair =
         Pair::new(scaled(scene, scale), Agreement::Bits, move |frame| scale_frame(frame, back));
     // Half a second of calm is before sleep, whatever the scale.
-    Some(Pair { ends: |frame| frame.asleep, ..pair })
+    Pair { ends: |frame| frame.asleep, ..pair }
 }
 
 fn scale_frame(frame: &mut Frame, scale: Scale) {
     let velocity = scale.of(1, 0, -1);
     frame.time *= scale.of(0, 0, 1);
+    frame.extent *= scale.of(1, 0, 0);
+    frame.speed *= velocity;
     frame.energy *= scale.of(2, 1, -2);
     frame.lost *= scale.of(2, 1, -2);
     for body in &mut frame.bodies {

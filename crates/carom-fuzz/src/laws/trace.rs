@@ -17,6 +17,10 @@ pub struct Frame {
     pub time: f64,
     /// By id, ascending.
     pub bodies: Vec<Body>,
+    /// Farthest point of a sphere from the origin along an axis \[m\].
+    pub extent: f64,
+    /// Largest speed of a point of a sphere \[m/s\].
+    pub speed: f64,
     /// What contacts took of the energy in the frame \[J\].
     pub lost: f64,
     /// Kinetic energy \[J\].
@@ -63,16 +67,22 @@ impl Frame {
     /// What is seen of a world before its first frame.
     fn of(world: &World) -> Self {
         let spheres = world.spheres();
-        let bodies = spheres.ids().iter().enumerate().map(|(index, id)| Body {
-            id: id.number(),
-            radius: spheres.radii()[index],
-            position: spheres.positions()[index],
-            velocity: spheres.velocities()[index],
-            spin: spheres.angular_velocities().get(index).copied().unwrap_or_default(),
-        });
+        let bodies = spheres.ids().iter().enumerate();
+        let bodies: Vec<Body> = bodies
+            .map(|(index, id)| Body {
+                id: id.number(),
+                radius: spheres.radii()[index],
+                position: spheres.positions()[index],
+                velocity: spheres.velocities()[index],
+                spin: spheres.angular_velocities().get(index).copied().unwrap_or_default(),
+            })
+            .collect();
+        let most = |of: fn(&Body) -> f64| bodies.iter().map(of).fold(0.0, f64::max);
         Self {
             time: world.time(),
-            bodies: bodies.collect(),
+            extent: most(|body| body.position.abs().max_element() + body.radius),
+            speed: most(|body| body.velocity.length() + body.radius * body.spin.length()),
+            bodies,
             energy: world.kinetic_energy(),
             ..Self::default()
         }
@@ -98,22 +108,5 @@ impl Frame {
         self.in_zone |= before.in_zone;
         self.in_contact |= before.in_contact;
         self.asleep |= before.asleep;
-    }
-
-    /// Farthest point of a sphere from the origin along an axis \[m\].
-    pub fn extent(&self) -> f64 {
-        let reach = |body: &Body| body.position.abs().max_element() + body.radius;
-        self.bodies.iter().map(reach).fold(0.0, f64::max)
-    }
-
-    /// Largest speed of a point of a sphere \[m/s\].
-    pub fn speed(&self) -> f64 {
-        let speed = |body: &Body| body.velocity.length() + body.radius * body.spin.length();
-        self.bodies.iter().map(speed).fold(0.0, f64::max)
-    }
-
-    /// Whether it is another one to the bit.
-    pub fn is_same(&self, other: &Self) -> bool {
-        self.time == other.time && self.bodies == other.bodies
     }
 }
