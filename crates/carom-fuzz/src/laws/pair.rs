@@ -20,8 +20,8 @@ use crate::fault::Fault;
 /// Distance of a perturbed world from which on nothing is compared.
 const MOST: f64 = 1e-6;
 
-/// Events after which nothing is compared: that much work is not done again for every law.
-const MOST_EVENTS: u64 = 20_000;
+/// Events and sweeps after which nothing is compared: that much work is not done again for every law.
+const MOST_WORK: u64 = 10_000;
 
 /// That a world and a pair of it go the same way.
 pub struct Law {
@@ -90,7 +90,7 @@ impl Pair {
 /// The law that does not hold.
 pub fn check(laws: &[Law], scene: &Scene, trace: &Trace) -> Result<(), Fault> {
     let mut trace = trace.clone();
-    trace.frames.truncate(trace.until_events(MOST_EVENTS).max(1));
+    trace.frames.truncate(trace.until_work(MOST_WORK).max(1));
     // The perturbed worlds are run once for all laws that begin with the world.
     let mut grown = None;
     for law in laws {

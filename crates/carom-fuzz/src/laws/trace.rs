@@ -25,8 +25,8 @@ pub struct Frame {
     pub lost: f64,
     /// Kinetic energy \[J\].
     pub energy: f64,
-    /// Events of the frame under the rule `exact`.
-    pub events: u64,
+    /// Events and sweeps of the frame.
+    pub work: u64,
     /// Whether spheres were stepped in it, which loses what holds of events.
     pub in_zone: bool,
     /// Whether a contact persists.
@@ -52,12 +52,12 @@ impl Trace {
         Self { boundary: world.settings().boundary, frames: vec![Frame::of(world)] }
     }
 
-    /// How many frames it takes to as many events; all where there are fewer.
-    pub fn until_events(&self, most: u64) -> usize {
-        let mut events = 0;
+    /// How many frames it takes to so much work; all where there is less.
+    pub fn until_work(&self, most: u64) -> usize {
+        let mut work = 0;
         let is_before = |frame: &&Frame| {
-            events += frame.events;
-            events <= most
+            work += frame.work;
+            work <= most
         };
         self.frames.iter().take_while(is_before).count()
     }
@@ -93,7 +93,7 @@ impl Frame {
         let report = world.report();
         Self {
             lost: report.energy_account.contacts,
-            events: report.work.events,
+            work: report.work.events + report.work.sweeps,
             in_zone: report.zone_account.joined > 0 || report.zone_account.spheres > 0,
             in_contact: !world.contacts().is_empty(),
             asleep: report.contact_account.asleep > 0,
@@ -104,7 +104,7 @@ impl Frame {
     /// Adds what happened in the frame before it.
     pub fn add_before(&mut self, before: &Self) {
         self.lost += before.lost;
-        self.events += before.events;
+        self.work += before.work;
         self.in_zone |= before.in_zone;
         self.in_contact |= before.in_contact;
         self.asleep |= before.asleep;
