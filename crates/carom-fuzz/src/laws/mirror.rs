@@ -4,10 +4,11 @@ use carom_scene::Scene;
 use carom_scene::scene::{Collider, Force, Rule, Shape, Side, Sphere};
 
 use super::pair::{Agreement, Law, Pair};
+use super::trace::Trace;
 
 pub const LAW: Law = Law { name: "mirrored", pair };
 
-fn pair(scene: &Scene, _: &super::Trace) -> Option<Pair> {
+fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
     // Sweeps go in one direction.
     if scene.simulation.rule == Rule::Contact {
         return None;

@@ -2,7 +2,7 @@
 //!
 //! A world is taken some frames. What its rule *keeps* is checked after each of them ([`keeps`]); it comes to the same
 //! end from a snapshot, from bytes and the second time; and a [`Pair`](pair::Pair) of it, the same world scaled,
-//! mirrored, in motion, in another order, in other frames or run back, goes the same way as far as that can be told.
+//! mirrored, in motion, in another order, in other frames or run back, goes the same way as far as rounding lets that be seen.
 
 mod frames;
 mod keeps;
@@ -12,20 +12,18 @@ mod order;
 mod pair;
 mod perturbed;
 mod reversal;
+mod run;
 mod scaling;
 mod trace;
 
-use carom::{StopRequest, World};
-use carom_scene::{Checkpoint, Palette, Scene};
+use carom::World;
+use carom_scene::{Checkpoint, Scene};
 
 use self::keeps::Keeps;
 use self::pair::Law;
-use self::trace::{Frame, Trace};
+use self::run::{FRAMES, checkpoint, law, run, world};
+use self::trace::Trace;
 use crate::fault::Fault;
-use crate::target::PATIENCE;
-
-/// Frames that a world is taken.
-const FRAMES: usize = 64;
 
 /// Laws of a world and a pair of it.
 const LAWS: [Law; 7] = [
@@ -62,56 +60,14 @@ pub fn check(scene: &Scene) -> Result<(), Fault> {
 
     let read = Checkpoint::from_bytes(&bytes);
     let read = read.map_err(|error| Fault::Law(format!("its checkpoint is refused: {error}")))?;
-    let mut other = self::world(scene)?;
+    let mut other = run::world(scene)?;
     other.restore(&read.snapshot);
     run(scene, &mut other, FRAMES / 2, &mut middle.clone(), ignored)?;
     is_same(&other, "from a checkpoint")?;
 
-    let mut other = self::world(scene)?;
+    let mut other = run::world(scene)?;
     let mut keeps = Keeps::of(scene, &other);
     run(scene, &mut other, FRAMES, &mut keeps, ignored)?;
     is_same(&other, "the second time")?;
     pair::check(&LAWS, scene, &trace)
-}
-
-fn law(holds: bool, broken: impl FnOnce() -> String) -> Result<(), Fault> {
-    if holds { Ok(()) } else { Err(Fault::Law(broken())) }
-}
-
-fn world(scene: &Scene) -> Result<World, Fault> {
-    let mut world = scene.world().map_err(|it| Fault::Law(format!("makes no world: {it}")))?;
-    let began = std::time::Instant::now();
-    world.set_stop_request(Some(StopRequest::new(move || began.elapsed() > PATIENCE)));
-    Ok(world)
-}
-
-fn checkpoint(scene: &Scene, world: &World) -> Result<Vec<u8>, Fault> {
-    let palette = Palette::new(scene).map_err(|it| Fault::Law(format!("has no colours: {it}")))?;
-    let bytes = Checkpoint::bytes_of(&world.snapshot(), scene, &palette);
-    bytes.map_err(|it| Fault::Law(format!("has no bytes: {it}")))
-}
-
-/// Takes a world some frames, and checks what its rule keeps after each; the trace gets those frames.
-fn run(
-    scene: &Scene,
-    world: &mut World,
-    frames: usize,
-    keeps: &mut Keeps,
-    trace: &mut Trace,
-) -> Result<(), Fault> {
-    for _ in 0..frames {
-        step(scene, world)?;
-        keeps.check(world)?;
-        trace.frames.push(Frame::after_step(world));
-    }
-    Ok(())
-}
-
-/// Takes a world a frame of its scene further.
-fn step(scene: &Scene, world: &mut World) -> Result<(), Fault> {
-    match world.step(scene.simulation.frame_time) {
-        Ok(_) => Ok(()),
-        Err(carom::Error::Stopped { .. }) => Err(Fault::Slow(PATIENCE)),
-        Err(error) => Err(Fault::Law(format!("stops: {error}"))),
-    }
 }

@@ -5,7 +5,7 @@
 //! more runs, of the same world with its spheres 10⁻¹² elsewhere, drawn out and drawn together ([`perturbed`]). That is
 //! thousands of roundings. So the rule is: **at each frame, the pair of a world is no farther from it than the farther
 //! of the perturbed worlds was so far**. Where one of these is more than 10⁻⁶ away, having grown a million times or
-//! having taken another order of events, nothing more can be told of the world, and the comparison ends.
+//! having taken another order of events, a world shows nothing more, and the comparison ends.
 //!
 //! Distances are those of positions and velocities, as parts of the largest coordinate and the largest speed of both, and
 //! of what contacts took, as a part of the kinetic energy; the largest of all counts.
@@ -13,8 +13,8 @@
 use carom_scene::Scene;
 
 use super::perturbed::{SIZE, perturbed};
+use super::run::{law, step, world};
 use super::trace::{Body, Frame, Trace};
-use super::{law, step, world};
 use crate::fault::Fault;
 
 /// Distance of a perturbed world from which on nothing is compared.
@@ -25,7 +25,7 @@ const MOST_WORK: u64 = 10_000;
 
 /// That a world and a pair of it go the same way.
 pub struct Law {
-    /// What the pair is, as it is told.
+    /// What the pair is, for findings to say.
     pub name: &'static str,
     /// The pair of a scene of which this is the run; `None` where the law says nothing.
     pub pair: fn(&Scene, &Trace) -> Option<Pair>,
@@ -204,7 +204,8 @@ fn part(away: f64, whole: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws;
+    use crate::laws::keeps::Keeps;
+    use crate::laws::run::{FRAMES, run};
 
     /// Three balls that fall and meet in a box.
     fn scene() -> Scene {
@@ -239,9 +240,9 @@ mod tests {
 
     fn holds(pair: fn(&Scene, &Trace) -> Option<Pair>) -> bool {
         let scene = scene();
-        let mut world = laws::world(&scene).unwrap();
-        let (mut trace, mut keeps) = (Trace::new(&world), laws::Keeps::of(&scene, &world));
-        laws::run(&scene, &mut world, laws::FRAMES, &mut keeps, &mut trace).unwrap();
+        let mut world = world(&scene).unwrap();
+        let (mut trace, mut keeps) = (Trace::new(&world), Keeps::of(&scene, &world));
+        run(&scene, &mut world, FRAMES, &mut keeps, &mut trace).unwrap();
         check(&[Law { name: "faster", pair }], &scene, &trace).is_ok()
     }
 

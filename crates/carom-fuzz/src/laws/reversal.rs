@@ -5,7 +5,7 @@ use carom_scene::Scene;
 use carom_scene::scene::{Force, Rule};
 
 use super::pair::{Agreement, Law, Pair};
-use super::trace::Trace;
+use super::trace::{Frame, Trace};
 
 pub const LAW: Law = Law { name: "run back", pair };
 
@@ -14,11 +14,11 @@ fn pair(scene: &Scene, trace: &Trace) -> Option<Pair> {
         return None;
     }
     // No further than to where a contact lasted: it began without an impact that could be run back.
-    let is_over = |frame: &super::Frame| frame.in_zone || frame.in_contact;
+    let is_over = |frame: &Frame| frame.in_zone || frame.in_contact;
     if trace.frames.iter().any(is_over) {
         return None;
     }
-    let back = |frame: &mut super::Frame| {
+    let back = |frame: &mut Frame| {
         for body in &mut frame.bodies {
             (body.velocity, body.spin) = (-body.velocity, -body.spin);
         }

@@ -5,7 +5,7 @@ use proptest::option::weighted;
 use proptest::prelude::*;
 use proptest::sample::select;
 
-use super::{HALF, Vector, scaled};
+use super::vector::{HALF, Vector, scaled};
 
 #[derive(Debug, Clone)]
 pub struct Drawn {

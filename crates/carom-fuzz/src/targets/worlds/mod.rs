@@ -3,6 +3,7 @@
 
 mod drawn;
 mod placed;
+mod vector;
 mod written;
 
 use carom_scene::Scene;
@@ -22,19 +23,6 @@ pub const TARGET: Target = Target {
     cases: || drawn().prop_map(|it| written(&it).into_bytes()).boxed(),
     check,
 };
-
-/// Half the width of what is around the spheres \[m\].
-const HALF: f64 = 2.0;
-
-type Vector = [f64; 3];
-
-fn scaled(vector: Vector, factor: f64) -> Vector {
-    vector.map(|it| factor * it)
-}
-
-fn sum(one: Vector, other: Vector) -> Vector {
-    [0, 1, 2].map(|axis| one[axis] + other[axis])
-}
 
 fn check(case: &[u8]) -> Result<Answer, Fault> {
     match Scene::from_toml(&text(case), "world.toml") {

@@ -1,7 +1,7 @@
 //! Where balls are: beside each other, and within what is around them.
 
 use super::drawn::Ball;
-use super::{HALF, Vector, scaled, sum};
+use super::vector::{HALF, Vector, scaled, sum};
 
 /// A ball where it is.
 pub struct Placed<'a> {

@@ -4,7 +4,7 @@ use carom::{DQuat, DVec3};
 
 use super::drawn::{Drawn, Emitter, Material, Obstacle, Springs};
 use super::placed::{Placed, placed};
-use super::{HALF, Vector, sum};
+use super::vector::{HALF, Vector, sum};
 
 /// Whose halves and thirds are numbers of few bits, so that frames of other lengths meet at the same times \[s\].
 const FRAME_TIME: f64 = 3.0 / 256.0;
