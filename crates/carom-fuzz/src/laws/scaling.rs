@@ -36,10 +36,7 @@ impl Scale {
 
 fn pair(scene: &Scene, scale: Scale) -> Pair {
     let back = Scale { length: -scale.length, mass: -scale.mass, time: -scale.time };
-    let pair =
-        Pair::new(scaled(scene, scale), Agreement::Bits, move |frame| scale_frame(frame, back));
-    // Half a second of calm is before sleep, whatever the scale.
-    Pair { ends: |frame| frame.asleep, ..pair }
+    Pair::new(scaled(scene, scale), Agreement::Bits, move |frame| scale_frame(frame, back))
 }
 
 fn scale_frame(frame: &mut Frame, scale: Scale) {

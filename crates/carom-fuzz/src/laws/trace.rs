@@ -31,8 +31,6 @@ pub struct Frame {
     pub in_zone: bool,
     /// Whether a contact persists.
     pub in_contact: bool,
-    /// Whether spheres sleep.
-    pub asleep: bool,
 }
 
 /// A sphere.
@@ -96,7 +94,6 @@ impl Frame {
             work: report.work.events + report.work.sweeps,
             in_zone: report.zone_account.joined > 0 || report.zone_account.spheres > 0,
             in_contact: !world.contacts().is_empty(),
-            asleep: report.contact_account.asleep > 0,
             ..Self::of(world)
         }
     }
@@ -107,6 +104,5 @@ impl Frame {
         self.work += before.work;
         self.in_zone |= before.in_zone;
         self.in_contact |= before.in_contact;
-        self.asleep |= before.asleep;
     }
 }
