@@ -117,7 +117,7 @@ def test_a_value_of_another_kind(part: Callable[[], object], message: str) -> No
         (lambda: make.ViscousDrag(-1), "ViscousDrag.coefficient: must be zero or positive, and"),
         (lambda: make.Box((1, 0, 1)), "Box.size: must be positive and finite along every axis"),
         (lambda: make.Periodic((1, 0, 1)), "must be positive along every axis; infinite where it"),
-        (lambda: make.Emitter(BALL, 0), "Emitter.period: must be finite and longer than 1e-9 s"),
+        (lambda: make.Emitter(BALL, 0), "Emitter.period: must be positive and finite, not 0"),
         (lambda: make.Emitter(BALL, 1, max_spheres=0), "max_spheres: must be at least 1, not 0"),
         (lambda: make.Row(0, (0, 0, 0), (1, 0, 0), BALL), "Row.count: must be at least 1, not 0"),
         (lambda: make.Row(2**32, (0, 0, 0), (1, 0, 0), BALL), "must be in [0, 2^32), not"),

@@ -110,7 +110,7 @@ fn smaller(
     if matches!(fault, Fault::Slow(_) | Fault::Memory { .. }) {
         return smallest;
     }
-    let kind = std::mem::discriminant(fault);
+    let kind = fault.kind();
     let mut goes_on = drawn.simplify();
     for _ in 0..MOST_STEPS {
         if !goes_on {
@@ -118,7 +118,7 @@ fn smaller(
         }
         watch.renew();
         let case = drawn.current();
-        let is_same = |other: &Fault| std::mem::discriminant(other) == kind;
+        let is_same = |other: &Fault| other.kind() == kind;
         if target.try_case(&case).err().as_ref().is_some_and(is_same) {
             smallest = case;
             goes_on = drawn.simplify();

@@ -37,6 +37,16 @@ impl Fault {
     pub fn is_limit(&self) -> bool {
         matches!(self, Self::Slow(_) | Self::Memory { .. })
     }
+
+    /// What it says before any number: the same for all that break a promise in the same way.
+    pub fn kind(&self) -> String {
+        let said = self.to_string();
+        said.split(|it: char| it.is_ascii_digit())
+            .next()
+            .unwrap_or_default()
+            .trim_end_matches('-')
+            .to_owned()
+    }
 }
 
 /// Longest error \[characters\]: a few lines of a terminal.

@@ -12,9 +12,9 @@ use crate::mistake::{Mistake, Mistakes};
 use crate::real::{Real, Vec3};
 use crate::tracks::{State, Touch, Track, Tracks};
 
-/// A ball is emitted in a frame if its time is at most this much after the start of the frame
-/// \[s\].
-const DUE_TOLERANCE: f64 = 1e-9;
+/// A ball is emitted in a frame if its time is at most this part of the frame after the start of
+/// the frame.
+const DUE_TOLERANCE: f64 = 1e-7;
 
 /// Frame time of a common display \[s\].
 const DISPLAY: f64 = 1.0 / 60.0;
@@ -196,7 +196,7 @@ impl<'a, N: Real> Run<'a, N> {
     }
 
     fn frame(&mut self, frame: Frame) {
-        self.emit(frame.start);
+        self.emit(frame.start + DUE_TOLERANCE * frame.h);
         let number = self.tracks.times.len();
         self.tracks.times.push(frame.end);
         let h = N::of(frame.h);
@@ -218,10 +218,10 @@ impl<'a, N: Real> Run<'a, N> {
         self.states += self.balls.len();
     }
 
-    /// Emits the balls that are due at the start of a frame, at `time` \[s\].
+    /// Emits the balls that are due at a time \[s\].
     fn emit(&mut self, time: f64) {
         for index in 0..self.rings.len() {
-            while self.rings[index].is_due(time + DUE_TOLERANCE) && self.states <= MOST_STATES {
+            while self.rings[index].is_due(time) && self.states <= MOST_STATES {
                 self.emit_from(index);
                 self.states += 1;
             }

@@ -12,9 +12,9 @@ use crate::setup::Setup;
 /// back, with three rounding errors each way.
 const SAME_DENSITY: f64 = 1e-12;
 
-/// Tolerance of the frame rules for emissions at the start of a frame \[s\]
+/// Tolerance of the frame rules for emissions at the start of a frame, as a part of the frame
 /// (`docs/physics/motion.md`, "Emission").
-const DUE_TOLERANCE: f64 = 1e-9;
+const DUE_TOLERANCE: f64 = 1e-7;
 
 /// Paint of single spheres.
 ///
@@ -95,7 +95,8 @@ impl Looks {
         }
         due.sort_unstable();
         let is_exact = matches!(world.settings().rule, Rule::Exact(_));
-        let sources = self.sources(due.len(), start, is_exact, setup);
+        let tolerance = if is_exact { 0.0 } else { DUE_TOLERANCE * (world.time() - start) };
+        let sources = self.sources(due.len(), start + tolerance, setup);
         let template = |id| setup.emitters.iter().find(|it| it.0 == id).map(|it| &it.1.sphere);
         let came = due.into_iter().zip(sources);
         for (sphere, emitter) in came.filter(|(id, _)| report.emitted.binary_search(id).is_ok()) {
@@ -107,10 +108,10 @@ impl Looks {
     }
 
     /// Returns the emitters of `count` spheres that were emitted in a frame, in order: at the start
-    /// of the frame by emitter, afterwards by time.
-    fn sources(&mut self, count: usize, start: f64, exact: bool, setup: &Setup) -> Vec<EmitterId> {
+    /// \[s\] of the frame by emitter, afterwards by time.
+    fn sources(&mut self, count: usize, start: f64, setup: &Setup) -> Vec<EmitterId> {
         let mut sources = Vec::with_capacity(count);
-        let mut until = if exact { start } else { start + DUE_TOLERANCE };
+        let mut until = start;
         while sources.len() < count && until < f64::INFINITY {
             for schedule in &mut self.schedules {
                 while schedule.due(setup) <= until && sources.len() < count {

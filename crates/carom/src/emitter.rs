@@ -12,10 +12,15 @@ use crate::settings::nearest_image;
 use crate::sphere::Sphere;
 use crate::validate;
 
-/// A sphere is due when its time is at most this much after the start of a frame \[s\], so that
+/// A sphere is due when its time is at most this part of a frame after the start of it, so that
 /// rounding in sums of frame times cannot delay it by a frame
 /// (`docs/physics/motion.md`, "Emission").
-pub(crate) const DUE_TOLERANCE: f64 = 1e-9;
+const DUE_TOLERANCE: f64 = 1e-7;
+
+/// When what is emitted with a frame is due at the latest \[s\]: one that begins at `time` and is `h` long \[s\].
+pub(crate) fn due_with_frame(time: f64, h: f64) -> f64 {
+    time + DUE_TOLERANCE * h
+}
 
 /// Spheres that overlap by no more than this part of the sum of their radii have room.
 const OVERLAP: f64 = 1e-3;
@@ -111,9 +116,7 @@ impl Emitter {
         self.sphere.validate()?;
         validate::finite("position", self.position)?;
         validate::rotation("rotation", self.rotation)?;
-        let emits_in_turn = self.period > DUE_TOLERANCE && self.period.is_finite();
-        let requirement = "finite and longer than 1e-9 s";
-        validate::require(emits_in_turn, "period", requirement, self.period)?;
+        validate::positive("period", self.period)?;
         self.max_spheres.map_or(Ok(()), |max| validate::at_least_one("max_spheres", max))?;
         self.count.map_or(Ok(()), |count| validate::at_least_one("count", count))
     }
@@ -184,7 +187,7 @@ impl EmitterState {
 
     /// Refuses a period so short that one frame would have to emit spheres without end.
     pub fn validate_at(&self, time: f64) -> Result<(), InvalidValue> {
-        let due = (time + DUE_TOLERANCE - self.start) / self.emitter.period - self.emitted as f64;
+        let due = (time - self.start) / self.emitter.period - self.emitted as f64;
         let left = self.emitter.count.map(|count| f64::from(count) - self.emitted as f64);
         let due = left.map_or(due, |left| due.min(left));
         let requirement = "longer: more than a million spheres are due in one frame";

@@ -138,9 +138,9 @@ impl State {
         Arc::make_mut(&mut self.changed().colliders)
     }
 
-    /// Whether nothing happens in a step by the rule `contact` that begins at `time` \[s\].
-    pub fn is_idle(&self, time: f64) -> bool {
-        let any_due = emitter::any_due(&self.emitters, time + emitter::DUE_TOLERANCE);
+    /// Whether nothing happens in a step of `h` \[s\] by the rule `contact` that begins at `time` \[s\].
+    pub fn is_idle(&self, time: f64, h: f64) -> bool {
+        let any_due = emitter::any_due(&self.emitters, emitter::due_with_frame(time, h));
         self.solver.is_idle() && !any_due
     }
 

@@ -5,8 +5,8 @@ mod common;
 use std::f64::consts::TAU;
 
 use carom::{
-    Boundary, Contact, DQuat, DVec3, Emitter, Exact, PointAttractor, Rule, Settings, Sphere,
-    SphereId, World,
+    Bisect, Boundary, Contact, DQuat, DVec3, Emitter, Exact, PointAttractor, Rule, Settings,
+    Sphere, SphereId, World,
 };
 use common::{assert_close_vec, discrete, vec, world};
 
@@ -103,11 +103,29 @@ fn a_sphere_removed_by_hand_makes_place_too() {
 }
 
 #[test]
+fn spheres_are_emitted_in_the_same_frames_however_short_frames_are() {
+    let rules: [Rule; 3] = [discrete(), Bisect::default().into(), Contact::default().into()];
+    for rule in rules {
+        for scale in [1.0, 1.0 / 16_384.0, 1.0 / 1_099_511_627_776.0, 1_048_576.0] {
+            let mut world = World::new(Settings::default().with_rule(rule)).unwrap();
+            // The third one is due some microseconds after the 47th frame has begun.
+            let emitter = emitter(0.1835965290786 * scale, None).with_needs_room(false);
+            let fast = emitter.sphere.with_velocity(vec(1e3 / scale, 0.0, 0.0));
+            world.add_emitter(emitter.with_sphere(fast)).unwrap();
+            let frames = frames_of_emission(&mut world, 64, 3.0 / 256.0 * scale);
+            assert_eq!(frames, [0, 16, 32, 48, 63], "{rule:?}, {scale}");
+        }
+    }
+}
+
+#[test]
 fn a_runaway_emitter_is_an_error_that_names_the_period() {
     let mut world = world(discrete());
-    // Shorter than the tolerance of when a sphere is due, it would emit without end at once.
-    assert!(world.add_emitter(emitter(1e-10, None)).unwrap_err().to_string().contains("`period`"));
-    world.add_emitter(emitter(1e-8, None)).unwrap();
+    assert!(world.add_emitter(emitter(0.0, None)).unwrap_err().to_string().contains("`period`"));
+    // So many are due within the rounding of a frame that the first one would not end.
+    let runaway = world.add_emitter(emitter(1e-16, None)).unwrap();
+    assert!(world.step(0.02).unwrap_err().to_string().contains("`period`"));
+    world.set_emitter(runaway, emitter(1e-8, None)).unwrap();
     world.step(0.02).unwrap();
     let before = world.state_hash();
     let error = world.step(0.02).unwrap_err().to_string();

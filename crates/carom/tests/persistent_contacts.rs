@@ -1,7 +1,9 @@
 //! The contacts that persist, against statics: forces carry the weights above them, gaps are closed,
 //! and nothing is in contact that flies.
 
-use carom::{BodyPair, Collider, DQuat, DVec3, Gravity, Pose, Settings, Shape, Sphere, World};
+use carom::{
+    BodyPair, Boundary, Collider, DQuat, DVec3, Gravity, Pose, Settings, Shape, Sphere, World,
+};
 
 const G: f64 = 9.81;
 
@@ -119,6 +121,43 @@ fn a_row_that_slides_on_a_floor_with_an_end_stays_on_it_whatever_rounding_its_he
             // Rounding of coordinates up to 10 m, some times over.
             let expected = DVec3::new(start(i) - world.time(), -9.85, 0.0);
             assert!((*place - expected).length() < 1e-12, "{count} balls, ball {i}: {place}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_slides_over_the_seams_of_a_floor_in_a_periodic_box() {
+    for restitution in [0.0, 0.5, 1.0] {
+        // Within the box, and outside: there the floor is an image.
+        for start in [DVec3::new(-1.7, -0.5, 0.2), DVec3::new(2.3, -0.5, 4.2)] {
+            let size = DVec3::new(4.0, f64::INFINITY, 4.0);
+            let boundary = Boundary::Periodic { size };
+            let mut world = World::new(Settings::default().with_boundary(boundary)).unwrap();
+            world.add_force(Gravity::new(DVec3::new(0.0, -G, 0.0))).unwrap();
+            for tile in 0..10 {
+                let place = DVec3::new(0.4 * f64::from(tile) - 1.8, -0.8, 0.3);
+                let form = Shape::Box { size: DVec3::new(0.4, 0.4, 2.0) };
+                let tile = Collider::new(form, Pose::at(place)).with_restitution(restitution);
+                world.add_collider(tile).unwrap();
+            }
+            let velocity = DVec3::new(1.7, 0.0, 0.1);
+            let ball = Sphere::new(start, 0.1).with_velocity(velocity);
+            let id = world.add_sphere(ball).unwrap();
+            let (mut impacts, mut events) = (0, 0);
+            for _ in 0..128 {
+                let report = world.step(1.0 / 64.0).unwrap();
+                impacts += report.impacts.len();
+                events += report.work.events;
+            }
+            let case = format!("restitution {restitution}, from {start}");
+            assert_eq!(impacts, 0, "{case}");
+            // An event for each tile, and one for each cell.
+            assert!(events < 40, "{events} events, {case}");
+            let after = world.sphere(id).unwrap();
+            assert_eq!(after.velocity, velocity, "{case}");
+            let moved = boundary.nearest_image(after.position - start - 2.0 * velocity);
+            // Rounding, once for every seam.
+            assert!(moved.length() < 1e-13, "{moved}, {case}");
         }
     }
 }

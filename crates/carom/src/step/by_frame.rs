@@ -16,10 +16,11 @@ pub(super) fn step(
     advance: impl FnOnce(&mut State, Interval, &mut Scratch, &mut StepReport) -> bool,
 ) -> Result<(), Error> {
     let frame = Interval { time: attempt.start, h: attempt.length };
-    attempt.state.check_emitters(frame.time)?;
+    let due = emitter::due_with_frame(frame.time, frame.h);
+    attempt.state.check_emitters(due)?;
     attempt.take(|attempt| {
         attempt.scratch.start.copy_all(&attempt.state.spheres.motion);
-        attempt.emit(frame.time + emitter::DUE_TOLERANCE);
+        attempt.emit(due);
         let Attempt { state, scratch, report, .. } = attempt;
         let is_done = advance(state, frame, scratch, report);
         let stopped = Error::Stopped { time: frame.time };

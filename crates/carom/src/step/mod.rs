@@ -89,7 +89,7 @@ pub(crate) fn step(
             })
         }
         Rule::Exact(parameters) => by_event::step(attempt, parameters, until),
-        Rule::Contact(_) if attempt.state.is_idle(attempt.start) => {
+        Rule::Contact(_) if attempt.state.is_idle(attempt.start, attempt.length) => {
             let (_, motion, solver) = attempt.state.split_with_solver();
             contact::rest(solver, motion, attempt.length, attempt.report);
             attempt.take(|_| Ok(()))?;

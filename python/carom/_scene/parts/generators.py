@@ -15,7 +15,6 @@ from carom._scene.parts.kinds import (
     Count,
     Counts,
     Direction,
-    EmissionPeriod,
     NonNegative,
     Positive,
     Quaternion,
@@ -47,7 +46,7 @@ class Emitter(Part):
     """
 
     sphere: SizedSphere
-    period: EmissionPeriod
+    period: Positive
     position: Vector = ORIGIN
     rotation: Quaternion = UNTURNED
     max_spheres: Count | None = None

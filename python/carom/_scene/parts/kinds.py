@@ -28,9 +28,6 @@ _IN_32_BITS = Requirement("in [0, 2^32)", lambda value: 0 <= value < 2**32)
 _ALL_POSITIVE = Requirement(
     "positive and finite along every axis", lambda it: _are_finite(it) and min(it) > 0
 )
-_EMISSION_PERIOD = Requirement(
-    "finite and longer than 1e-9 s", lambda value: 1e-9 < value < math.inf
-)
 _FIELD_OF_VIEW = Requirement("between 0 and 180", lambda value: 0 < value < 180)
 _QUATERNION = Requirement("a quaternion x, y, z, w that is finite and not zero", _is_turn)
 _THREE = Numbers("three numbers", 3)
@@ -79,8 +76,6 @@ Number: TypeAlias = Annotated[int, _IN_32_BITS]
 """The number of a sphere, from 0."""
 Seed: TypeAlias = Annotated[int, _IN_32_BITS]
 """The seed of something random."""
-EmissionPeriod: TypeAlias = Annotated[float, _EMISSION_PERIOD]
-"""Time between two emitted spheres [s]."""
 FieldOfView: TypeAlias = Annotated[float, _FIELD_OF_VIEW]
 """An angle in degrees, in (0, 180)."""
 TwoNumbers: TypeAlias = Annotated[

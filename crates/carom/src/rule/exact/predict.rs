@@ -10,6 +10,8 @@ use super::pair_times::{NearTest, PairSearch};
 use super::timeline::Timeline;
 use crate::contact_time::{self, Reach};
 use crate::detect::contact::Bodies;
+use crate::detect::sphere_surface;
+use crate::surface::Form;
 use crate::system::System;
 
 /// Two bodies that touch, and for how long a meeting of them has nothing to answer.
@@ -225,8 +227,8 @@ fn meet_surfaces(
         if is_passed || timeline.flights.is_held_by(slot, number) {
             continue;
         }
-        if is_at_rest && planes.iter().flatten().any(|plane| plane.is_above(&surface.form, center))
-        {
+        let is_above = |plane: &Plane| plane.is_above(&surface.form, shift, center);
+        if is_at_rest && planes.iter().flatten().any(is_above) {
             continue;
         }
         // A surface that moves is given as it is at the start of the frame.
@@ -246,7 +248,7 @@ fn meet_surfaces(
     }
 }
 
-/// The planes at rest that a sphere lies on. In a periodic box they may be images, and none is given.
+/// The planes at rest that a sphere lies on, in a periodic box their nearest images.
 fn planes_that_hold<'a>(
     timeline: &Timeline,
     system: &System<'a>,
@@ -255,13 +257,29 @@ fn planes_that_hold<'a>(
     let mut planes = [None; MOST_PLANES];
     let flights = &timeline.flights;
     let Some(cluster) = flights.species_of(slot).cluster else { return planes };
-    if system.settings.boundary.is_periodic() {
-        return planes;
-    }
+    let is_periodic = system.settings.boundary.is_periodic();
     let body = &flights.bodies[slot as usize];
-    let state = [body.position, body.velocity];
     let surfaces = flights.clusters.get(cluster).surfaces_of(flights.index_of[slot as usize]);
-    let under = surfaces.filter_map(|surface| Plane::under(state, surface, system.surfaces));
+    let under = surfaces.filter_map(|surface| {
+        let image = if is_periodic {
+            nearest_image(timeline, &system.surfaces[surface as usize].form, surface, slot)?
+        } else {
+            DVec3::ZERO
+        };
+        let state = [body.position - image, body.velocity];
+        Some(Plane::under(state, surface, system.surfaces)?.at_image(image))
+    });
     planes.iter_mut().zip(under).for_each(|(place, plane)| *place = Some(plane));
     planes
+}
+
+/// How far the image of a surface that is nearest to a sphere is from the surface \[m\].
+fn nearest_image(timeline: &Timeline, form: &Form, surface: u32, slot: u32) -> Option<DVec3> {
+    let place = timeline.flights.bodies[slot as usize].position;
+    let distance = |shift: &DVec3| {
+        let separation = sphere_surface(form, place - *shift, 0.0);
+        separation.map_or(f64::INFINITY, |separation| separation.distance)
+    };
+    let near = timeline.surfaces_near(slot).filter(|near| near.0 == surface);
+    near.map(|(_, shift)| shift).min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }

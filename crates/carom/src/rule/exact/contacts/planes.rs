@@ -17,6 +17,8 @@ pub(crate) struct Plane<'a> {
     pub surface: u32,
     pub normal: DVec3,
     pub form: &'a Form,
+    /// Where its image is that the sphere lies on, less where the form is \[m\].
+    pub image: DVec3,
 }
 
 impl<'a> Plane<'a> {
@@ -32,14 +34,20 @@ impl<'a> Plane<'a> {
             }
             Form::Sphere { .. } | Form::Box(_) => return None,
         };
-        Some(Self { surface, normal, form })
+        Some(Self { surface, normal, form, image: DVec3::ZERO })
     }
 
-    /// Whether no part of a form is above it, but for the rounding of their coordinates and of that of a
-    /// sphere's centre \[m\]: a sphere that stays on it passes over that.
-    pub fn is_above(&self, form: &Form, center: DVec3) -> bool {
+    /// The plane as its image so far away \[m\].
+    pub fn at_image(self, image: DVec3) -> Self {
+        Self { image, ..self }
+    }
+
+    /// Whether no part of an image of a form, so far from that \[m\], is above it, but for the rounding of their
+    /// coordinates and of that of a sphere's centre \[m\]: a sphere that stays on it passes over that.
+    pub fn is_above(&self, form: &Form, image: DVec3, center: DVec3) -> bool {
         let coordinates = self.form.coordinates() + form.coordinates() + center.norm();
-        form.height_above([self.foot_of(center), self.normal]) <= TOUCHING * coordinates
+        let foot = self.foot_of(center - self.image) + (self.image - image);
+        form.height_above([foot, self.normal]) <= TOUCHING * coordinates
     }
 
     /// Its point nearest to the centre \[m\] of a sphere that touches it.

@@ -1,0 +1,233 @@
+//! What rules keep: energy, places, the account of what moving colliders do.
+
+use carom::{BodyPair, DQuat, DVec3, World};
+use carom_scene::Scene;
+use carom_scene::scene::{Boundary, Collider, Force, Rule, Shape};
+
+use crate::fault::Fault;
+
+/// Part of the energy by which the account of a frame of `exact` may be open: the square of the angle by which a normal
+/// turns in a piece of path along a curve.
+const OPEN_ACCOUNT: f64 = 1e-6;
+
+/// That where surfaces move: nothing restores the energy of a piece of path then.
+const OPEN_ACCOUNT_OF_MOVERS: f64 = 1e-5;
+
+/// That of `contact`, besides what a field does in a sub-step to a sphere that meets several bodies in it: that moves by its
+/// last velocity, and its energy in the field is right in first order.
+const CONTACT_GAIN: f64 = 1e-3;
+
+/// Overlap that may be, as a part of the smallest radius; and besides, as one of the largest: by so much a piece of
+/// path along a curve may miss.
+const OVERLAP: f64 = 1e-6;
+const MISS: f64 = 1e-7;
+
+/// Part of the largest speed of approach in a frame from which on a speed is that of bodies that close.
+const CLOSES: f64 = 1e-6;
+
+/// Part of the impulses of moving colliders, times the speeds of these, by which their work may differ from impulses times
+/// ways: rounding of a sum, and of the places where they are at an impact.
+const OPEN_WORK: f64 = 1e-12;
+
+/// What the rule of a scene keeps in its world, and what was seen of that so far.
+#[derive(Debug, Clone)]
+pub struct Keeps {
+    /// Part of the energy by which the account of a frame may be open.
+    account: Option<f64>,
+    /// Part of the energy that a frame may add.
+    gain: Option<f64>,
+    /// By which change of its speed \[m/s\] the energy of a sphere may be wrong besides.
+    speed_error: f64,
+    no_overlap: bool,
+    /// The container that keeps what is inside.
+    container: Option<Collider>,
+    /// Energy after the frame before \[J\].
+    energy: f64,
+    /// The largest energy of any kind so far \[J\].
+    scale: f64,
+    /// Whether spheres were stepped in the frame before, and whether they ever were.
+    was_stepped: bool,
+    has_been_stepped: bool,
+    /// Time of the world after the frame before \[s\].
+    time: f64,
+}
+
+/// Whether surfaces move, which do work, and are where frames take them.
+pub fn is_driven(scene: &Scene) -> bool {
+    scene.colliders.iter().any(|it| it.velocity != [0.0; 3] || it.angular_velocity != [0.0; 3])
+}
+
+impl Keeps {
+    /// What is kept of a world that its scene has just made.
+    pub fn of(scene: &Scene, world: &World) -> Self {
+        let rule = scene.simulation.rule;
+        let is_driven = is_driven(scene);
+        let mut colliders = scene.colliders.iter();
+        let container = colliders.find(|it| matches!(it.shape, Shape::Container { .. }));
+        let is_solid = matches!(rule, Rule::Exact | Rule::Contact);
+        // What moves may press a sphere through what stands.
+        let is_kept = is_solid && !is_driven;
+        // Where an impact cuts the time for which they are held, springs keep energy to the second order only.
+        let is_constant =
+            |force: &Force| matches!(force, Force::Gravity { .. } | Force::Constant { .. });
+        let has_account = scene.simulation.boundary == Boundary::default()
+            && scene.springs.is_empty()
+            && scene.forces.iter().all(is_constant);
+        let keeps_energy = has_account && scene.emitters.is_empty();
+        let open = if is_driven { OPEN_ACCOUNT_OF_MOVERS } else { OPEN_ACCOUNT };
+        let energy = world.total_energy();
+        Self {
+            account: (rule == Rule::Exact && has_account).then_some(open),
+            gain: match rule {
+                Rule::Contact if is_kept && keeps_energy => Some(CONTACT_GAIN),
+                _ => None,
+            },
+            speed_error: if rule == Rule::Contact { speed_of_sub_step(scene) } else { 0.0 },
+            no_overlap: rule == Rule::Exact
+                && !is_driven
+                && scene.simulation.spheres_collide
+                // What is emitted has room where it overlaps by a thousandth.
+                && scene.emitters.is_empty()
+                && !scene.colliders.iter().any(passes),
+            container: container.filter(|_| is_kept).cloned(),
+            energy,
+            scale: energy.abs().max(world.kinetic_energy()),
+            was_stepped: false,
+            has_been_stepped: false,
+            time: world.time(),
+        }
+    }
+
+    /// Checks a world after a step.
+    ///
+    /// # Errors
+    /// What was not kept.
+    pub fn check(&mut self, world: &World) -> Result<(), Fault> {
+        let zones = world.report().zone_account;
+        let in_zone = zones.joined > 0 || zones.spheres > 0;
+        self.has_been_stepped |= in_zone;
+        // A frame after one of stepped spheres may end what that began.
+        let is_exact = !in_zone && !self.was_stepped && !leaves_no_way_out(world);
+        self.check_energy(world, is_exact)
+            .and_then(|()| self.check_work(world))
+            .and_then(|()| self.check_places(world))
+            .map_err(|said| Fault::Law(format!("{said}, at {} s", world.time())))?;
+        (self.was_stepped, self.time) = (in_zone, world.time());
+        Ok(())
+    }
+
+    fn check_energy(&mut self, world: &World, is_exact: bool) -> Result<(), String> {
+        let account = world.report().energy_account;
+        let now = world.total_energy();
+        if !now.is_finite() {
+            return Err(format!("has energy {now}"));
+        }
+        let given = [account.contacts, account.colliders, account.emission];
+        let most = self.scale.max(world.kinetic_energy());
+        self.scale = given.iter().fold(most, |most, it| most.max(it.abs()));
+        let (change, scale) = (now - self.energy, self.scale);
+        self.energy = now;
+        let rest = change - account.total();
+        if is_exact && self.account.is_some_and(|most| rest.abs() > most * scale) {
+            return Err(format!(
+                "has {rest:e} J too much for its account {account:?}, its energy being {scale:e} J"
+            ));
+        }
+        let gain = change - account.correction.max(0.0);
+        let uncertain = self.speed_error * momenta(world);
+        if is_exact && self.gain.is_some_and(|most| gain > most * scale + uncertain) {
+            return Err(format!("gains {gain:e} J, its energy being {scale:e} J"));
+        }
+        Ok(())
+    }
+
+    /// Force times way: the work that moving colliders did in the impacts of a group is that of their impulses on the way of
+    /// the surface.
+    fn check_work(&self, world: &World) -> Result<(), String> {
+        // There a place may be that of an image, which what moves has not.
+        if world.settings().boundary != carom::Boundary::Open {
+            return Ok(());
+        }
+        let report = world.report();
+        for group in &report.groups {
+            let (mut work, mut scale) = (0.0, 0.0);
+            for impact in &report.impacts[group.first..group.first + group.count] {
+                let BodyPair::Collider { collider, .. } = impact.between else { continue };
+                let Ok(collider) = world.collider(collider) else { continue };
+                // Colliders are where the frame ends.
+                let left = world.time() - (self.time + impact.time);
+                let arm = impact.point - (collider.pose.position - left * collider.velocity);
+                let velocity = collider.velocity + collider.angular_velocity.cross(arm);
+                let impulse = impact.impulse * impact.normal + impact.tangential_impulse;
+                work += impulse.dot(velocity);
+                let turning = collider.angular_velocity.length() * arm.length();
+                scale += impulse.length() * (collider.velocity.length() + turning);
+            }
+            let told = group.collider_work;
+            if (told - work).abs() > OPEN_WORK * scale {
+                return Err(format!("has {told:e} J of colliders, whose impulses did {work:e} J"));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_places(&self, world: &World) -> Result<(), String> {
+        let spheres = world.spheres();
+        if spheres.positions().iter().any(|it| !it.is_finite()) {
+            return Err("is nowhere".to_owned());
+        }
+        if let Some(container) = &self.container
+            && let Some(out) = spheres.positions().iter().find(|&&it| is_out(it, container))
+        {
+            return Err(format!("has a sphere outside its container, at {out}"));
+        }
+        let smallest = spheres.radii().iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = spheres.radii().iter().copied().fold(0.0, f64::max);
+        let overlap = world.overlaps(0.0).into_iter().map(|it| it.depth).fold(0.0, f64::max);
+        let is_exact = self.no_overlap && !self.has_been_stepped;
+        if is_exact && overlap > OVERLAP * smallest + MISS * largest {
+            return Err(format!("overlaps by {:e} of its smallest radius", overlap / smallest));
+        }
+        Ok(())
+    }
+}
+
+/// Whether spheres come through it from behind.
+fn passes(collider: &Collider) -> bool {
+    matches!(collider.shape, Shape::Rectangle { .. })
+}
+
+/// Whether bodies still close after an impact: surfaces that move leave a ball no way out, and no impulses answer that.
+fn leaves_no_way_out(world: &World) -> bool {
+    let impacts = &world.report().impacts;
+    let fastest = impacts.iter().map(|it| it.approach_speed.abs()).fold(0.0, f64::max);
+    impacts.iter().any(|it| it.separation_speed < -CLOSES * fastest)
+}
+
+/// Sum of the sizes of all momenta \[kg m/s\].
+fn momenta(world: &World) -> f64 {
+    let spheres = world.spheres();
+    let moving = spheres.masses().iter().zip(spheres.velocities());
+    moving.map(|(mass, velocity)| mass * velocity.length()).sum()
+}
+
+/// What gravity adds to a speed in a sub-step of `contact` \[m/s\].
+fn speed_of_sub_step(scene: &Scene) -> f64 {
+    let length = scene.simulation.frame_time / f64::from(scene.simulation.contact.sub_steps);
+    let gravity = scene.forces.iter().map(|force| match force {
+        Force::Gravity { acceleration } => DVec3::from_array(*acceleration).length(),
+        _ => 0.0,
+    });
+    length * gravity.sum::<f64>()
+}
+
+/// Whether the centre of a sphere is outside a container without open sides.
+fn is_out(center: DVec3, container: &Collider) -> bool {
+    let Shape::Container { size, ref open } = container.shape else { return false };
+    if !open.is_empty() {
+        return false;
+    }
+    let rotation = DQuat::from_array(container.rotation).normalize();
+    let place = rotation.inverse() * (center - DVec3::from_array(container.position));
+    place.abs().cmpgt(0.5 * DVec3::from_array(size)).any()
+}

@@ -1,0 +1,265 @@
+//! Two worlds that go the same way, as a law has it.
+//!
+//! Some laws hold to the bit. Where two worlds round otherwise, they come apart, as any two runs of colliding spheres
+//! do: each impact makes what is between them larger by some way over radius. How much rounding has grown is seen of two
+//! more runs, of the same world with its spheres 10⁻¹² elsewhere, drawn out and drawn together ([`perturbed`]). That is
+//! thousands of roundings. So the rule is: **at each frame, the pair of a world is no farther from it than the farther
+//! of the perturbed worlds was so far**. Where one of these is more than 10⁻⁶ away, having grown a million times or
+//! having taken another order of events, a world shows nothing more, and the comparison ends.
+//!
+//! Distances are those of positions and velocities, as parts of the largest coordinate and the largest speed of both, and
+//! of what contacts took, as a part of the kinetic energy; the largest of all counts.
+
+use carom_scene::Scene;
+
+use super::perturbed::{SIZE, perturbed};
+use super::run::{law, step, world};
+use super::trace::{Body, Frame, Trace};
+use crate::fault::Fault;
+
+/// Distance of a perturbed world from which on nothing is compared.
+const MOST: f64 = 1e-6;
+
+/// Events and sweeps after which nothing is compared: that much work is not done again for every law.
+const MOST_WORK: u64 = 10_000;
+
+/// That a world and a pair of it go the same way.
+pub struct Law {
+    /// What the pair is, for findings to say.
+    pub name: &'static str,
+    /// The pair of a scene of which this is the run; `None` where the law says nothing.
+    pub pair: fn(&Scene, &Trace) -> Option<Pair>,
+}
+
+/// A scene that goes the way of another one.
+pub struct Pair {
+    pub scene: Scene,
+    /// Takes its state to that of the other one.
+    pub back: Box<dyn Fn(&mut Frame)>,
+    pub agreement: Agreement,
+    /// Its frames in a frame of the other one.
+    pub frames: usize,
+    /// Whether it goes back, from the end of the other one.
+    pub is_backwards: bool,
+    /// From which frame on the law says no more: one of either world.
+    pub ends: fn(&Frame) -> bool,
+}
+
+/// How near a pair is to its world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Agreement {
+    Bits,
+    Rounding,
+}
+
+impl Pair {
+    /// A pair that begins with its world, of equal frames, of which the law never ends.
+    pub fn new(scene: Scene, agreement: Agreement, back: impl Fn(&mut Frame) + 'static) -> Self {
+        let back = Box::new(back);
+        Self { scene, back, agreement, frames: 1, is_backwards: false, ends: |_| false }
+    }
+
+    /// Runs this scene, its own or one perturbed, along another trace, as long as `goes_on` with the distance from that.
+    fn follow(
+        &self,
+        scene: &Scene,
+        expected: &Trace,
+        mut goes_on: impl FnMut(usize, &Frame) -> Result<bool, Fault>,
+    ) -> Result<(), Fault> {
+        let mut world = world(scene)?;
+        for number in 1..expected.frames.len() {
+            let mut frame = Frame::default();
+            for _ in 0..self.frames {
+                step(scene, &mut world)?;
+                let before = std::mem::replace(&mut frame, Frame::after_step(&world));
+                frame.add_before(&before);
+            }
+            (self.back)(&mut frame);
+            frame.bodies.sort_by_key(|body| body.id);
+            if !goes_on(number, &frame)? {
+                break;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Checks the laws of a scene of which this is the run.
+///
+/// # Errors
+/// The law that does not hold.
+pub fn check(laws: &[Law], scene: &Scene, trace: &Trace) -> Result<(), Fault> {
+    let mut trace = trace.clone();
+    trace.frames.truncate(trace.until_work(MOST_WORK).max(1));
+    // The perturbed worlds are run once for all laws that begin with the world.
+    let mut grown = None;
+    for law in laws {
+        let Some(pair) = (law.pair)(scene, &trace) else { continue };
+        let named = |fault| match fault {
+            Fault::Law(said) => Fault::Law(format!("{}: {said}", law.name)),
+            fault => fault,
+        };
+        match pair.agreement {
+            Agreement::Bits => check_bits(&pair, &trace),
+            Agreement::Rounding if pair.is_backwards => {
+                let mut reversed = trace.clone();
+                reversed.frames.reverse();
+                let grown = growth(&pair, &pair.scene, &reversed);
+                check_rounding(&pair, &reversed, &grown)
+            }
+            Agreement::Rounding => {
+                let same = || Pair::new(scene.clone(), Agreement::Rounding, |_| ());
+                let grown = grown.get_or_insert_with(|| growth(&same(), scene, &trace));
+                check_rounding(&pair, &trace, grown)
+            }
+        }
+        .map_err(named)?;
+    }
+    Ok(())
+}
+
+fn check_bits(pair: &Pair, trace: &Trace) -> Result<(), Fault> {
+    pair.follow(&pair.scene, trace, |number, frame| {
+        let expected = &trace.frames[number];
+        if (pair.ends)(expected) || (pair.ends)(frame) {
+            return Ok(false);
+        }
+        // What is not seen in a square has underflowed.
+        let away = way(trace, number, frame);
+        law(away == 0.0 && frame.time == expected.time, || {
+            format!("is {away:e} away, and not the same to the bit, at {} s", expected.time)
+        })?;
+        Ok(true)
+    })
+}
+
+fn check_rounding(pair: &Pair, trace: &Trace, grown: &[f64]) -> Result<(), Fault> {
+    let is_over = |number: usize| grown[number] > MOST || (pair.ends)(&trace.frames[number]);
+    if trace.frames.len() < 2 || is_over(1) {
+        return Ok(());
+    }
+    pair.follow(&pair.scene, trace, |number, frame| {
+        if is_over(number) || (pair.ends)(frame) {
+            return Ok(false);
+        }
+        let (away, most) = (distance(trace, number, frame), grown[number]);
+        let time = trace.frames[number].time;
+        law(away <= most, || {
+            format!("is {away:e} away, rounding having grown to {most:e}, at {time} s")
+        })?;
+        Ok(true)
+    })
+}
+
+/// By frame, how far the farther of two perturbed worlds was so far.
+fn growth(pair: &Pair, scene: &Scene, trace: &Trace) -> Vec<f64> {
+    let mut grown = vec![f64::INFINITY; trace.frames.len()];
+    for is_opposite in [false, true] {
+        let mut so_far: f64 = SIZE;
+        let known = std::mem::replace(&mut grown, vec![f64::INFINITY; trace.frames.len()]);
+        // One that stops has grown out of it.
+        let _ = pair.follow(&perturbed(scene, is_opposite), trace, |number, frame| {
+            so_far = so_far.max(distance(trace, number, frame));
+            grown[number] = if is_opposite { so_far.max(known[number]) } else { so_far };
+            Ok(so_far <= MOST)
+        });
+    }
+    grown
+}
+
+/// How far a frame is from that with this number.
+fn distance(trace: &Trace, number: usize, frame: &Frame) -> f64 {
+    let lost = (frame.lost - trace.frames[number].lost).abs();
+    part(lost, most(trace, number, frame, |it| it.energy)).max(way(trace, number, frame))
+}
+
+/// How far its spheres are from those of that; infinite where there are others.
+fn way(trace: &Trace, number: usize, frame: &Frame) -> f64 {
+    let expected = &trace.frames[number];
+    let is_same = |(one, other): (&Body, &Body)| one.id == other.id;
+    let pairs = || frame.bodies.iter().zip(&expected.bodies);
+    if frame.bodies.len() != expected.bodies.len() || !pairs().all(is_same) {
+        return f64::INFINITY;
+    }
+    let extent = most(trace, number, frame, |it| it.extent);
+    let speed = most(trace, number, frame, |it| it.speed);
+    let of_body = |(one, other): (&Body, &Body)| {
+        let way = trace.boundary.nearest_image(one.position - other.position);
+        let change = (one.velocity - other.velocity).length();
+        let slip = one.radius * (one.spin - other.spin).length();
+        part(way.length(), extent).max(part(change.max(slip), speed))
+    };
+    pairs().map(of_body).fold(0.0, f64::max)
+}
+
+/// The most of something of a frame and of a trace up to it.
+fn most(trace: &Trace, number: usize, frame: &Frame, of: fn(&Frame) -> f64) -> f64 {
+    trace.frames[..=number].iter().map(of).fold(of(frame), f64::max)
+}
+
+fn part(away: f64, whole: f64) -> f64 {
+    if away == 0.0 { 0.0 } else { away / whole }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::keeps::Keeps;
+    use crate::laws::run::{FRAMES, run};
+
+    /// Three balls that fall and meet in a box.
+    fn scene() -> Scene {
+        let text = "
+            [simulation]
+            frame_time = 0.015625
+            [[forces]]
+            gravity = { acceleration = [0.0, -9.81, 0.0] }
+            [[spheres]]
+            position = [-0.5, 0.1, 0.0]
+            velocity = [3.0, 0.5, 0.2]
+            radius = 0.1
+            [[spheres]]
+            position = [0.5, 0.2, 0.1]
+            velocity = [-2.0, 1.0, 0.0]
+            radius = 0.2
+            [[spheres]]
+            position = [0.0, -0.5, -0.3]
+            radius = 0.1
+            [[colliders]]
+            shape = { container = { size = [2.0, 2.0, 2.0] } }
+        ";
+        Scene::from_toml(text, "scene.toml").unwrap()
+    }
+
+    /// The scene with this speed added to that of a sphere \[m/s\].
+    fn faster(scene: &Scene, by: f64, agreement: Agreement) -> Option<Pair> {
+        let mut other = scene.clone();
+        other.spheres[0].velocity[0] += by;
+        Some(Pair::new(other, agreement, |_| ()))
+    }
+
+    fn holds(pair: fn(&Scene, &Trace) -> Option<Pair>) -> bool {
+        let scene = scene();
+        let mut world = world(&scene).unwrap();
+        let (mut trace, mut keeps) = (Trace::new(&world), Keeps::of(&scene, &world));
+        run(&scene, &mut world, FRAMES, &mut keeps, &mut trace).unwrap();
+        check(&[Law { name: "faster", pair }], &scene, &trace).is_ok()
+    }
+
+    #[test]
+    fn a_pair_that_rounding_takes_apart_is_let_through_and_one_that_differs_by_more_is_not() {
+        assert!(holds(|scene, _| faster(scene, 0.0, Agreement::Bits)));
+        assert!(!holds(|scene, _| faster(scene, 1e-15, Agreement::Bits)));
+        assert!(holds(|scene, _| faster(scene, 1e-15, Agreement::Rounding)));
+        assert!(!holds(|scene, _| faster(scene, 1e-10, Agreement::Rounding)));
+    }
+
+    #[test]
+    fn a_law_ends_where_it_says_no_more() {
+        let ends_at_once = |scene: &Scene, _: &Trace| {
+            let pair = faster(scene, 1e-10, Agreement::Rounding)?;
+            Some(Pair { ends: |_| true, ..pair })
+        };
+        assert!(holds(ends_at_once));
+    }
+}

@@ -1,0 +1,31 @@
+//! A scene with its spheres a little elsewhere: what its run is away from that of the scene tells what rounding may do.
+
+use carom::DVec3;
+use carom_scene::Scene;
+
+/// By which part of coordinates and of the largest speed: thousands of roundings of them.
+pub const SIZE: f64 = 1e-12;
+
+/// The scene drawn out by [`SIZE`] and with other velocities, or the opposite of that: so each gap that is nothing but
+/// for rounding is open in the one and closed in the other.
+pub fn perturbed(scene: &Scene, is_opposite: bool) -> Scene {
+    let size = if is_opposite { -SIZE } else { SIZE };
+    let mut scene = scene.clone();
+    scene.simulation.allow_overlap = true;
+    let speeds = scene.spheres.iter().map(|it| DVec3::from_array(it.velocity).length());
+    let speed = speeds.fold(0.0, f64::max);
+    let mut number = 0;
+    for sphere in &mut scene.spheres {
+        for axis in 0..3 {
+            number += 1;
+            sphere.position[axis] *= 1.0 + size;
+            sphere.velocity[axis] += size * speed * spread(number);
+        }
+    }
+    scene
+}
+
+/// A number from -1 to 1, other for each number: the fractional part of its multiple of the golden section.
+fn spread(number: u32) -> f64 {
+    2.0 * (f64::from(number) * 0.618_033_988_749_894_9).fract() - 1.0
+}

@@ -1,0 +1,56 @@
+//! Running a world of a scene.
+
+use std::time::Instant;
+
+use carom::{StopRequest, World};
+use carom_scene::{Checkpoint, Palette, Scene};
+
+use super::keeps::Keeps;
+use super::trace::{Frame, Trace};
+use crate::fault::Fault;
+use crate::target::PATIENCE;
+
+/// Frames that a world is taken.
+pub const FRAMES: usize = 64;
+
+pub fn law(holds: bool, broken: impl FnOnce() -> String) -> Result<(), Fault> {
+    if holds { Ok(()) } else { Err(Fault::Law(broken())) }
+}
+
+pub fn world(scene: &Scene) -> Result<World, Fault> {
+    let mut world = scene.world().map_err(|it| Fault::Law(format!("makes no world: {it}")))?;
+    let began = Instant::now();
+    world.set_stop_request(Some(StopRequest::new(move || began.elapsed() > PATIENCE)));
+    Ok(world)
+}
+
+pub fn checkpoint(scene: &Scene, world: &World) -> Result<Vec<u8>, Fault> {
+    let palette = Palette::new(scene).map_err(|it| Fault::Law(format!("has no colours: {it}")))?;
+    let bytes = Checkpoint::bytes_of(&world.snapshot(), scene, &palette);
+    bytes.map_err(|it| Fault::Law(format!("has no bytes: {it}")))
+}
+
+/// Takes a world some frames, and checks what its rule keeps after each; the trace gets those frames.
+pub fn run(
+    scene: &Scene,
+    world: &mut World,
+    frames: usize,
+    keeps: &mut Keeps,
+    trace: &mut Trace,
+) -> Result<(), Fault> {
+    for _ in 0..frames {
+        step(scene, world)?;
+        keeps.check(world)?;
+        trace.frames.push(Frame::after_step(world));
+    }
+    Ok(())
+}
+
+/// Takes a world a frame of its scene further.
+pub fn step(scene: &Scene, world: &mut World) -> Result<(), Fault> {
+    match world.step(scene.simulation.frame_time) {
+        Ok(_) => Ok(()),
+        Err(carom::Error::Stopped { .. }) => Err(Fault::Slow(PATIENCE)),
+        Err(error) => Err(Fault::Law(format!("stops: {error}"))),
+    }
+}

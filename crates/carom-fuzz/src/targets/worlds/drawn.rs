@@ -1,0 +1,300 @@
+//! What worlds are drawn from.
+
+use proptest::collection::vec;
+use proptest::option::weighted;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+use super::vector::{HALF, Vector, scaled};
+
+#[derive(Debug, Clone)]
+pub struct Drawn {
+    pub rule: &'static str,
+    /// Lines of the table `simulation` that choose among what rules offer.
+    pub choices: Vec<&'static str>,
+    pub around: Around,
+    pub material: Material,
+    /// Lines of a table `forces` each.
+    pub forces: Vec<String>,
+    /// Whether boxes side by side make a floor, turned as the container is.
+    pub has_floor: bool,
+    pub emitter: Option<Emitter>,
+    pub obstacles: Vec<Obstacle>,
+    pub balls: Vec<Ball>,
+    /// In which part of the room they are.
+    pub crowding: f64,
+    pub springs: Option<Springs>,
+}
+
+/// What is around the balls.
+#[derive(Debug, Clone)]
+pub struct Around {
+    pub kind: &'static str,
+    /// Turn of a container \[°\].
+    pub turn: Vector,
+    /// Velocity of a container and all that is in it \[m/s\].
+    pub velocity: Option<Vector>,
+    /// Its angular velocity \[rad/s\].
+    pub spin: Option<Vector>,
+    /// Sides without a wall.
+    pub open: &'static str,
+}
+
+/// What all bodies are made of.
+#[derive(Debug, Clone)]
+pub struct Material {
+    pub restitution: f64,
+    pub friction: Option<f64>,
+    pub rolling: Option<f64>,
+    pub spinning: Option<f64>,
+    pub tangential: Option<f64>,
+}
+
+#[derive(Debug, Clone)]
+pub struct Emitter {
+    /// \[s\]
+    pub period: f64,
+    /// Spheres in all; that many at a time where it is `ring`.
+    pub count: u32,
+    pub is_ring: bool,
+    pub needs_room: bool,
+}
+
+/// Springs from each ball to the next, and from the first to the middle.
+#[derive(Debug, Clone)]
+pub struct Springs {
+    /// A power of ten.
+    pub stiffness: f64,
+    pub damping: f64,
+    pub only_pulls: bool,
+    pub has_anchor: bool,
+}
+
+#[derive(Debug, Clone)]
+pub struct Obstacle {
+    pub shape: &'static str,
+    pub position: Vector,
+    pub turn: Vector,
+    /// Its velocity \[m/s\], where it moves.
+    pub velocity: Option<Vector>,
+    /// Its angular velocity \[rad/s\], where it turns.
+    pub spin: Option<Vector>,
+    pub is_trigger: bool,
+}
+
+#[derive(Debug, Clone)]
+pub struct Ball {
+    /// Powers of ten.
+    pub radius: f64,
+    pub mass: f64,
+    pub velocity: Vector,
+    /// Angular velocity \[rad/s\], where it turns at the start.
+    pub spin: Option<Vector>,
+    pub inertia: f64,
+    /// Where it is, or in which direction it touches the ball before.
+    pub place: Vector,
+    pub touches: bool,
+}
+
+/// A vector in the cube from -1 to 1.
+fn vector() -> impl Strategy<Value = Vector> {
+    [-1.0..1.0, -1.0..1.0, -1.0..1.0f64]
+}
+
+fn vector_of(size: f64) -> impl Strategy<Value = Vector> {
+    vector().prop_map(move |it| scaled(it, size))
+}
+
+pub fn drawn() -> impl Strategy<Value = Drawn> {
+    let rule = prop_oneof![
+        5 => Just("exact"), 3 => Just("contact"), 1 => Just("discrete"), 1 => Just("bisect")
+    ];
+    let settings = (rule, choices(), around(), material(), forces());
+    let emitter = weighted(0.1, emitter());
+    let bodies = (
+        proptest::bool::weighted(0.2),
+        emitter,
+        vec(obstacle(), 0..3),
+        (vec(ball(), 0..14), select(&[1.0, 1.0, 0.4][..])),
+        weighted(0.2, springs()),
+    );
+    (settings, bodies).prop_map(|(settings, bodies)| {
+        let (rule, choices, around, material, forces) = settings;
+        let (has_floor, emitter, obstacles, (balls, crowding), springs) = bodies;
+        let drawn = Drawn {
+            rule,
+            choices,
+            around,
+            material,
+            forces: forces.into_iter().collect(),
+            has_floor,
+            emitter,
+            obstacles,
+            balls,
+            crowding,
+            springs,
+        };
+        sensible(drawn)
+    })
+}
+
+/// Without what a rule refuses, and what has no stable motion under it.
+fn sensible(mut drawn: Drawn) -> Drawn {
+    let is_slow = drawn.balls.iter().all(|ball| ball.velocity.iter().all(|it| it.abs() < 10.0));
+    let is_heavy = drawn.balls.iter().all(|ball| ball.mass >= 0.0);
+    let (is_exact, is_periodic) = (drawn.rule == "exact", drawn.around.kind == "periodic");
+    // Under other rules stiff ones are not stable; and many impacts within a force tick heat light balls.
+    drawn.springs = drawn.springs.filter(|_| is_exact && is_slow);
+    // Held over a tick, drag throws back what is light and fast; at rest such a ball becomes fast.
+    if !is_slow || !is_heavy {
+        drawn.forces.retain(|it| LINEAR.iter().any(|kind| it.starts_with(kind)));
+    }
+    if is_periodic {
+        // There `exact` refuses what has no closed form, for it steps nothing.
+        let material = &mut drawn.material;
+        (material.friction, material.rolling, material.spinning) = (None, None, None);
+        // Such gravity has no end there.
+        drawn.forces.retain(|it| !it.starts_with("mutual"));
+    }
+    // What stands in the middle leaves no room.
+    if drawn.emitter.is_some() {
+        drawn.obstacles.clear();
+    }
+    drawn
+}
+
+/// Lines that choose.
+fn choices() -> impl Strategy<Value = Vec<&'static str>> {
+    let lines = [
+        "spheres_collide = false",
+        "combine_rule = \"minimum\"",
+        "combine_rule = \"maximum\"",
+        "combine_rule = \"average\"",
+        "friction_combine_rule = \"maximum\"",
+        "exact = { impact_law = \"sequential\" }",
+        "exact = { impact_law = \"simultaneous\" }",
+        "exact = { zone_budget = 2000 }",
+        "contact = { sub_steps = 3, sweeps = 5, sleep_speed = 0.0 }",
+        "contact = { sleep_speed = 0.0 }",
+        "contact = { converged = true }",
+        "bisect = { integrator = \"runge-kutta-4\" }",
+        "bisect = { integrator = \"velocity-verlet\", wind_back = \"all\" }",
+        "discrete = { integrator = \"velocity-verlet\" }",
+        "discrete = { integrator = \"explicit-euler\" }",
+    ];
+    let line = prop_oneof![2 => Just(None), 1 => select(lines.to_vec()).prop_map(Some)];
+    line.prop_map(|it| it.into_iter().collect())
+}
+
+fn around() -> impl Strategy<Value = Around> {
+    let kind = prop_oneof![
+        10 => Just("container"), 4 => Just("periodic"), 2 => Just("nothing"), 1 => Just("half-spaces")
+    ];
+    // Turned or not.
+    let turn = prop_oneof![Just([0.0; 3]), vector_of(180.0)];
+    let open = prop_oneof![8 => Just(""), 1 => Just("\"top\""), 1 => Just("[\"left\", \"front\"]")];
+    let velocity = weighted(0.1, prop_oneof![vector_of(1.0), vector_of(30.0)]);
+    (kind, turn, velocity, weighted(0.05, vector_of(0.5)), open)
+        .prop_map(|(kind, turn, velocity, spin, open)| Around { kind, turn, velocity, spin, open })
+}
+
+fn material() -> impl Strategy<Value = Material> {
+    (
+        select(&[1.0, 1.0, 0.95, 0.7, 0.3, 0.0][..]),
+        weighted(0.3, 0.01..1.0),
+        weighted(0.3, 0.001..0.1),
+        weighted(0.2, 0.001..0.1),
+        weighted(0.2, 0.0..1.0),
+    )
+        .prop_map(|(restitution, friction, rolling, spinning, tangential)| Material {
+            restitution,
+            friction,
+            rolling: rolling.filter(|_| friction.is_some()),
+            spinning: spinning.filter(|_| friction.is_some()),
+            tangential: tangential.filter(|_| friction.is_some()),
+        })
+}
+
+/// Those that have a closed form whatever acts on.
+const LINEAR: [&str; 2] = ["gravity", "constant"];
+
+fn forces() -> impl Strategy<Value = Vec<String>> {
+    let gravity = vector_of(10.0).prop_map(|it| format!("gravity = {{ acceleration = {it:?} }}"));
+    let field = weighted(0.25, select(&FIELDS[..]));
+    (weighted(0.6, gravity), field)
+        .prop_map(|(gravity, field)| gravity.into_iter().chain(field.map(str::to_owned)).collect())
+}
+
+/// Other forces. None grows without bound.
+const FIELDS: [&str; 10] = [
+    "constant = { force = [0.3, -0.2, 0.1] }",
+    "viscous-drag = { coefficient = 0.05 }",
+    "wind = { velocity = [1.0, 0.5, -2.0], coefficient = 0.02 }",
+    "quadratic-drag = { density = 1.2 }",
+    "quadratic-drag = { density = 1.2, viscosity = 1.8e-5, wind = [1.0, 0.0, 2.0] }",
+    "buoyancy = { density = 300.0, surface_height = 0.5 }",
+    "buoyancy = { density = 300.0, surface_height = 0.25, gravity = [3.0, -4.0, 1.0] }",
+    "vortex = { position = [0.3, 0.0, 0.2], axis = [0.5, 1.0, -0.25], circulation = 2.0, core_radius = 0.2, coefficient = 1e-4 }",
+    "point-attractor = { position = [0.1, -0.6, 0.0], gravitational_parameter = 5.0, softening = 0.3 }",
+    "mutual-gravity = { constant = 1e-4, softening = 0.3 }",
+];
+
+fn emitter() -> impl Strategy<Value = Emitter> {
+    (0.1..0.5, 1..4u32, any::<bool>(), proptest::bool::weighted(0.8)).prop_map(
+        |(period, count, is_ring, needs_room)| Emitter { period, count, is_ring, needs_room },
+    )
+}
+
+fn obstacle() -> impl Strategy<Value = Obstacle> {
+    let shapes = [
+        "{ box = { size = [0.8, 0.5, 0.3] } }",
+        "{ sphere = { radius = 0.4 } }",
+        "{ box = { size = [1.5, 0.02, 1.5] } }",
+        "{ rectangle = { size_x = 1.5, size_z = 0.75 } }",
+        "{ container = { size = [1.5, 1.0, 1.25], open = \"top\" } }",
+        "{ sphere = { radius = 0.02 } }",
+    ];
+    let velocity = weighted(0.15, prop_oneof![3 => vector(), 1 => vector_of(20.0)]);
+    let place = (vector_of(0.5 * HALF), prop_oneof![1 => Just([0.0; 3]), 3 => vector_of(180.0)]);
+    let is_trigger = proptest::bool::weighted(0.05);
+    (select(shapes.to_vec()), place, velocity, weighted(0.1, vector_of(3.0)), is_trigger).prop_map(
+        |(shape, (position, turn), velocity, spin, is_trigger)| Obstacle {
+            shape,
+            position,
+            turn,
+            velocity,
+            spin,
+            is_trigger,
+        },
+    )
+}
+
+fn ball() -> impl Strategy<Value = Ball> {
+    let mass = prop_oneof![Just(0.0), -4.0..4.0];
+    let speed = prop_oneof![4 => Just(5.0), 1 => Just(0.0), 1 => (1.0..3.0f64).prop_map(|it| 10f64.powf(it))];
+    let turning = (weighted(0.3, vector_of(20.0)), select(&[0.4, 0.4, 2.0 / 3.0, 0.1][..]));
+    let place = (vector(), proptest::bool::weighted(0.3));
+    (-2.5..-0.3, mass, speed, vector(), turning, place).prop_map(
+        |(radius, mass, speed, direction, (spin, inertia), (place, touches))| Ball {
+            radius,
+            mass,
+            velocity: scaled(direction, speed),
+            spin,
+            inertia,
+            place,
+            touches,
+        },
+    )
+}
+
+fn springs() -> impl Strategy<Value = Springs> {
+    let damping = prop_oneof![Just(0.0), 0.0..0.05];
+    (-1.0..2.0, damping, any::<bool>(), any::<bool>()).prop_map(
+        |(stiffness, damping, only_pulls, has_anchor)| Springs {
+            stiffness,
+            damping,
+            only_pulls,
+            has_anchor,
+        },
+    )
+}

@@ -1,0 +1,168 @@
+//! Worlds as scene files.
+
+use carom::{DQuat, DVec3};
+
+use super::drawn::{Drawn, Emitter, Material, Obstacle, Springs};
+use super::placed::{Placed, placed};
+use super::vector::{HALF, Vector, sum};
+
+/// Whose halves and thirds are numbers of few bits, so that frames of other lengths meet at the same times \[s\].
+const FRAME_TIME: f64 = 3.0 / 256.0;
+
+/// The scene file of a world.
+pub fn written(drawn: &Drawn) -> String {
+    let material = material(&drawn.material);
+    let placed = placed(&drawn.balls, drawn.crowding);
+    let pieces = [
+        simulation(drawn),
+        drawn.forces.iter().map(|it| format!("[[forces]]\n{it}\n")).collect(),
+        placed.iter().map(|it| ball(drawn, it, &material)).collect(),
+        drawn.springs.as_ref().map_or(String::new(), |it| springs(it, placed.len())),
+        around(drawn, &material),
+        if drawn.has_floor { floor(drawn, &material) } else { String::new() },
+        drawn.emitter.as_ref().map_or(String::new(), |it| emitter(drawn, it)),
+        drawn.obstacles.iter().map(|it| obstacle(drawn, it, &material)).collect(),
+    ];
+    pieces.concat()
+}
+
+fn material(material: &Material) -> String {
+    let Material { restitution, friction, rolling, spinning, tangential } = *material;
+    let line = |name: &str, value: Option<f64>| {
+        value.map_or(String::new(), |value| format!("{name} = {value:?}\n"))
+    };
+    [
+        line("restitution", Some(restitution)),
+        line("friction", friction),
+        line("rolling_friction", rolling),
+        line("spinning_friction", spinning),
+        line("tangential_restitution", tangential),
+    ]
+    .concat()
+}
+
+fn simulation(drawn: &Drawn) -> String {
+    let (rule, width) = (drawn.rule, 2.0 * HALF);
+    let mut text = format!("[simulation]\nrule = \"{rule}\"\nframe_time = {FRAME_TIME:?}\n");
+    if drawn.around.kind == "periodic" {
+        text += &format!(
+            "boundary = {{ periodic = {{ size = [{width:?}, {width:?}, {width:?}] }} }}\n"
+        );
+    }
+    for choice in &drawn.choices {
+        text += &format!("{choice}\n");
+    }
+    text
+}
+
+/// What all moves with, besides its own velocity \[m/s\].
+fn velocity_of_all(drawn: &Drawn) -> Vector {
+    drawn.around.velocity.unwrap_or_default()
+}
+
+fn ball(drawn: &Drawn, placed: &Placed, material: &str) -> String {
+    let Placed { position, radius, ball } = placed;
+    let (mass, velocity) = (10f64.powf(ball.mass), sum(ball.velocity, velocity_of_all(drawn)));
+    let spin = ball.spin.map_or(String::new(), |it| format!("angular_velocity = {it:?}\n"));
+    format!(
+        "[[spheres]]\nposition = {position:?}\nvelocity = {velocity:?}\nradius = {radius:?}\n\
+         mass = {mass:?}\ninertia_factor = {:?}\n{spin}{material}",
+        ball.inertia
+    )
+}
+
+fn springs(springs: &Springs, balls: usize) -> String {
+    let Springs { stiffness, damping, only_pulls, has_anchor } = springs;
+    let stiffness = 10f64.powf(*stiffness);
+    let to_middle =
+        (*has_anchor && balls > 0).then(|| "sphere = 0\nanchor = [0.0, 0.0, 0.0]".to_owned());
+    let along = (balls > 1).then(|| format!("chain = [0, {}]", balls - 1));
+    let spring = |ends: String| {
+        format!(
+            "[[springs]]\n{ends}\nstiffness = {stiffness:?}\ndamping = {damping:?}\n\
+             only_pulls = {only_pulls}\n"
+        )
+    };
+    to_middle.into_iter().chain(along).map(spring).collect()
+}
+
+/// Motion of a collider, of its own or with all others.
+fn motion(drawn: &Drawn, velocity: Option<Vector>, spin: Option<Vector>) -> String {
+    let velocity = sum(velocity.unwrap_or_default(), velocity_of_all(drawn));
+    let lines = [("velocity", velocity), ("angular_velocity", spin.unwrap_or_default())];
+    let moving = lines.into_iter().filter(|(_, it)| *it != [0.0; 3]);
+    moving.map(|(name, it)| format!("{name} = {it:?}\n")).collect()
+}
+
+fn around(drawn: &Drawn, material: &str) -> String {
+    let (around, width) = (&drawn.around, 2.0 * HALF);
+    let motion = motion(drawn, None, around.spin);
+    match around.kind {
+        "container" => {
+            let open = if around.open.is_empty() {
+                String::new()
+            } else {
+                format!(", open = {}", around.open)
+            };
+            format!(
+                "[[colliders]]\nshape = {{ container = {{ size = [{width:?}, {width:?}, {width:?}]{open} }} }}\n\
+                 rotation = {{ euler_degrees = {:?} }}\n{motion}{material}",
+                around.turn
+            )
+        }
+        "half-spaces" => [[0.0, 1.0, 0.0], [0.6, 0.8, 0.0], [0.0, 0.3, -1.0]]
+            .map(|normal: Vector| {
+                let place = (-HALF * DVec3::from_array(normal).normalize()).to_array();
+                format!(
+                    "[[colliders]]\nshape = \"half-space\"\nposition = {place:?}\n\
+                     rotation = {{ normal = {normal:?} }}\n{motion}{material}"
+                )
+            })
+            .concat(),
+        _ => String::new(),
+    }
+}
+
+/// Width of a box of the floor \[m\].
+const TILE: f64 = 0.4;
+/// Height of its top in the container, before that is turned \[m\].
+const FLOOR: f64 = -0.6;
+
+/// Boxes side by side, below the balls that are in the middle of the container, on which some come to lie.
+fn floor(drawn: &Drawn, material: &str) -> String {
+    let turn = drawn.around.turn;
+    let motion = motion(drawn, None, None);
+    let [x, y, z] = turn.map(f64::to_radians);
+    let rotation =
+        DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x) * DQuat::from_rotation_z(z);
+    let tile = |number: i32| {
+        let center = DVec3::new(TILE * f64::from(number), FLOOR - 0.2, 0.0);
+        let place = (rotation * center).to_array();
+        format!(
+            "[[colliders]]\nshape = {{ box = {{ size = [{TILE:?}, 0.4, 2.0] }} }}\n\
+             position = {place:?}\nrotation = {{ euler_degrees = {turn:?} }}\n{motion}{material}"
+        )
+    };
+    (-3..=3).map(tile).collect()
+}
+
+fn emitter(drawn: &Drawn, emitter: &Emitter) -> String {
+    let Emitter { period, count, is_ring, needs_room } = emitter;
+    let limit = if *is_ring { "max_spheres" } else { "count" };
+    let restitution = drawn.material.restitution;
+    let velocity = sum([0.0, 2.0, 1.0], velocity_of_all(drawn));
+    format!(
+        "[[emitters]]\nperiod = {period:?}\n{limit} = {count}\nneeds_room = {needs_room}\n\
+         sphere = {{ radius = 0.1, mass = 1.0, velocity = {velocity:?}, restitution = {restitution:?} }}\n"
+    )
+}
+
+fn obstacle(drawn: &Drawn, obstacle: &Obstacle, material: &str) -> String {
+    let Obstacle { shape, position, turn, velocity, spin, is_trigger } = obstacle;
+    let motion = motion(drawn, *velocity, *spin);
+    let trigger = if *is_trigger { "trigger = true\n" } else { "" };
+    format!(
+        "[[colliders]]\nshape = {shape}\nposition = {position:?}\n\
+         rotation = {{ euler_degrees = {turn:?} }}\n{motion}{trigger}{material}"
+    )
+}
