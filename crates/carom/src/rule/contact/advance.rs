@@ -8,16 +8,14 @@ use super::row::{self, BOUNDLESS};
 use super::slots::Run;
 use super::solver::{Bounce, Solver};
 use super::sub_step::SubStep;
-use super::surfaces;
 use crate::lanes::{LANES, Lanes};
 use crate::real::Vector;
-use crate::system::System;
 
 /// An impact has made a sphere faster whose squared speed has grown by more than this factor: far more than
 /// rounding, and less than margins allow for.
 const FASTER: f64 = 1.01;
 
-/// Moves spheres and surfaces over the sub-step.
+/// Moves spheres over the sub-step.
 ///
 /// A sphere that bears something moves by its last velocity. One that nothing touches flies on a parabola,
 /// and one that bounces on two, which meet at the impact.
@@ -25,7 +23,7 @@ const FASTER: f64 = 1.01;
 /// No sphere leaves the margin within which its neighbours are known: one that an impact has made so fast
 /// is late by the rest of its way. One that impacts have only turned round is not taken along by the motion
 /// that all have in common: that would take it through walls.
-pub(super) fn advance(system: &System, solver: &mut Solver, sub_step: &SubStep) {
+pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep) {
     solver.drift = solver.drift.after(sub_step.h);
     let Solver { slots, slabs, bounces, drift, .. } = solver;
     let common = drift.way;
@@ -47,10 +45,6 @@ pub(super) fn advance(system: &System, solver: &mut Solver, sub_step: &SubStep) 
             *turn = turn.with_vector(turn.vector() + spin.vector());
         }
     });
-    if solver.has_moving_surfaces {
-        let end = sub_step.time + sub_step.h;
-        surfaces::places_after(system.surfaces, end, &mut solver.places);
-    }
 }
 
 #[inline(always)]

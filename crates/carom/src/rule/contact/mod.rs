@@ -11,6 +11,7 @@
 //! 6. **Keep energy.** Where impulses would add kinetic energy, less of them is taken.
 //! 7. **Advance.** Positions follow the velocities.
 //! 8. **Correct.** Overlaps are reduced, without a change of velocities.
+//! 9. **Hold.** Where a centre would still pass a surface, it is held back.
 
 mod accelerate;
 mod advance;
@@ -26,6 +27,7 @@ mod energy;
 mod found;
 mod frame;
 mod gather;
+mod guard;
 mod impacts;
 mod kept;
 mod kernel;
@@ -33,6 +35,7 @@ mod listing;
 mod materials;
 mod neighbours;
 mod order;
+mod places;
 mod row;
 mod search;
 mod slab;
@@ -46,6 +49,7 @@ mod swept;
 mod wake;
 
 pub(crate) use apart::{Nearness, bearing, nearness};
+pub(crate) use guard::{Passage, held};
 pub(crate) use listing::persistent_contacts;
 pub(crate) use solver::{Scratch, Solver};
 
@@ -118,6 +122,7 @@ fn sub_step(
 ) {
     let h = frame.h / f64::from(parameters.sub_steps);
     wake::touched(system, solver, h);
+    solver.places.begin_sub_step(system.surfaces, f64::from(number) * h + h);
     let sub_step = accelerate::accelerate(system, frame.time, h, number, solver);
     if solver.is_stale {
         neighbours::search(system, frame, &sub_step, solver, scratch, report);
@@ -127,6 +132,8 @@ fn sub_step(
     energy::keep(solver, &sub_step, report);
     impacts::report(system, solver, &sub_step, report);
     bounces::note(solver, &sub_step, report);
-    advance::advance(system, solver, &sub_step);
+    advance::advance(solver, &sub_step);
     solve::correct(solver, report);
+    guard::hold(system, solver, &sub_step, report);
+    solver.places.end_sub_step();
 }
