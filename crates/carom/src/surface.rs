@@ -59,6 +59,16 @@ impl SurfaceMotion {
         self.angular_velocity != DVec3::ZERO
     }
 
+    /// Acceleration \[m/s²\], as seen from the surface, of what flies at a point without forces, with this velocity \[m/s\].
+    pub fn swing(&self, point: DVec3, velocity: DVec3) -> DVec3 {
+        if !self.turns() {
+            return DVec3::ZERO;
+        }
+        let turning = self.angular_velocity;
+        let beside = velocity - self.velocity_at(point);
+        -turning.cross(2.0 * beside + turning.cross(point - self.origin))
+    }
+
     /// A direction that turns along, after `h` \[s\].
     pub fn turned(&self, direction: DVec3, h: f64) -> DVec3 {
         if !self.turns() {

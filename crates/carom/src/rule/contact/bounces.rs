@@ -11,7 +11,7 @@ use super::solver::{Bounce, Solver, Turn};
 use super::sub_step::SubStep;
 use super::swept::FAR;
 use crate::contact_time;
-use crate::detect::{Separation, sphere_surface};
+use crate::detect::{Separation, known_in_front, sphere_surface};
 use crate::flight::Flight;
 use crate::report::StepReport;
 
@@ -174,8 +174,8 @@ struct Leg {
 struct Stop {
     /// Since the leg began \[s\].
     time: f64,
-    /// How the surface moves along its normal, and takes the sphere along \[m/s\].
-    carries: DVec3,
+    /// Where the surface, as it moves along its normal, takes the sphere by the end of the leg \[m\].
+    end: DVec3,
 }
 
 impl Stop {
@@ -210,8 +210,13 @@ impl Leg {
         if !self.goes_far(slots, slabs, places) {
             return None;
         }
-        let free = slabs.surfaces_of(self.slot).filter(|contact| contact.impulses.normal == 0.0);
-        Stop::first(free.filter_map(|it| self.meets(slots, places.at_start(it.surface))))
+        // One that turns may catch up with what has just bounced off it.
+        let stops = slabs.surfaces_of(self.slot).filter_map(|contact| {
+            let place = places.at_start(contact.surface);
+            let may_be_met = contact.impulses.normal == 0.0 || place.1.turns();
+            may_be_met.then(|| self.meets(slots, place))?
+        });
+        Stop::first(stops)
     }
 
     /// Where the sphere comes to a surface that it would pass with its centre, also one that bears it: the
@@ -226,38 +231,47 @@ impl Leg {
             let (form, motion) = place.1.carry(&place.0, self.start);
             let Flight { position, velocity, .. } = self.flight;
             let Separation { distance, normal, point } = sphere_surface(&form, position, radius)?;
-            let carries = motion.velocity_at(point).dot(normal) * normal;
-            let speed = -(velocity - carries).dot(normal);
+            let speed = -(velocity - motion.velocity_at(point)).dot(normal);
             let is_passed = speed > 0.0 && self.duration * speed > distance + radius;
-            is_passed.then(|| Stop { time: distance.max(0.0) / speed, carries })
+            is_passed.then(|| self.stop(distance.max(0.0) / speed, radius, place))
         });
         Stop::first(stops)
     }
 
     /// Where the sphere comes to a surface.
-    fn meets(&self, slots: &Slots, (form, motion): &Place) -> Option<Stop> {
-        let Self { slot, start, flight, duration } = self;
-        let radius = slots.position[*slot].number();
-        let (form, motion) = motion.carry(form, *start);
-        let time = contact_time::sphere_surface(flight, radius, &form, &motion, *duration)?;
-        let carries = if motion.is_at_rest() {
-            DVec3::ZERO
+    fn meets(&self, slots: &Slots, place: &Place) -> Option<Stop> {
+        let radius = slots.position[self.slot].number();
+        let (form, motion) = place.1.carry(&place.0, self.start);
+        let time =
+            contact_time::sphere_surface(&self.flight, radius, &form, &motion, self.duration);
+        Some(self.stop(time?, radius, place))
+    }
+
+    /// The stop of the sphere after a time \[s\] of the leg, at a surface.
+    fn stop(&self, time: f64, radius: f64, (form, motion): &Place) -> Stop {
+        let (place, rest) = (self.flight.after(time).0, self.duration - time);
+        let end = if motion.is_at_rest() {
+            place
+        } else if motion.turns() {
+            let (form, _) = motion.carry(form, self.start + self.duration);
+            let found = known_in_front(&form, place, radius);
+            found.map_or(place, |it| place - it.distance * it.normal)
         } else {
-            let (form, motion) = motion.carry(&form, time);
-            let found = sphere_surface(&form, flight.after(time).0, radius);
-            found.map_or(DVec3::ZERO, |it| motion.velocity_at(it.point).dot(it.normal) * it.normal)
+            let (form, motion) = motion.carry(form, self.start + time);
+            let found = sphere_surface(&form, place, radius);
+            place
+                + found.map_or(DVec3::ZERO, |it| rest * motion.velocity.dot(it.normal) * it.normal)
         };
-        Some(Stop { time, carries })
+        Stop { time, end }
     }
 
     /// What becomes of the sphere if it stops on this leg, and goes along with what it stops at, where nothing
     /// else touches it in the sub-step or something does.
     fn stopped(&self, slots: &Slots, stop: Stop, sub_step: &SubStep, is_alone: bool) -> Bounce {
-        let Self { slot, start: start_time, flight, duration } = self;
+        let Self { slot, start: start_time, flight, .. } = self;
         let [start, last] = [slots.position[*slot], slots.velocity[*slot]].map(Row::vector);
-        let (place, velocity) = flight.after(stop.time);
-        let end = place + (duration - stop.time) * stop.carries;
-        let shift = end - start - sub_step.h * last;
+        let velocity = flight.velocity_at(stop.time);
+        let shift = stop.end - start - sub_step.h * last;
         let turn = is_alone.then_some(Turn { time: *start_time, place: flight.position });
         Bounce { slot: *slot as u32, shift, velocity, is_alone, is_at_surface: true, turn }
     }

@@ -35,6 +35,8 @@ pub(super) struct SurfaceContact {
     pub velocity: DVec3,
     /// Angular velocity of the surface \[rad/s\].
     angular_velocity: DVec3,
+    /// How the sphere accelerates beside a surface that turns, without forces \[m/s²\].
+    swing: DVec3,
     /// What the normal velocity is to be after the sub-step at least, with the opposite sign \[m/s\].
     pub bias: f64,
     /// Speed of approach of an impact \[m/s\]; 0 if there is none.
@@ -60,6 +62,7 @@ impl SurfaceContact {
             is_slow: false,
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
+            swing: DVec3::ZERO,
             bias: FREE,
             approach: 0.0,
             slip: DVec3::ZERO,
@@ -145,6 +148,7 @@ impl SurfaceContact {
         }
         self.start = center;
         self.angular_velocity = motion.angular_velocity;
+        self.swing = motion.swing(center, before);
         (self.approach, self.bias) = (0.0, FREE);
         let separation = sphere_surface(form, center, radius);
         if let Some(Separation { distance, normal, point }) = separation {
@@ -176,12 +180,13 @@ impl SurfaceContact {
         let slot = self.slot as usize;
         let speed = -(run.before[slot].vector() - self.velocity).dot(self.normal);
         let pressing = -run.acceleration[slot].vector().dot(self.normal);
+        let along = (pressing - self.swing.dot(self.normal)).max(0.0);
         let threshold = if self.impulses.normal > 0.0 {
-            sub_step.resting_speed
+            sub_step.resting_speed + sub_step.resting_speed_at(self.swing)
         } else if run.bears[slot] {
-            sub_step.shaken_speed(pressing.max(0.0))
+            sub_step.shaken_speed(along)
         } else {
-            sub_step.surface_impact_speed(pressing.max(0.0))
+            sub_step.surface_impact_speed(along)
         };
         let fall = 0.5 * pressing * sub_step.h;
         if speed > threshold && distance < sub_step.h * (speed + fall) {
@@ -221,6 +226,14 @@ impl SurfaceContact {
         let pressing = -flight.acceleration.dot(self.normal);
         self.bias = approach.max(0.0) * time / sub_step.h;
         self.note_impact(approach.max(0.0), pressing, time, sub_step);
+        if motion.turns() && self.bias >= 0.0 && is_flat(form, separation.normal) {
+            // It stays at the plane, which turns on.
+            let height = (flight.position - separation.point).dot(separation.normal);
+            let plane = (separation.normal, separation.point);
+            (self.normal, self.velocity) =
+                turning_plane(motion, plane, (flight.position, height), sub_step.h);
+            self.bias = (height - radius).max(0.0) / sub_step.h;
+        }
     }
 
     /// Has the contact keep a sphere that meets nothing out of the surface near the end of its way, should
@@ -247,6 +260,7 @@ impl SurfaceContact {
     /// sphere, which accelerates towards the surface \[m/s²\], is still leaving it at the end.
     fn note_impact(&mut self, approach: f64, pressing: f64, time: f64, sub_step: &SubStep) {
         self.approach = approach;
+        let pressing = pressing - self.swing.dot(self.normal);
         let rebound = self.restitution * approach - pressing * (sub_step.h - time);
         // What bears something already does not bounce: it would lose the impulse to start from.
         if rebound > 0.0 && self.impulses.normal == 0.0 {
@@ -274,7 +288,8 @@ impl SurfaceContact {
     fn start(&mut self, mass: f64, sub_step: &SubStep) {
         let Impulses { normal, previous, .. } = &mut self.impulses;
         let carried = *normal;
-        let most = *previous * GROWTH + mass * sub_step.growth;
+        let growth = sub_step.growth + sub_step.growth_at(self.swing);
+        let most = *previous * GROWTH + mass * growth;
         *previous = carried;
         *normal = if self.bias == FREE { 0.0 } else { carried.min(most) };
     }
