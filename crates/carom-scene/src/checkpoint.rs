@@ -13,7 +13,7 @@ use crate::scene::Scene;
 /// What the bytes of a checkpoint begin with.
 const MAGIC: &[u8; 8] = b"carom\x1a\r\n";
 /// The version of Carom, and of the layout of states within it: another layout is another number.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "/5");
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "/6");
 
 /// A world at one moment, with what is known of it besides.
 ///

@@ -1,7 +1,7 @@
 //! The rule `contact`: sub-steps, in each of which the contacts of all spheres are solved together
 //! (`docs/physics/contact.md`).
 //!
-//! A frame is cut into sub-steps of equal length. Each goes through these stages:
+//! A frame is cut into sub-steps of equal length, more where forces or turning surfaces do much in one. Each goes through these stages:
 //!
 //! 1. **Wake.** What something is about to hit wakes.
 //! 2. **Accelerate.** Velocities gain what forces give them.
@@ -36,6 +36,7 @@ mod materials;
 mod neighbours;
 mod order;
 mod places;
+mod resolution;
 mod row;
 mod search;
 mod slab;
@@ -51,6 +52,7 @@ mod wake;
 pub(crate) use apart::{Nearness, bearing, nearness};
 pub(crate) use guard::{Passage, held};
 pub(crate) use listing::persistent_contacts;
+pub(crate) use resolution::{TURN, turning_rate};
 pub(crate) use solver::{Scratch, Solver};
 
 use glam::DVec3;
@@ -86,7 +88,9 @@ pub(crate) fn step(
     let work = Work::new(stop_request);
     solver.sleep_speed = parameters.sleep_speed;
     frame::begin(system, motion, solver);
-    for number in 0..parameters.sub_steps {
+    let sub_steps = resolution::sub_steps(solver, parameters.sub_steps, frame.h);
+    let parameters = parameters.with_sub_steps(sub_steps);
+    for number in 0..sub_steps {
         if !work.spend(UNITS_PER_SPHERE * solver.slots.len() as u64) {
             return false;
         }

@@ -1,5 +1,6 @@
 //! Where surfaces are at both ends of a sub-step.
 
+use super::resolution;
 use crate::detect::sphere_surface;
 use crate::surface::{Form, Role, Surface, SurfaceMotion};
 
@@ -65,6 +66,12 @@ impl Places {
     pub fn at_end(&self, surface: u32) -> &Place {
         let ends = if self.ends.is_empty() { &self.starts } else { &self.ends };
         &ends[surface as usize]
+    }
+
+    /// How fast the fastest of them turns \[rad/s\].
+    pub fn turning_rate(&self) -> f64 {
+        let places = self.moving.iter().map(|&number| self.at_start(number));
+        places.map(|(form, motion)| resolution::turning_rate(form, motion)).fold(0.0, f64::max)
     }
 
     /// The highest speed \[m/s\] at which a moving surface may come to a sphere with this centre \[m\], radius \[m\]
