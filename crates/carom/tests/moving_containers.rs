@@ -3,8 +3,6 @@
 
 mod common;
 
-use std::ops::Range;
-
 use carom::{
     Collider, Contact, DQuat, DVec3, Exact, Friction, Gravity, Pose, Rule, Settings, Shape, Sides,
     Sphere, World,
@@ -279,19 +277,21 @@ fn fault(rule: Rule, seed: u64) -> Option<String> {
     None
 }
 
-fn check(rule: Rule, seeds: Range<u64>) {
+fn check(rule: Rule, seeds: impl Iterator<Item = u64>) {
     let faults: Vec<_> = seeds.filter_map(|seed| fault(rule, seed)).collect();
     assert!(faults.is_empty(), "{}: {faults:#?}", faults.len());
 }
 
 #[test]
 fn nobody_leaves_two_hundred_boxes() {
-    check(contact(), 0..200);
+    // The last ones bounce off one wall and would have passed another one before.
+    check(contact(), (0..200).chain([493, 711, 1884, 9783]));
 }
 
 #[test]
 fn nobody_leaves_two_hundred_boxes_with_zones() {
-    check(exact(), 0..200);
+    // The last one bounces off one wall and would have passed another one before.
+    check(exact(), (0..200).chain([662]));
 }
 
 #[test]

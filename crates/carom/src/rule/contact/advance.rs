@@ -40,7 +40,8 @@ pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep) {
             let found = bounces.binary_search_by_key(&slot, |bounce| bounce.slot);
             found.is_ok_and(|place| bounces[place].is_at_surface)
         };
-        dispatch!(Level::new(), simd => stay_within_margin(simd, run, common, is_free));
+        slab.found.leaves =
+            dispatch!(Level::new(), simd => stay_within_margin(simd, run, common, is_free));
         for (turn, spin) in run.turn.iter_mut().zip(&*run.spin) {
             *turn = turn.with_vector(turn.vector() + spin.vector());
         }
@@ -81,14 +82,15 @@ fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) {
 }
 
 /// Keeps spheres that an impact has made faster within their margins beside the common way \[m\], but for
-/// those that are free, by slot.
+/// those that are free, by slot. Tells whether one has left its margin.
 #[inline(always)]
 fn stay_within_margin<S: Simd>(
     simd: S,
     run: &mut Run,
     common: DVec3,
     is_free: impl Fn(usize) -> bool,
-) {
+) -> bool {
+    let mut leaves = false;
     let commons = Vector::all(simd, common);
     for first in (0..run.position.len()).step_by(LANES) {
         let (position, _) = row::columns(simd, run.position, first);
@@ -105,10 +107,14 @@ fn stay_within_margin<S: Simd>(
             let length_squared = way.length_squared();
             let [before, now] = [run.before[slot], run.velocity[slot]].map(|row| row.vector());
             let is_faster = now.length_squared() > FASTER * before.length_squared();
-            if length_squared > margin * margin && is_faster && !is_free(slot) {
+            let is_beyond = length_squared > margin * margin;
+            let is_late = is_beyond && is_faster && !is_free(slot);
+            leaves |= is_beyond && !is_late;
+            if is_late {
                 let end: DVec3 = origin + way * (margin / length_squared.sqrt());
                 *position = position.with_vector(end);
             }
         }
     }
+    leaves
 }

@@ -23,6 +23,8 @@ const LEAST_IN_FRONT: f64 = 0.5;
 /// A way that passes an edge by less than this part of the radius passes the face: between two faces that
 /// share it there is no gap, however the numbers round. No centre comes so near to an edge otherwise.
 const BESIDE: f64 = 0.01;
+/// Where spheres overlap by more than this part of the sum of radii, a correction may take them far.
+const FAR_APART: f64 = 0.02;
 /// In corners one surface may push a sphere into another so often.
 const ROUNDS: usize = 16;
 
@@ -34,7 +36,8 @@ pub(super) fn hold(
     report: &mut StepReport,
 ) {
     let Solver { slots, slabs, places, bounces, drift, .. } = solver;
-    let guard = Guard { system, places, bounces, common: drift.way, h: sub_step.h };
+    let go_astray = slabs.iter().any(|it| it.found.leaves || it.found.overlap > FAR_APART);
+    let guard = Guard { system, places, bounces, common: drift.way, h: sub_step.h, go_astray };
     slabs.each(slots, |mut run, slab| {
         let Found { energy, squeezed, .. } = guard.hold_all(&mut run, slab);
         (slab.found.energy, slab.found.squeezed) = (energy, squeezed);
@@ -53,63 +56,107 @@ struct Guard<'a> {
     common: DVec3,
     /// Length of the sub-step \[s\].
     h: f64,
+    /// Whether a sphere may have come to surfaces with which it has no contact.
+    go_astray: bool,
 }
 
 impl Guard<'_> {
     /// Holds back the spheres of a slab. Finds the work that takes, and how many there were.
     fn hold_all(&self, run: &mut Run, slab: &Slab) -> Found {
         let mut found = Found::default();
-        let of_spheres = slab.surfaces.chunk_by(|first, second| first.slot == second.slot);
-        for contacts in of_spheres {
+        let mut go_to = |run: &mut Run, slot: usize, end: Option<DVec3>| {
+            let Some(end) = end else { return };
+            let way = end - run.position[slot].vector();
+            found.energy += surfaces::move_by(run, slot, way);
+            found.squeezed += 1;
+        };
+        for contacts in slab.surfaces.chunk_by(|first, second| first.slot == second.slot) {
             let slot = contacts[0].slot as usize;
-            if let Some(end) = self.held(run, slab.start, contacts) {
-                let way = end - run.position[slot].vector();
-                found.energy += surfaces::move_by(run, slot, way);
-                found.squeezed += 1;
+            if !self.is_astray(run, slot) {
+                let end = self.held_by_contacts(run, slab.start, contacts);
+                go_to(run, slot, end);
+            }
+        }
+        if self.go_astray {
+            for slot in (0..run.position.len()).filter(|&slot| !run.sleeps[slot]) {
+                if self.is_astray(run, slot) {
+                    let first = slab.surfaces.partition_point(|it| (it.slot as usize) < slot);
+                    let own = slab.surfaces.get(first).filter(|it| it.slot as usize == slot);
+                    // Where it was found, it was in front of what it has no contact with.
+                    let start = own.map_or(run.reference[slot].vector(), |it| it.start);
+                    let way = (start, self.turn_of(slab.start + slot));
+                    let end = self.held(run, slot, way, &self.all_surfaces());
+                    go_to(run, slot, end);
+                }
             }
         }
         found
     }
 
     /// Where a sphere is held, by its contacts.
-    fn held(&self, run: &Run, first: usize, contacts: &[SurfaceContact]) -> Option<DVec3> {
+    fn held_by_contacts(
+        &self,
+        run: &Run,
+        first: usize,
+        contacts: &[SurfaceContact],
+    ) -> Option<DVec3> {
         let slot = contacts[0].slot as usize;
         let (end, radius) = (run.position[slot].vector(), run.position[slot].number());
         let turn = self.turn_of(first + slot);
-        let is_beyond = self.is_beyond_margin(run, slot);
-        if turn.is_none() && !is_beyond {
-            let passes = |contact: &SurfaceContact| {
-                let centers = [contact.start, end];
-                let way = self.way(contact.surface, centers);
-                way.pushed(LEAST_IN_FRONT * radius, BESIDE * radius).is_some()
-            };
-            if !contacts.iter().any(passes) {
-                return None;
-            }
-        }
-        let Turn { time, place } = turn.unwrap_or(Turn { time: 0.0, place: contacts[0].start });
-        let surfaces: Vec<u32> = if is_beyond {
-            let deflects = |it: &u32| self.system.surfaces[*it as usize].role == Role::Deflects;
-            (0..self.places.len() as u32).filter(deflects).collect()
-        } else {
-            contacts.iter().map(|contact| contact.surface).collect()
+        let passes = |contact: &SurfaceContact| {
+            let forms =
+                [&self.places.at_start(contact.surface).0, &self.places.at_end(contact.surface).0];
+            let way = Way { forms, centers: [contact.start, end] };
+            way.pushed(LEAST_IN_FRONT * radius, BESIDE * radius).is_some()
         };
-        let passages: Vec<_> = surfaces
-            .iter()
-            .map(|&number| {
-                let (form, motion) = self.places.at_start(number);
-                let (before, motion) = motion.carry(form, time);
-                let carried = motion.carried(place, self.h - time);
-                Passage { before, after: self.places.at_end(number).0, carried }
-            })
-            .collect();
-        held(&passages, [place, end], radius)
+        if turn.is_none() && !contacts.iter().any(passes) {
+            return None;
+        }
+        let surfaces: Vec<u32> = contacts.iter().map(|contact| contact.surface).collect();
+        self.held(run, slot, (contacts[0].start, turn), &surfaces)
     }
 
-    /// The way of a centre past a surface.
-    fn way(&self, surface: u32, centers: [DVec3; 2]) -> Way<'_> {
-        let forms = [&self.places.at_start(surface).0, &self.places.at_end(surface).0];
-        Way { forms, centers }
+    /// Where a sphere is held that goes straight to where it turned round, and from there to its end.
+    fn held(
+        &self,
+        run: &Run,
+        slot: usize,
+        (start, turn): (DVec3, Option<Turn>),
+        surfaces: &[u32],
+    ) -> Option<DVec3> {
+        let (end, radius) = (run.position[slot].vector(), run.position[slot].number());
+        let leg = |[from, to]: [f64; 2], centers| {
+            held(&self.passages(surfaces, [from, to], centers), centers, radius)
+        };
+        // One that would have passed something before it turned round did not come there.
+        let turn = turn.filter(|it| leg([0.0, it.time], [start, it.place]).is_none());
+        let Turn { time, place } = turn.unwrap_or(Turn { time: 0.0, place: start });
+        leg([time, self.h], [place, end])
+    }
+
+    /// How a centre \[m\] goes past surfaces between two times of the sub-step \[s\].
+    fn passages(
+        &self,
+        surfaces: &[u32],
+        [from, to]: [f64; 2],
+        [start, _]: [DVec3; 2],
+    ) -> Vec<Passage> {
+        let passage = |&number: &u32| {
+            let place = self.places.at_start(number);
+            let (before, motion) = place.1.carry(&place.0, from);
+            let carried = motion.carried(start, to - from);
+            let is_whole = to == self.h;
+            let after =
+                if is_whole { self.places.at_end(number).0 } else { place.1.carry(&place.0, to).0 };
+            Passage { before, after, carried }
+        };
+        surfaces.iter().map(passage).collect()
+    }
+
+    /// The numbers of all surfaces that deflect.
+    fn all_surfaces(&self) -> Vec<u32> {
+        let deflects = |it: &u32| self.system.surfaces[*it as usize].role == Role::Deflects;
+        (0..self.places.len() as u32).filter(deflects).collect()
     }
 
     /// Where a sphere turned round, by its slot.
@@ -118,12 +165,14 @@ impl Guard<'_> {
         found.ok().and_then(|place| self.bounces[place].turn)
     }
 
-    /// Whether a sphere may have come to surfaces with which it has no contact.
-    fn is_beyond_margin(&self, run: &Run, slot: usize) -> bool {
+    /// Whether a sphere has left the margin within which its surfaces are known.
+    fn is_astray(&self, run: &Run, slot: usize) -> bool {
+        if !self.go_astray {
+            return false;
+        }
         let Some(reference) = run.reference.get(slot) else { return false };
-        let (center, margin) = (run.position[slot].vector(), reference.number());
-        let way = center - reference.vector() - self.common;
-        way.length_squared() > margin * margin
+        let way = run.position[slot].vector() - reference.vector() - self.common;
+        way.length_squared() > reference.number() * reference.number()
     }
 }
 
