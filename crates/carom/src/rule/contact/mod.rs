@@ -52,7 +52,8 @@ mod wake;
 pub(crate) use apart::{Nearness, bearing, nearness};
 pub(crate) use guard::{Passage, held};
 pub(crate) use listing::persistent_contacts;
-pub(crate) use resolution::{TURN, turning_rate};
+pub(crate) use places::turning_rate;
+pub(crate) use resolution::TURN;
 pub(crate) use solver::{Scratch, Solver};
 
 use glam::DVec3;

@@ -1,10 +1,9 @@
 //! Where surfaces are at both ends of a sub-step.
 
-use super::resolution;
+use glam::DVec3;
+
 use crate::detect::sphere_surface;
 use crate::surface::{Form, Role, Surface, SurfaceMotion};
-
-use glam::DVec3;
 
 /// Where a surface is, and how it moves.
 pub(super) type Place = (Form, SurfaceMotion);
@@ -71,7 +70,7 @@ impl Places {
     /// How fast the fastest of them turns \[rad/s\].
     pub fn turning_rate(&self) -> f64 {
         let places = self.moving.iter().map(|&number| self.at_start(number));
-        places.map(|(form, motion)| resolution::turning_rate(form, motion)).fold(0.0, f64::max)
+        places.map(|(form, motion)| turning_rate(form, motion)).fold(0.0, f64::max)
     }
 
     /// The highest speed \[m/s\] at which a moving surface may come to a sphere with this centre \[m\], radius \[m\]
@@ -92,4 +91,14 @@ impl Places {
 fn place_all(surfaces: &[Surface], time: f64, places: &mut Vec<Place>) {
     places.clear();
     places.extend(surfaces.iter().map(|surface| surface.after(time)));
+}
+
+/// How fast a surface changes by turning \[rad/s\].
+pub(crate) fn turning_rate(form: &Form, motion: &SurfaceMotion) -> f64 {
+    match form {
+        // Of a collider of its own, about its centre.
+        Form::Sphere { .. } => 0.0,
+        Form::HalfSpace { normal, .. } => motion.angular_velocity.cross(*normal).length(),
+        Form::Rectangle(_) | Form::Box(_) => motion.angular_velocity.length(),
+    }
 }

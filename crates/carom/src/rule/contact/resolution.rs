@@ -1,7 +1,6 @@
 //! How finely time is cut: sub-steps short enough for what forces and turning surfaces do in one.
 
 use super::solver::Solver;
-use crate::surface::{Form, SurfaceMotion};
 
 /// In a sub-step of the length h, what accelerates with a from rest goes by h² a: by no more than the square of
 /// this part of its radius.
@@ -26,14 +25,4 @@ pub(super) fn sub_steps(solver: &Solver, least: u32, frame: f64) -> u32 {
         number = number.saturating_mul(2);
     }
     number
-}
-
-/// How fast a surface changes by turning \[rad/s\].
-pub(crate) fn turning_rate(form: &Form, motion: &SurfaceMotion) -> f64 {
-    match form {
-        // Of a collider of its own, about its centre.
-        Form::Sphere { .. } => 0.0,
-        Form::HalfSpace { normal, .. } => motion.angular_velocity.cross(*normal).length(),
-        Form::Rectangle(_) | Form::Box(_) => motion.angular_velocity.length(),
-    }
 }
