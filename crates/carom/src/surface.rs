@@ -53,6 +53,55 @@ impl SurfaceMotion {
     }
 }
 
+impl SurfaceMotion {
+    /// Whether directions change with it.
+    pub fn turns(&self) -> bool {
+        self.angular_velocity != DVec3::ZERO
+    }
+
+    /// Acceleration \[m/s²\], as seen from the surface, of what flies at a point without forces, with this velocity \[m/s\].
+    pub fn swing(&self, point: DVec3, velocity: DVec3) -> DVec3 {
+        if !self.turns() {
+            return DVec3::ZERO;
+        }
+        let turning = self.angular_velocity;
+        let beside = velocity - self.velocity_at(point);
+        -turning.cross(2.0 * beside + turning.cross(point - self.origin))
+    }
+
+    /// A direction that turns along, after `h` \[s\].
+    pub fn turned(&self, direction: DVec3, h: f64) -> DVec3 {
+        if !self.turns() {
+            return direction;
+        }
+        Pose::at(DVec3::ZERO).moved(DVec3::ZERO, self.angular_velocity, h).rotation * direction
+    }
+
+    /// Where a point \[m\] that moves along is after `h` \[s\].
+    pub fn carried(&self, point: DVec3, h: f64) -> DVec3 {
+        if !self.turns() {
+            return point + h * self.velocity;
+        }
+        self.origin + h * self.velocity + self.turned(point - self.origin, h)
+    }
+
+    /// Where a point \[m\] was that has moved along for `h` \[s\].
+    pub fn carried_back(&self, point: DVec3, h: f64) -> DVec3 {
+        if !self.turns() {
+            return point - h * self.velocity;
+        }
+        self.origin + self.turned(point - h * self.velocity - self.origin, -h)
+    }
+
+    /// Velocity \[m/s\] after `h` \[s\] of the surface at a point that is there then.
+    pub fn velocity_after(&self, point: DVec3, h: f64) -> DVec3 {
+        if !self.turns() {
+            return self.velocity;
+        }
+        self.velocity + self.angular_velocity.cross(point - h * self.velocity - self.origin)
+    }
+}
+
 impl Surface {
     /// Geometry and motion of the surface after `h` \[s\].
     pub fn after(&self, h: f64) -> (Form, SurfaceMotion) {

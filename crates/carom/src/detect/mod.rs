@@ -40,3 +40,11 @@ pub(crate) fn sphere_surface(form: &Form, center: DVec3, radius: f64) -> Option<
         Form::Box(solid) => Some(sphere_box(solid, center, radius)),
     }
 }
+
+/// [`sphere_surface`] of a sphere that has been in front: it may have come behind a rectangle.
+pub(crate) fn known_in_front(form: &Form, center: DVec3, radius: f64) -> Option<Separation> {
+    match form {
+        Form::Rectangle(it) => Some(sphere_rectangle_known_in_front(it, center, radius)),
+        _ => sphere_surface(form, center, radius),
+    }
+}

@@ -6,7 +6,8 @@ use crate::validate;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Contact {
-    /// Sub-steps of a frame, at least 1. Overlaps fall with the square of their length.
+    /// Sub-steps of a frame, at least 1; more are taken where spheres are small or surfaces turn fast. Overlaps fall
+    /// with the square of their length.
     pub sub_steps: u32,
     /// Sweeps over all contacts in a sub-step, at least 1.
     pub sweeps: u32,

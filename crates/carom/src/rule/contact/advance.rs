@@ -8,16 +8,14 @@ use super::row::{self, BOUNDLESS};
 use super::slots::Run;
 use super::solver::{Bounce, Solver};
 use super::sub_step::SubStep;
-use super::surfaces;
 use crate::lanes::{LANES, Lanes};
 use crate::real::Vector;
-use crate::system::System;
 
 /// An impact has made a sphere faster whose squared speed has grown by more than this factor: far more than
 /// rounding, and less than margins allow for.
 const FASTER: f64 = 1.01;
 
-/// Moves spheres and surfaces over the sub-step.
+/// Moves spheres over the sub-step.
 ///
 /// A sphere that bears something moves by its last velocity. One that nothing touches flies on a parabola,
 /// and one that bounces on two, which meet at the impact.
@@ -25,7 +23,7 @@ const FASTER: f64 = 1.01;
 /// No sphere leaves the margin within which its neighbours are known: one that an impact has made so fast
 /// is late by the rest of its way. One that impacts have only turned round is not taken along by the motion
 /// that all have in common: that would take it through walls.
-pub(super) fn advance(system: &System, solver: &mut Solver, sub_step: &SubStep) {
+pub(super) fn advance(solver: &mut Solver, sub_step: &SubStep) {
     solver.drift = solver.drift.after(sub_step.h);
     let Solver { slots, slabs, bounces, drift, .. } = solver;
     let common = drift.way;
@@ -42,15 +40,12 @@ pub(super) fn advance(system: &System, solver: &mut Solver, sub_step: &SubStep) 
             let found = bounces.binary_search_by_key(&slot, |bounce| bounce.slot);
             found.is_ok_and(|place| bounces[place].is_at_surface)
         };
-        dispatch!(Level::new(), simd => stay_within_margin(simd, run, common, is_free));
+        slab.found.leaves =
+            dispatch!(Level::new(), simd => stay_within_margin(simd, run, common, is_free));
         for (turn, spin) in run.turn.iter_mut().zip(&*run.spin) {
             *turn = turn.with_vector(turn.vector() + spin.vector());
         }
     });
-    if solver.has_moving_surfaces {
-        let end = sub_step.time + sub_step.h;
-        surfaces::places_after(system.surfaces, end, &mut solver.places);
-    }
 }
 
 #[inline(always)]
@@ -87,14 +82,15 @@ fn shift_bounced(run: &mut Run, start: usize, bounces: &[Bounce]) {
 }
 
 /// Keeps spheres that an impact has made faster within their margins beside the common way \[m\], but for
-/// those that are free, by slot.
+/// those that are free, by slot. Tells whether one has left its margin.
 #[inline(always)]
 fn stay_within_margin<S: Simd>(
     simd: S,
     run: &mut Run,
     common: DVec3,
     is_free: impl Fn(usize) -> bool,
-) {
+) -> bool {
+    let mut leaves = false;
     let commons = Vector::all(simd, common);
     for first in (0..run.position.len()).step_by(LANES) {
         let (position, _) = row::columns(simd, run.position, first);
@@ -111,10 +107,14 @@ fn stay_within_margin<S: Simd>(
             let length_squared = way.length_squared();
             let [before, now] = [run.before[slot], run.velocity[slot]].map(|row| row.vector());
             let is_faster = now.length_squared() > FASTER * before.length_squared();
-            if length_squared > margin * margin && is_faster && !is_free(slot) {
+            let is_beyond = length_squared > margin * margin;
+            let is_late = is_beyond && is_faster && !is_free(slot);
+            leaves |= is_beyond && !is_late;
+            if is_late {
                 let end: DVec3 = origin + way * (margin / length_squared.sqrt());
                 *position = position.with_vector(end);
             }
         }
     }
+    leaves
 }

@@ -3,22 +3,23 @@
 use glam::DVec3;
 
 use super::batch;
+use super::places::{Place, Places};
 use super::row::Row;
 use super::slab::{Slab, Slabs};
 use super::slots::Slots;
-use super::solver::{Bounce, Solver};
+use super::solver::{Bounce, Solver, Turn};
 use super::sub_step::SubStep;
-use super::surfaces::Place;
 use super::swept::FAR;
 use crate::contact_time;
-use crate::detect::{Separation, sphere_surface};
+use crate::detect::{Separation, known_in_front, sphere_surface};
 use crate::flight::Flight;
 use crate::report::StepReport;
 
 /// A change of velocity is that of a bounce alone up to this part of it.
 const ROUNDING: f64 = 1e-9;
 
-/// A bounce of a sphere off one body.
+/// A bounce of a sphere off one body, or off the walls of a corner at once.
+#[derive(Clone, Copy)]
 struct OneBounce {
     slot: usize,
     /// The other sphere, if it is one.
@@ -30,6 +31,17 @@ struct OneBounce {
 }
 
 impl OneBounce {
+    /// All bounces of a sphere, if that is one: off another sphere, or at one time off surfaces.
+    fn of_all(bounces: &[Self]) -> Option<Self> {
+        let (&first, others) = bounces.split_first()?;
+        let is_same = |it: &Self| it.other.is_none() && it.time == first.time;
+        if !others.is_empty() && !bounces.iter().all(is_same) {
+            return None;
+        }
+        let impulse = others.iter().fold(first.impulse, |sum, it| sum + it.impulse);
+        Some(Self { impulse, ..first })
+    }
+
     /// What the work of its impulse is more \[J\] at its own time than in the middle of the sub-step: forces
     /// change the velocity in between.
     fn work_at_its_time(&self, slots: &Slots, sub_step: &SubStep) -> f64 {
@@ -56,11 +68,8 @@ pub(super) fn note(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
     report.energy_account.contacts += work.sum::<f64>();
     bounces.clear();
     for of_sphere in all.chunk_by(|first, second| first.slot == second.slot) {
-        let own = match of_sphere {
-            [bounce] if !*has_other_forces => alone(slots, bounce, sub_step),
-            _ => None,
-        };
-        if let Some(own) = own {
+        let one = OneBounce::of_all(of_sphere).filter(|_| !*has_other_forces);
+        if let Some(own) = one.and_then(|bounce| alone(slots, &bounce, sub_step)) {
             let stop = own.leg.first_met(slots, slabs, places);
             let stopped = stop.map(|stop| own.leg.stopped(slots, stop, sub_step, true));
             bounces.push(stopped.unwrap_or(own.bounce));
@@ -76,7 +85,7 @@ pub(super) fn note(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
         .filter_map(|slot| {
             let leg = Leg::straight(slots, slot, sub_step);
             let is_pushed = || slots.velocity[slot].vector() != slots.accelerated(slot, sub_step.h);
-            let goes_far = leg.goes_far(slots) && is_pushed();
+            let goes_far = leg.goes_far(slots, slabs, places) && is_pushed();
             let stop = goes_far.then(|| leg.first_passed(slots, slabs, places))??;
             Some(leg.stopped(slots, stop, sub_step, false))
         })
@@ -136,7 +145,9 @@ fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Alone>
     let flight = Flight { position, velocity: arriving + own, ..start };
     let leg = Leg { slot, start: time, flight, duration: sub_step.h - time };
     let (slot, is_at_surface) = (slot as u32, other.is_none());
-    Some(Alone { bounce: Bounce { slot, shift, velocity, is_alone: true, is_at_surface }, leg })
+    let turn = Some(Turn { time, place: position });
+    let bounce = Bounce { slot, shift, velocity, is_alone: true, is_at_surface, turn };
+    Some(Alone { bounce, leg })
 }
 
 /// The change of velocity by an impulse \[m/s\]; `None` if something else changed the sphere's, too.
@@ -163,8 +174,8 @@ struct Leg {
 struct Stop {
     /// Since the leg began \[s\].
     time: f64,
-    /// How the surface moves along its normal, and takes the sphere along \[m/s\].
-    carries: DVec3,
+    /// Where the surface, as it moves along its normal, takes the sphere by the end of the leg \[m\].
+    end: DVec3,
 }
 
 impl Stop {
@@ -181,25 +192,38 @@ impl Leg {
         Self { slot, start: 0.0, flight, duration: sub_step.h }
     }
 
-    /// Whether the sphere goes so far that it may come past a surface.
-    fn goes_far(&self, slots: &Slots) -> bool {
-        self.duration * self.flight.velocity.length() > FAR * slots.position[self.slot].number()
+    /// Whether the sphere goes so far, or a surface near it comes so far, that it may come past that.
+    fn goes_far(&self, slots: &Slots, slabs: &Slabs, places: &Places) -> bool {
+        let Flight { position, velocity, .. } = self.flight;
+        let far = FAR * slots.position[self.slot].number();
+        let is_far = |velocity: DVec3| self.duration * velocity.length() > far;
+        is_far(velocity)
+            || !places.moving().is_empty()
+                && slabs.surfaces_of(self.slot).any(|contact| {
+                    let (_, motion) = places.at_start(contact.surface);
+                    is_far(velocity - motion.velocity_after(position, self.start))
+                })
     }
 
     /// Where the sphere comes to a surface that bears nothing of it.
-    fn first_met(&self, slots: &Slots, slabs: &Slabs, places: &[Place]) -> Option<Stop> {
-        if !self.goes_far(slots) {
+    fn first_met(&self, slots: &Slots, slabs: &Slabs, places: &Places) -> Option<Stop> {
+        if !self.goes_far(slots, slabs, places) {
             return None;
         }
-        let free = slabs.surfaces_of(self.slot).filter(|contact| contact.impulses.normal == 0.0);
-        Stop::first(free.filter_map(|it| self.meets(slots, &places[it.surface as usize])))
+        // One that turns may catch up with what has just bounced off it.
+        let stops = slabs.surfaces_of(self.slot).filter_map(|contact| {
+            let place = places.at_start(contact.surface);
+            let may_be_met = contact.impulses.normal == 0.0 || place.1.turns();
+            may_be_met.then(|| self.meets(slots, place))?
+        });
+        Stop::first(stops)
     }
 
     /// Where the sphere comes to a surface that it would pass with its centre, also one that bears it: the
     /// sweeps may leave it a part of its speed.
-    fn first_passed(&self, slots: &Slots, slabs: &Slabs, places: &[Place]) -> Option<Stop> {
+    fn first_passed(&self, slots: &Slots, slabs: &Slabs, places: &Places) -> Option<Stop> {
         let stops = slabs.surfaces_of(self.slot).filter_map(|contact| {
-            let place = &places[contact.surface as usize];
+            let place = places.at_start(contact.surface);
             if contact.impulses.normal == 0.0 {
                 return self.meets(slots, place);
             }
@@ -207,38 +231,48 @@ impl Leg {
             let (form, motion) = place.1.carry(&place.0, self.start);
             let Flight { position, velocity, .. } = self.flight;
             let Separation { distance, normal, point } = sphere_surface(&form, position, radius)?;
-            let carries = motion.velocity_at(point).dot(normal) * normal;
-            let speed = -(velocity - carries).dot(normal);
+            let speed = -(velocity - motion.velocity_at(point)).dot(normal);
             let is_passed = speed > 0.0 && self.duration * speed > distance + radius;
-            is_passed.then(|| Stop { time: distance.max(0.0) / speed, carries })
+            is_passed.then(|| self.stop(distance.max(0.0) / speed, radius, place))
         });
         Stop::first(stops)
     }
 
     /// Where the sphere comes to a surface.
-    fn meets(&self, slots: &Slots, (form, motion): &Place) -> Option<Stop> {
-        let Self { slot, start, flight, duration } = self;
-        let radius = slots.position[*slot].number();
-        let (form, motion) = motion.carry(form, *start);
-        let time = contact_time::sphere_surface(flight, radius, &form, &motion, *duration)?;
-        let carries = if motion.is_at_rest() {
-            DVec3::ZERO
+    fn meets(&self, slots: &Slots, place: &Place) -> Option<Stop> {
+        let radius = slots.position[self.slot].number();
+        let (form, motion) = place.1.carry(&place.0, self.start);
+        let time =
+            contact_time::sphere_surface(&self.flight, radius, &form, &motion, self.duration);
+        Some(self.stop(time?, radius, place))
+    }
+
+    /// The stop of the sphere after a time \[s\] of the leg, at a surface.
+    fn stop(&self, time: f64, radius: f64, (form, motion): &Place) -> Stop {
+        let (place, rest) = (self.flight.after(time).0, self.duration - time);
+        let end = if motion.is_at_rest() {
+            place
+        } else if motion.turns() {
+            let (form, _) = motion.carry(form, self.start + self.duration);
+            let found = known_in_front(&form, place, radius);
+            found.map_or(place, |it| place - it.distance * it.normal)
         } else {
-            let (form, motion) = motion.carry(&form, time);
-            let found = sphere_surface(&form, flight.after(time).0, radius);
-            found.map_or(DVec3::ZERO, |it| motion.velocity_at(it.point).dot(it.normal) * it.normal)
+            let (form, motion) = motion.carry(form, self.start + time);
+            let found = sphere_surface(&form, place, radius);
+            place
+                + found.map_or(DVec3::ZERO, |it| rest * motion.velocity.dot(it.normal) * it.normal)
         };
-        Some(Stop { time, carries })
+        Stop { time, end }
     }
 
     /// What becomes of the sphere if it stops on this leg, and goes along with what it stops at, where nothing
     /// else touches it in the sub-step or something does.
     fn stopped(&self, slots: &Slots, stop: Stop, sub_step: &SubStep, is_alone: bool) -> Bounce {
-        let Self { slot, flight, duration, .. } = self;
+        let Self { slot, start: start_time, flight, .. } = self;
         let [start, last] = [slots.position[*slot], slots.velocity[*slot]].map(Row::vector);
-        let (place, velocity) = flight.after(stop.time);
-        let end = place + (duration - stop.time) * stop.carries;
-        let shift = end - start - sub_step.h * last;
-        Bounce { slot: *slot as u32, shift, velocity, is_alone, is_at_surface: true }
+        let velocity = flight.velocity_at(stop.time);
+        let shift = stop.end - start - sub_step.h * last;
+        let turn = is_alone.then_some(Turn { time: *start_time, place: flight.position });
+        Bounce { slot: *slot as u32, shift, velocity, is_alone, is_at_surface: true, turn }
     }
 }

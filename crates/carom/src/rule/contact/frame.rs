@@ -9,7 +9,6 @@ use super::row::Row;
 use super::slab::Slabs;
 use super::sleep;
 use super::solver::Solver;
-use super::surfaces;
 use super::wake;
 use crate::bodies::Motion;
 use crate::friction::Friction;
@@ -58,7 +57,7 @@ pub(super) fn begin(system: &System, motion: &mut Motion, solver: &mut Solver) {
         && system.spheres.applied_force.is_empty();
     // The bounds of moving surfaces are those of now.
     solver.is_stale |= solver.has_moving_surfaces;
-    surfaces::places_after(system.surfaces, 0.0, &mut solver.places);
+    solver.places.begin_frame(system.surfaces);
 }
 
 /// Takes over from the world what the solver does not know from the frame before, which gave it to the

@@ -1,7 +1,8 @@
 //! The rule `contact`: sub-steps, in each of which the contacts of all spheres are solved together
 //! (`docs/physics/contact.md`).
 //!
-//! A frame is cut into sub-steps of equal length. Each goes through these stages:
+//! A frame is cut into sub-steps of equal length, more where forces or turning surfaces do much in one. Each goes
+//! through these stages:
 //!
 //! 1. **Wake.** What something is about to hit wakes.
 //! 2. **Accelerate.** Velocities gain what forces give them.
@@ -11,6 +12,7 @@
 //! 6. **Keep energy.** Where impulses would add kinetic energy, less of them is taken.
 //! 7. **Advance.** Positions follow the velocities.
 //! 8. **Correct.** Overlaps are reduced, without a change of velocities.
+//! 9. **Hold.** Where a centre would still pass a surface, it is held back.
 
 mod accelerate;
 mod advance;
@@ -26,6 +28,7 @@ mod energy;
 mod found;
 mod frame;
 mod gather;
+mod guard;
 mod impacts;
 mod kept;
 mod kernel;
@@ -33,6 +36,8 @@ mod listing;
 mod materials;
 mod neighbours;
 mod order;
+mod places;
+mod resolution;
 mod rest;
 mod row;
 mod search;
@@ -47,7 +52,10 @@ mod swept;
 mod wake;
 
 pub(crate) use apart::{Nearness, bearing, nearness};
+pub(crate) use guard::{Passage, held};
 pub(crate) use listing::persistent_contacts;
+pub(crate) use places::turning_rate;
+pub(crate) use resolution::TURN;
 pub(crate) use solver::{Scratch, Solver};
 
 use glam::DVec3;
@@ -83,7 +91,9 @@ pub(crate) fn step(
     let work = Work::new(stop_request);
     solver.sleep_speed = parameters.sleep_speed;
     frame::begin(system, motion, solver);
-    for number in 0..parameters.sub_steps {
+    let sub_steps = resolution::sub_steps(solver, parameters.sub_steps, frame.h);
+    let parameters = parameters.with_sub_steps(sub_steps);
+    for number in 0..sub_steps {
         if !work.spend(UNITS_PER_SPHERE * solver.slots.len() as u64) {
             return false;
         }
@@ -119,6 +129,7 @@ fn sub_step(
 ) {
     let h = frame.h / f64::from(parameters.sub_steps);
     wake::touched(system, solver, h);
+    solver.places.begin_sub_step(system.surfaces, f64::from(number) * h + h);
     let sub_step = accelerate::accelerate(system, frame.time, h, number, solver);
     if solver.is_stale {
         neighbours::search(system, frame, &sub_step, solver, scratch, report);
@@ -128,6 +139,8 @@ fn sub_step(
     energy::keep(solver, &sub_step, report);
     impacts::report(system, solver, &sub_step, report);
     bounces::note(solver, &sub_step, report);
-    advance::advance(system, solver, &sub_step);
+    advance::advance(solver, &sub_step);
     solve::correct(solver, report);
+    guard::hold(system, solver, &sub_step, report);
+    solver.places.end_sub_step();
 }

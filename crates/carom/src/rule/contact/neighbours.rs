@@ -6,12 +6,13 @@ use super::batch::{ContactKinds, Pair};
 use super::dormant;
 use super::kept::Kept;
 use super::materials::{ContactMaterial, Materials};
+use super::places::Places;
 use super::search::Search;
 use super::slab::{self, Slab, Slabs};
 use super::slots::Slots;
 use super::solver::{Scratch, Solver};
 use super::sub_step::SubStep;
-use super::surfaces::{Place, SurfaceContact};
+use super::surfaces::SurfaceContact;
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
 use crate::detect::surface_tree::Bounds;
@@ -36,10 +37,10 @@ pub(super) fn search(
         Some(collected) => *kept = collected,
         None => collect(solver, kept),
     }
-    let Solver { slots, slabs, watched, dormant, .. } = solver;
+    let Solver { slots, slabs, watched, dormant, places, .. } = solver;
     solver.is_stale = false;
-    let are_surfaces = !system.surfaces.is_empty();
-    solver.drift = search.arrange(slots, [frame.h, sub_step.h], are_surfaces);
+    let surfaces = (!system.surfaces.is_empty()).then_some(&*places);
+    solver.drift = search.arrange(slots, [frame.h, sub_step.h], surfaces);
     divide(slots, slabs, search);
     if !dormant.is_empty() {
         let places = search.places();
@@ -123,7 +124,7 @@ struct Known<'a> {
     before: &'a [u32],
     materials: &'a Materials,
     kinds: ContactKinds,
-    places: &'a [Place],
+    places: &'a Places,
     /// How far spheres may go together until the next search \[m\].
     drift: f64,
     /// What is left of the frame \[s\].
@@ -183,7 +184,7 @@ impl Known<'_> {
     fn add_surfaces(&self, slab: &mut Slab) {
         let slots = self.slots;
         let mut near = Vec::new();
-        let some_move = self.places.iter().any(|place| !place.1.is_at_rest());
+        let some_move = !self.places.moving().is_empty();
         let awake = (slab.start..slab.end).filter(|&slot| !slots.sleeps[slot]);
         for slot in awake {
             let (center, radius) = (slots.position[slot].vector(), slots.position[slot].number());
@@ -204,8 +205,7 @@ impl Known<'_> {
 
     /// Adds the surfaces that move, whose bounds are those of the start of the frame.
     fn add_moving(&self, near: &mut Vec<u32>) {
-        let moves = |number: &u32| !self.places[*number as usize].1.is_at_rest();
-        near.extend((0..self.places.len() as u32).filter(moves));
+        near.extend(self.places.moving());
         near.sort_unstable();
         near.dedup();
     }
@@ -218,7 +218,7 @@ impl Known<'_> {
         let (center, radius) =
             (self.slots.position[slot].vector(), self.slots.position[slot].number());
         let mut margin = self.slots.reference[slot].number() + self.drift;
-        let (form, motion) = &self.places[surface as usize];
+        let (form, motion) = self.places.at_start(surface);
         if !motion.is_at_rest() {
             let arm = (center - motion.origin).length() + radius + margin;
             let speed = motion.velocity.length() + motion.angular_velocity.length() * arm;

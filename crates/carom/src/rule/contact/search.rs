@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::drift::Drift;
 use super::order::{self, Grid};
+use super::places::Places;
 use super::row::Row;
 use super::slab::{Slab, Slabs};
 use super::slots::Slots;
@@ -44,6 +45,16 @@ fn most_among(slots: &Slots, radius: f64) -> f64 {
     (0.5 * libm::cbrt(room) - 1.0).clamp(MOST_MARGIN, MOST_OF_FEW)
 }
 
+/// What moving surfaces may add to the speed of a sphere in a frame of this length \[s\] \[m/s\]: an elastic one
+/// adds twice the speed at which they meet.
+fn hit(surfaces: &Places, slots: &Slots, slot: usize, frame: f64) -> f64 {
+    if surfaces.moving().is_empty() {
+        return 0.0;
+    }
+    let (position, velocity) = (slots.position[slot], slots.velocity[slot].vector());
+    2.0 * surfaces.approach((position.vector(), position.number()), velocity, frame)
+}
+
 /// Working memory of a search.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Search {
@@ -67,14 +78,14 @@ pub(super) struct Search {
 impl Search {
     /// Sorts spheres by space, and notes from where they may go how far, in frames of `frame` and sub-steps
     /// of `h` \[s\]. Gives the motion that they have in common, beside which they may go so far. Where there
-    /// are surfaces they may turn round.
+    /// are surfaces they may turn round, and be hit by those that move.
     pub fn arrange(
         &mut self,
         slots: &mut Slots,
         [frame, h]: [f64; 2],
-        are_surfaces: bool,
+        surfaces: Option<&Places>,
     ) -> Drift {
-        let drift = self.find_margins(slots, [frame, h], are_surfaces);
+        let drift = self.find_margins(slots, [frame, h], surfaces);
         let Self { grid, starts, margins, from, slot_of, cells, spare, .. } = self;
         let count = slots.len();
         let reach = |slot: usize| slots.position[slot].number() + margins[slot];
@@ -102,7 +113,12 @@ impl Search {
 
     /// How far each sphere may go beside the common motion: in the mean a given part of the radius, but
     /// farther the faster it is, for a few fast ones not to have all looked for again and again.
-    fn find_margins(&mut self, slots: &Slots, [frame, h]: [f64; 2], are_surfaces: bool) -> Drift {
+    fn find_margins(
+        &mut self,
+        slots: &Slots,
+        [frame, h]: [f64; 2],
+        surfaces: Option<&Places>,
+    ) -> Drift {
         let count = slots.len().max(1) as f64;
         let velocity = slots.velocity.iter().map(|row| row.vector()).sum::<DVec3>() / count;
         let speed = |row: &Row| (row.vector() - velocity).length();
@@ -126,7 +142,8 @@ impl Search {
             let row = &slots.velocity[slot];
             let beside = 1.5 * speed(row).max(mean_speed);
             let turned = row.vector().length() + velocity.length();
-            let fastest = if are_surfaces { beside.max(turned) } else { beside };
+            let Some(surfaces) = surfaces else { return bounded.max(FASTER * beside * h) };
+            let fastest = beside.max(turned + hit(surfaces, slots, slot, frame));
             bounded.max(FASTER * fastest * h)
         }));
         Drift::begin(velocity, lasting)

@@ -146,13 +146,10 @@ pub(super) fn correct(solver: &mut Solver, report: &mut StepReport) {
     slabs.each_contact(slots, Direction::Forwards, |run, slab| {
         let overlap = kernel::correct(run, &slab.batches);
         let of_surfaces = surfaces::correct(run, &slab.surfaces, places);
-        let Found { energy, squeezed, .. } = of_surfaces;
-        (slab.found.energy, slab.found.squeezed) = (energy, squeezed);
+        slab.found.energy = of_surfaces.energy;
         slab.found.overlap = overlap.max(of_surfaces.overlap);
     });
     report.energy_account.correction += slabs.energy();
-    let squeezed = slabs.iter().map(|slab| slab.found.squeezed).sum::<u32>();
-    report.contact_account.squeezed += squeezed;
     let overlap = slabs.iter().map(|slab| slab.found.overlap).fold(0.0, f64::max);
     let account = &mut report.contact_account;
     account.largest_overlap = account.largest_overlap.max(overlap);

@@ -7,10 +7,10 @@ use super::dormant::Dormant;
 use super::drift::Drift;
 use super::kept::Kept;
 use super::materials::Materials;
+use super::places::Places;
 use super::search::Search;
 use super::slab::Slabs;
 use super::slots::Slots;
-use super::surfaces::Place;
 
 /// Spheres in their order of memory, their neighbours, and the impulses of their contacts: part of a
 /// snapshot, but not of the state hash.
@@ -23,8 +23,8 @@ pub(crate) struct Solver {
     pub(super) kept: Option<Kept>,
     /// The spheres that go elsewhere than their last velocity takes them, for they bounce, by slot.
     pub(super) bounces: Vec<Bounce>,
-    /// Where surfaces are at the start of the sub-step, and how they move.
-    pub(super) places: Vec<Place>,
+    /// Where surfaces are in the sub-step, and how they move.
+    pub(super) places: Places,
     /// The motion that spheres have in common since the last search.
     pub(super) drift: Drift,
     pub(super) kinds: ContactKinds,
@@ -70,6 +70,18 @@ pub(super) struct Bounce {
     pub is_alone: bool,
     /// Whether it turns round at a surface, or stops there.
     pub is_at_surface: bool,
+    /// Where it turns round, if nothing else touches it.
+    pub turn: Option<Turn>,
+}
+
+/// Where a sphere turns round in a sub-step.
+#[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Turn {
+    /// In the sub-step \[s\].
+    pub time: f64,
+    /// Its centre \[m\].
+    pub place: DVec3,
 }
 
 /// Working memory of the rule, kept from step to step only to spare its allocation.

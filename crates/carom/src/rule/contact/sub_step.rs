@@ -61,6 +61,16 @@ impl SubStep {
         }
     }
 
+    /// By how much [`Self::resting_speed`] is higher where a surface accelerates beside the sphere \[m/s²\].
+    pub fn resting_speed_at(&self, acceleration: DVec3) -> f64 {
+        RESTING * self.h * acceleration.length()
+    }
+
+    /// By how much [`Self::growth`] is more there.
+    pub fn growth_at(&self, acceleration: DVec3) -> f64 {
+        GROWTH_BY_WEIGHT * self.h * acceleration.length()
+    }
+
     /// Speed of approach above which a new contact of a sphere that bears something is an impact \[m/s\];
     /// forces accelerate it by so much along the normal \[m/s²\].
     pub fn shaken_speed(&self, along: f64) -> f64 {

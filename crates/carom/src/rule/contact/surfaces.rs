@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::batch::Impulses;
 use super::found::Found;
 use super::materials::ContactMaterial;
+use super::places::{Place, Places};
 use super::slots::Run;
 use super::sub_step::{GROWTH, RELAXATION, SLOP, SubStep};
 use super::swept::{FAR, FREE};
@@ -12,37 +13,10 @@ use crate::contact_time;
 use crate::detect::{Separation, sphere_surface};
 use crate::flight::Flight;
 use crate::friction::ContactFriction;
-use crate::surface::{Form, Surface, SurfaceMotion};
+use crate::surface::{Form, SurfaceMotion};
 
-/// The centre of a sphere stays so far in front of a surface, as a part of the radius, whatever presses on it:
-/// from behind nothing would bring it back.
+/// A centre is right in front of a plane, or behind it, below this part of the radius.
 const LEAST_IN_FRONT: f64 = 0.5;
-
-/// Where a surface is, and how it moves.
-pub(super) type Place = (Form, SurfaceMotion);
-
-/// Where all surfaces are after `h` \[s\] of a frame.
-pub(super) fn places_after(surfaces: &[Surface], h: f64, places: &mut Vec<Place>) {
-    places.clear();
-    places.extend(surfaces.iter().map(|surface| surface.after(h)));
-}
-
-/// The foot of a sphere on the plane that it is in front of as a sub-step begins.
-#[derive(Debug, Clone, Copy)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-struct Foot {
-    /// Where that is at the end of the sub-step \[m\].
-    point: DVec3,
-    /// Unit normal of the plane; a contact may wait for an impact elsewhere, with another one.
-    normal: DVec3,
-}
-
-impl Foot {
-    /// How far a point is in front of the plane \[m\].
-    fn height_of(&self, point: DVec3) -> f64 {
-        (point - self.point).dot(self.normal)
-    }
-}
 
 /// A contact of a surface, which is body 1, and a sphere, which is body 2.
 #[derive(Debug, Clone, Copy)]
@@ -53,14 +27,16 @@ pub(super) struct SurfaceContact {
     pub surface: u32,
     /// Unit normal out of the surface.
     pub normal: DVec3,
-    /// If the sphere is in front of a plane.
-    foot: Option<Foot>,
+    /// Centre of the sphere at the start of the sub-step \[m\].
+    pub start: DVec3,
     /// Whether the sphere flies too little in the sub-step to come past an edge of it.
     is_slow: bool,
     /// Velocity of the surface where they touch \[m/s\].
     pub velocity: DVec3,
     /// Angular velocity of the surface \[rad/s\].
     angular_velocity: DVec3,
+    /// How the sphere accelerates beside a surface that turns, without forces \[m/s²\].
+    swing: DVec3,
     /// What the normal velocity is to be after the sub-step at least, with the opposite sign \[m/s\].
     pub bias: f64,
     /// Speed of approach of an impact \[m/s\]; 0 if there is none.
@@ -82,10 +58,11 @@ impl SurfaceContact {
             slot,
             surface,
             normal: DVec3::Y,
-            foot: None,
+            start: DVec3::ZERO,
             is_slow: false,
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
+            swing: DVec3::ZERO,
             bias: FREE,
             approach: 0.0,
             slip: DVec3::ZERO,
@@ -132,12 +109,12 @@ impl SurfaceContact {
 pub(super) fn prepare(
     run: &mut Run,
     contacts: &mut [SurfaceContact],
-    places: &[Place],
+    places: &Places,
     sub_step: &SubStep,
 ) {
     for of_sphere in contacts.chunk_by_mut(|first, second| first.slot == second.slot) {
         for contact in &mut *of_sphere {
-            contact.aim(run, &places[contact.surface as usize], sub_step);
+            contact.aim(run, places, sub_step);
         }
         leave_first_bounce(of_sphere);
         of_sphere.iter_mut().for_each(|contact| contact.warm_start(run, sub_step));
@@ -159,25 +136,27 @@ fn leave_first_bounce(of_sphere: &mut [SurfaceContact]) {
 }
 
 impl SurfaceContact {
-    /// The normal and the gap of now; the velocity that the sphere is to have after the sub-step.
-    fn aim(&mut self, run: &Run, place: &Place, sub_step: &SubStep) {
+    /// The normal and the gap; the velocity that the sphere is to have after the sub-step.
+    fn aim(&mut self, run: &Run, places: &Places, sub_step: &SubStep) {
         let slot = self.slot as usize;
-        let (form, motion) = place;
+        let place @ (form, motion) = places.at_start(self.surface);
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
         let before = run.before[slot].vector();
         if self.bias < 0.0 && (before - self.velocity).dot(self.normal) >= 0.0 {
             // What stopped an impact is no longer needed, once the two part.
             self.impulses.normal = self.impulses.normal.min(self.impulses.previous);
         }
+        self.start = center;
         self.angular_velocity = motion.angular_velocity;
+        self.swing = motion.swing(center, before);
         (self.approach, self.bias) = (0.0, FREE);
         let separation = sphere_surface(form, center, radius);
-        self.foot = None;
         if let Some(Separation { distance, normal, point }) = separation {
-            self.normal = normal;
-            self.velocity = motion.velocity_at(point);
-            let foot = Foot { point: point + sub_step.h * self.velocity, normal };
-            self.foot = is_flat(form, normal).then_some(foot);
+            (self.normal, self.velocity) = if motion.turns() {
+                turning_plane(motion, (normal, point), (center, radius + distance), sub_step.h)
+            } else {
+                (normal, motion.velocity)
+            };
             self.bias = distance.max(0.0) / sub_step.h;
             self.watch_for_impact(run, distance, sub_step);
         }
@@ -201,12 +180,13 @@ impl SurfaceContact {
         let slot = self.slot as usize;
         let speed = -(run.before[slot].vector() - self.velocity).dot(self.normal);
         let pressing = -run.acceleration[slot].vector().dot(self.normal);
+        let along = (pressing - self.swing.dot(self.normal)).max(0.0);
         let threshold = if self.impulses.normal > 0.0 {
-            sub_step.resting_speed
+            sub_step.resting_speed + sub_step.resting_speed_at(self.swing)
         } else if run.bears[slot] {
-            sub_step.shaken_speed(pressing.max(0.0))
+            sub_step.shaken_speed(along)
         } else {
-            sub_step.surface_impact_speed(pressing.max(0.0))
+            sub_step.surface_impact_speed(along)
         };
         let fall = 0.5 * pressing * sub_step.h;
         if speed > threshold && distance < sub_step.h * (speed + fall) {
@@ -238,39 +218,49 @@ impl SurfaceContact {
         let Some(time) = time else { return self.aim_at_end(&flight, radius, place, sub_step) };
         // Seen from where the surface is now.
         let (there, velocity) = flight.after(time);
-        let moved = there - time * motion.velocity_at(there);
+        let moved = motion.carried_back(there, time);
         let Some(separation) = sphere_surface(form, moved, radius) else { return };
-        self.normal = separation.normal;
-        self.velocity = motion.velocity_at(separation.point);
+        self.normal = motion.turned(separation.normal, time);
+        self.velocity = motion.velocity_after(motion.carried(separation.point, time), time);
         let approach = -(velocity - self.velocity).dot(self.normal);
         let pressing = -flight.acceleration.dot(self.normal);
         self.bias = approach.max(0.0) * time / sub_step.h;
         self.note_impact(approach.max(0.0), pressing, time, sub_step);
+        if motion.turns() && self.bias >= 0.0 && is_flat(form, separation.normal) {
+            // It stays at the plane, which turns on.
+            let height = (flight.position - separation.point).dot(separation.normal);
+            let plane = (separation.normal, separation.point);
+            (self.normal, self.velocity) =
+                turning_plane(motion, plane, (flight.position, height), sub_step.h);
+            self.bias = (height - radius).max(0.0) / sub_step.h;
+        }
     }
 
     /// Has the contact keep a sphere that meets nothing out of the surface near the end of its way, should
     /// others push it there: unless it has passed the surface by then, and others may send it back.
     fn aim_at_end(&mut self, flight: &Flight, radius: f64, place: &Place, sub_step: &SubStep) {
         let (form, motion) = place;
-        let (there, velocity) = flight.after(sub_step.h);
-        let moved = there - sub_step.h * motion.velocity_at(there);
-        let separation = sphere_surface(form, moved, radius);
-        let Some(Separation { distance, normal, point }) = separation else { return };
-        let surface_velocity = motion.velocity_at(point);
+        let h = sub_step.h;
+        let (there, velocity) = flight.after(h);
+        let separation = sphere_surface(form, motion.carried_back(there, h), radius);
+        let Some(Separation { distance, normal: own, point }) = separation else { return };
+        let normal = motion.turned(own, h);
+        let surface_velocity = motion.velocity_after(motion.carried(point, h), h);
         let leaving = (velocity - surface_velocity).dot(normal);
         // A plane across its way, or round the edge that it has passed, would keep it from coming back.
-        let was_behind = (flight.position - point).dot(normal) < LEAST_IN_FRONT * radius;
-        if was_behind || (leaving > 0.0 && !is_flat(form, normal)) {
+        let was_behind = (flight.position - point).dot(own) < LEAST_IN_FRONT * radius;
+        if was_behind || (leaving > 0.0 && !is_flat(form, own)) {
             return;
         }
         (self.normal, self.velocity) = (normal, surface_velocity);
-        self.bias = distance.max(0.0) / sub_step.h - leaving;
+        self.bias = distance.max(0.0) / h - leaving;
     }
 
     /// Notes an impact after a `time` \[s\] with this speed of approach \[m/s\]; it is a bounce if the
     /// sphere, which accelerates towards the surface \[m/s²\], is still leaving it at the end.
     fn note_impact(&mut self, approach: f64, pressing: f64, time: f64, sub_step: &SubStep) {
         self.approach = approach;
+        let pressing = pressing - self.swing.dot(self.normal);
         let rebound = self.restitution * approach - pressing * (sub_step.h - time);
         // What bears something already does not bounce: it would lose the impulse to start from.
         if rebound > 0.0 && self.impulses.normal == 0.0 {
@@ -298,7 +288,8 @@ impl SurfaceContact {
     fn start(&mut self, mass: f64, sub_step: &SubStep) {
         let Impulses { normal, previous, .. } = &mut self.impulses;
         let carried = *normal;
-        let most = *previous * GROWTH + mass * sub_step.growth;
+        let growth = sub_step.growth + sub_step.growth_at(self.swing);
+        let most = *previous * GROWTH + mass * growth;
         *previous = carried;
         *normal = if self.bias == FREE { 0.0 } else { carried.min(most) };
     }
@@ -369,51 +360,28 @@ pub(super) fn sweep(run: &mut Run, contacts: &mut [SurfaceContact], backwards: b
 }
 
 /// Moves spheres that overlap surfaces out of them; velocities stay as they are. Gives the work against
-/// the forces that are linear \[J\], the largest overlap as a part of the radius, and how many spheres were
-/// squeezed.
-pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &[Place]) -> Found {
-    let (mut work, mut largest, mut squeezed) = (0.0, 0.0_f64, 0);
+/// the forces that are linear \[J\], and the largest overlap as a part of the radius.
+pub(super) fn correct(run: &mut Run, contacts: &[SurfaceContact], places: &Places) -> Found {
+    let (mut work, mut largest) = (0.0, 0.0_f64);
     for contact in contacts {
         let slot = contact.slot as usize;
         let (center, radius) = (run.position[slot].vector(), run.position[slot].number());
-        let (form, _) = &places[contact.surface as usize];
-        let is_held = contact.is_slow
-            || run.bears[slot] && contact.is_in_front(center)
-            || contact.is_pushed_through(center, form);
-        let start = if is_held { contact.kept_in_front(center, radius) } else { center };
-        squeezed += u32::from(start != center);
-        let separation = sphere_surface(form, start, radius);
+        let (form, _) = places.at_end(contact.surface);
+        let separation = sphere_surface(form, center, radius);
         let overlap = separation.map_or(0.0, |it| -it.distance - SLOP * radius).max(0.0);
-        let out = separation.map_or(DVec3::ZERO, |it| RELAXATION * overlap * it.normal);
-        let end = start + out;
-        if end != center {
-            run.position[slot] = run.position[slot].with_vector(end);
-            work -= run.acceleration[slot].vector().dot(end - center) / run.velocity[slot].number();
+        if overlap > 0.0 {
+            let out = separation.map_or(DVec3::ZERO, |it| RELAXATION * overlap * it.normal);
+            work += move_by(run, slot, out);
             largest = largest.max(overlap / radius);
         }
     }
-    Found { energy: work, overlap: largest, squeezed, ..Found::default() }
+    Found { energy: work, overlap: largest, ..Found::default() }
 }
 
-impl SurfaceContact {
-    /// Whether a sphere about `center` \[m\] is in front of the plane still, or was never.
-    fn is_in_front(&self, center: DVec3) -> bool {
-        self.foot.is_none_or(|foot| foot.height_of(center) >= 0.0)
-    }
-
-    /// Whether a sphere about `center` \[m\] that was in front of a face is right behind it: others have pushed it
-    /// through.
-    fn is_pushed_through(&self, center: DVec3, form: &Form) -> bool {
-        !self.is_in_front(center) && is_over(form, center)
-    }
-
-    /// Where a sphere about `center` \[m\] is at least that much in front of the surface as what presses on
-    /// it may leave: [`LEAST_IN_FRONT`] of its radius.
-    fn kept_in_front(&self, center: DVec3, radius: f64) -> DVec3 {
-        let Some(foot) = self.foot else { return center };
-        let missing = LEAST_IN_FRONT * radius - foot.height_of(center);
-        if missing > 0.0 { center + missing * foot.normal } else { center }
-    }
+/// Moves a sphere. Returns the work against the forces that are linear \[J\].
+pub(super) fn move_by(run: &mut Run, slot: usize, way: DVec3) -> f64 {
+    run.position[slot] = run.position[slot].with_vector(run.position[slot].vector() + way);
+    -run.acceleration[slot].vector().dot(way) / run.velocity[slot].number()
 }
 
 /// Whether a surface has this normal in more than one place.
@@ -425,17 +393,18 @@ fn is_flat(form: &Form, normal: DVec3) -> bool {
     }
 }
 
-/// Whether a point, in front or behind, is over a plane or a face, not beside it.
-fn is_over(form: &Form, point: DVec3) -> bool {
-    match form {
-        Form::HalfSpace { .. } => true,
-        Form::Rectangle(face) => {
-            let offset = point - face.center;
-            offset.dot(face.axis_x).abs() <= face.half_x
-                && offset.dot(face.axis_z).abs() <= face.half_z
-        }
-        Form::Sphere { .. } | Form::Box(_) => false,
-    }
+/// The normal that a plane which turns has after `h` \[s\], and its velocity \[m/s\]: across the normal where the sphere
+/// touches it then, along it the one at which it comes to the sphere where that is now.
+fn turning_plane(
+    motion: &SurfaceMotion,
+    (normal, point): (DVec3, DVec3),
+    (center, height): (DVec3, f64),
+    h: f64,
+) -> (DVec3, DVec3) {
+    let (normal, point) = (motion.turned(normal, h), motion.carried(point, h));
+    let velocity = motion.velocity_after(point, h);
+    let along = (height - (center - point).dot(normal)) / h;
+    (normal, velocity + (along - velocity.dot(normal)) * normal)
 }
 
 /// Slip of a sphere's surface where it touches: what of the velocity is across the normal, with spin.

@@ -105,7 +105,8 @@ impl Zone {
     ) {
         let index = index as usize;
         if self.is_empty() {
-            self.halvings = halvings_for_springs(spring_rate, tick);
+            let turning = halvings_for_turning(system.surfaces, tick);
+            self.halvings = halvings_for_springs(spring_rate, tick).max(turning);
         }
         self.halvings = self.halvings.max(halvings_for(system, index, tick));
         if self.is_empty() || self.ticks[1] == f64::INFINITY {
@@ -369,6 +370,13 @@ fn rotation_between(
     let orientation = *before.orientation.get(place)?;
     let velocities = [before, after].map(|spin| spin.angular_velocity[place]);
     Some(Rotation::between(orientation, velocities, [now, next]))
+}
+
+/// How often a tick \[s\] is to be halved for surfaces that turn.
+fn halvings_for_turning(surfaces: &[Surface], tick: f64) -> u32 {
+    let rates = surfaces.iter().map(|it| contact::turning_rate(&it.form, &it.motion));
+    let rate = rates.fold(0.0, f64::max);
+    halvings(tick, MOST_TICK_HALVINGS, |it| rate * it <= contact::TURN)
 }
 
 /// How often a tick \[s\] is to be halved for a sphere: until it is short in relation to the time in which

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::detect::sphere_surface;
 use crate::norm::Norm;
+use crate::rule::contact::{self, Passage};
 use crate::rule::exact::contacts::{self, Group};
 use crate::rule::exact::context::StepContext;
 use crate::rule::exact::predict;
@@ -80,6 +81,29 @@ fn free_way(
     velocity
 }
 
+/// The velocity \[m/s\] at which a sphere, from its centre \[m\], passes no surface until the next tick.
+fn in_front(
+    timeline: &Timeline,
+    context: &StepContext,
+    slot: u32,
+    [position, velocity]: [DVec3; 2],
+    time: f64,
+) -> DVec3 {
+    let duration = timeline.zone.next_tick() - time;
+    let surfaces = timeline.surfaces_near(slot);
+    // A zone has no periodic box, and so no shifts.
+    let passages: Vec<Passage> = surfaces
+        .map(|(surface, _)| {
+            let (before, motion) = context.surface_at(surface, time);
+            let (after, _) = motion.carry(&before, duration);
+            Passage { before, after, carried: motion.carried(position, duration) }
+        })
+        .collect();
+    let end = position + duration * velocity;
+    let held = contact::held(&passages, [position, end], timeline.flights.species_of(slot).radius);
+    held.map_or(velocity, |held| (held - position) / duration)
+}
+
 /// Has a sphere join a zone with this centre \[m\] and velocity \[m/s\]; until the next tick it moves with
 /// the `common` velocity \[m/s\].
 fn join(
@@ -91,10 +115,11 @@ fn join(
     time: f64,
 ) {
     timeline.set_free(slot, time);
-    timeline.flights.enter_zone(slot, [position, common], time);
     let index = timeline.flights.index_of[slot as usize];
     let tick = [context.parameters.zone_tick, timeline.spring_rate];
     timeline.zone.join(context.system, index, velocity, time, tick);
+    let common = in_front(timeline, context, slot, [position, common], time);
+    timeline.flights.enter_zone(slot, [position, common], time);
     context.report.zone_account.joined += 1;
 }
 

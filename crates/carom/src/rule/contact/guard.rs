@@ -1,0 +1,294 @@
+//! The last line of defence: no centre of a sphere passes a face, whatever contacts made of its motion.
+//!
+//! A sphere is seen from each surface, as if that were at rest: so a box that moves and turns is a box. The
+//! way of its centre within a sub-step is straight there. What counts is whether that way passes the
+//! surface: no margin, and no step short enough.
+
+use glam::DVec3;
+
+use super::found::Found;
+use super::places::Places;
+use super::slab::Slab;
+use super::slots::Run;
+use super::solver::{Bounce, Solver, Turn};
+use super::sub_step::SubStep;
+use super::surfaces::{self, SurfaceContact};
+use crate::report::StepReport;
+use crate::surface::{Form, Rectangle, Role};
+use crate::system::System;
+
+/// The centre of a sphere stays so far in front of a surface, as a part of the radius, whatever presses on it:
+/// from behind nothing would bring it back.
+const LEAST_IN_FRONT: f64 = 0.5;
+/// A way that passes an edge by less than this part of the radius passes the face: between two faces that
+/// share it there is no gap, however the numbers round. No centre comes so near to an edge otherwise.
+const BESIDE: f64 = 0.01;
+/// Where spheres overlap by more than this part of the sum of radii, a correction may take them far.
+const FAR_APART: f64 = 0.02;
+/// In corners one surface may push a sphere into another so often.
+const ROUNDS: usize = 16;
+
+/// Holds back the spheres whose centres would pass a surface in the sub-step. Velocities stay as they are.
+pub(super) fn hold(
+    system: &System,
+    solver: &mut Solver,
+    sub_step: &SubStep,
+    report: &mut StepReport,
+) {
+    let Solver { slots, slabs, places, bounces, drift, .. } = solver;
+    let go_astray = slabs.iter().any(|it| it.found.leaves || it.found.overlap > FAR_APART);
+    let guard = Guard { system, places, bounces, common: drift.way, h: sub_step.h, go_astray };
+    slabs.each(slots, |mut run, slab| {
+        let Found { energy, squeezed, .. } = guard.hold_all(&mut run, slab);
+        (slab.found.energy, slab.found.squeezed) = (energy, squeezed);
+    });
+    report.energy_account.correction += slabs.list.iter().map(|it| it.found.energy).sum::<f64>();
+    let squeezed = slabs.list.iter().map(|slab| slab.found.squeezed).sum::<u32>();
+    report.contact_account.squeezed += squeezed;
+}
+
+/// What tells where spheres went in the sub-step.
+struct Guard<'a> {
+    system: &'a System<'a>,
+    places: &'a Places,
+    bounces: &'a [Bounce],
+    /// The common motion since the last search \[m\].
+    common: DVec3,
+    /// Length of the sub-step \[s\].
+    h: f64,
+    /// Whether a sphere may have come to surfaces with which it has no contact.
+    go_astray: bool,
+}
+
+impl Guard<'_> {
+    /// Holds back the spheres of a slab. Finds the work that takes, and how many there were.
+    fn hold_all(&self, run: &mut Run, slab: &Slab) -> Found {
+        let mut found = Found::default();
+        let mut go_to = |run: &mut Run, slot: usize, end: Option<DVec3>| {
+            let Some(end) = end else { return };
+            let way = end - run.position[slot].vector();
+            found.energy += surfaces::move_by(run, slot, way);
+            found.squeezed += 1;
+        };
+        for contacts in slab.surfaces.chunk_by(|first, second| first.slot == second.slot) {
+            let slot = contacts[0].slot as usize;
+            if !self.is_astray(run, slot) {
+                let end = self.held_by_contacts(run, slab.start, contacts);
+                go_to(run, slot, end);
+            }
+        }
+        if self.go_astray {
+            for slot in (0..run.position.len()).filter(|&slot| !run.sleeps[slot]) {
+                if self.is_astray(run, slot) {
+                    let first = slab.surfaces.partition_point(|it| (it.slot as usize) < slot);
+                    let own = slab.surfaces.get(first).filter(|it| it.slot as usize == slot);
+                    // Where it was found, it was in front of what it has no contact with.
+                    let start = own.map_or(run.reference[slot].vector(), |it| it.start);
+                    let way = (start, self.turn_of(slab.start + slot));
+                    let end = self.held(run, slot, way, &self.all_surfaces());
+                    go_to(run, slot, end);
+                }
+            }
+        }
+        found
+    }
+
+    /// Where a sphere is held, by its contacts.
+    fn held_by_contacts(
+        &self,
+        run: &Run,
+        first: usize,
+        contacts: &[SurfaceContact],
+    ) -> Option<DVec3> {
+        let slot = contacts[0].slot as usize;
+        let (end, radius) = (run.position[slot].vector(), run.position[slot].number());
+        let turn = self.turn_of(first + slot);
+        let passes = |contact: &SurfaceContact| {
+            let forms =
+                [&self.places.at_start(contact.surface).0, &self.places.at_end(contact.surface).0];
+            let way = Way { forms, centers: [contact.start, end] };
+            way.pushed(LEAST_IN_FRONT * radius, BESIDE * radius).is_some()
+        };
+        if turn.is_none() && !contacts.iter().any(passes) {
+            return None;
+        }
+        let surfaces: Vec<u32> = contacts.iter().map(|contact| contact.surface).collect();
+        self.held(run, slot, (contacts[0].start, turn), &surfaces)
+    }
+
+    /// Where a sphere is held that goes straight to where it turned round, and from there to its end.
+    fn held(
+        &self,
+        run: &Run,
+        slot: usize,
+        (start, turn): (DVec3, Option<Turn>),
+        surfaces: &[u32],
+    ) -> Option<DVec3> {
+        let (end, radius) = (run.position[slot].vector(), run.position[slot].number());
+        let leg = |[from, to]: [f64; 2], centers| {
+            held(&self.passages(surfaces, [from, to], centers), centers, radius)
+        };
+        // One that would have passed something before it turned round did not come there.
+        let turn = turn.filter(|it| leg([0.0, it.time], [start, it.place]).is_none());
+        let Turn { time, place } = turn.unwrap_or(Turn { time: 0.0, place: start });
+        leg([time, self.h], [place, end])
+    }
+
+    /// How a centre \[m\] goes past surfaces between two times of the sub-step \[s\].
+    fn passages(
+        &self,
+        surfaces: &[u32],
+        [from, to]: [f64; 2],
+        [start, _]: [DVec3; 2],
+    ) -> Vec<Passage> {
+        let passage = |&number: &u32| {
+            let place = self.places.at_start(number);
+            let (before, motion) = place.1.carry(&place.0, from);
+            let carried = motion.carried(start, to - from);
+            let is_whole = to == self.h;
+            let after =
+                if is_whole { self.places.at_end(number).0 } else { place.1.carry(&place.0, to).0 };
+            Passage { before, after, carried }
+        };
+        surfaces.iter().map(passage).collect()
+    }
+
+    /// The numbers of all surfaces that deflect.
+    fn all_surfaces(&self) -> Vec<u32> {
+        let deflects = |it: &u32| self.system.surfaces[*it as usize].role == Role::Deflects;
+        (0..self.places.len() as u32).filter(deflects).collect()
+    }
+
+    /// Where a sphere turned round, by its slot.
+    fn turn_of(&self, slot: usize) -> Option<Turn> {
+        let found = self.bounces.binary_search_by_key(&slot, |it| it.slot as usize);
+        found.ok().and_then(|place| self.bounces[place].turn)
+    }
+
+    /// Whether a sphere has left the margin within which its surfaces are known.
+    fn is_astray(&self, run: &Run, slot: usize) -> bool {
+        if !self.go_astray {
+            return false;
+        }
+        let Some(reference) = run.reference.get(slot) else { return false };
+        let way = run.position[slot].vector() - reference.vector() - self.common;
+        way.length_squared() > reference.number() * reference.number()
+    }
+}
+
+/// A surface before and after a sphere went past it, and where its centre would be if it had gone along \[m\].
+pub(crate) struct Passage {
+    pub before: Form,
+    pub after: Form,
+    pub carried: DVec3,
+}
+
+/// Finds where a sphere of this radius \[m\] ends that would pass surfaces between two centres \[m\]; `None` if it
+/// passes none.
+///
+/// Each surface that it would pass pushes it along its normal, until none does. If that has no end, it goes
+/// along with one of them: surfaces that move together never press it out. Between others that leave it no room,
+/// it ends behind one.
+pub(crate) fn held(passages: &[Passage], [start, end]: [DVec3; 2], radius: f64) -> Option<DVec3> {
+    let (least, beside) = (LEAST_IN_FRONT * radius, BESIDE * radius);
+    let pushed = |passage: &Passage, end: DVec3, least: f64| {
+        let forms = [&passage.before, &passage.after];
+        Way { forms, centers: [start, end] }.pushed(least, beside)
+    };
+    let mut held = end;
+    for _ in 0..ROUNDS {
+        let before = held;
+        for passage in passages {
+            held = pushed(passage, held, least).unwrap_or(held);
+        }
+        if held == before {
+            return (held != end).then_some(held);
+        }
+    }
+    let passes = |end: DVec3| passages.iter().any(|it| pushed(it, end, 0.0).is_some());
+    let goes_along = || passages.iter().map(|it| it.carried).find(|&carried| !passes(carried));
+    Some(if passes(held) { goes_along().unwrap_or(held) } else { held })
+}
+
+/// The way of a centre past a surface: where both are at its start and at its end.
+#[derive(Clone, Copy)]
+struct Way<'a> {
+    forms: [&'a Form; 2],
+    /// \[m\]
+    centers: [DVec3; 2],
+}
+
+impl Way<'_> {
+    /// Where the centre ends at the `least` distance \[m\] in front of the surface, if it would come nearer. A way
+    /// that is `beside` an edge by less than this \[m\] passes the surface.
+    fn pushed(&self, least: f64, beside: f64) -> Option<DVec3> {
+        let [start, end] = self.centers;
+        match self.forms {
+            [_, Form::HalfSpace { point, normal }] => {
+                let missing = least - (end - *point).dot(*normal);
+                (missing > 0.0).then(|| end + missing * *normal)
+            }
+            [Form::Rectangle(before), Form::Rectangle(after)] => {
+                let missing = least - (end - after.center).dot(after.normal);
+                let seen = || [local(before, start), local(after, end)];
+                let is_held = missing > 0.0 && comes_through(after, seen(), least, beside);
+                is_held.then(|| end + missing * after.normal)
+            }
+            [Form::Sphere { center: before, .. }, Form::Sphere { center: after, radius }] => {
+                let out = way_out([start - *before, end - *after], radius + least)?;
+                Some(*after + out)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// A point in the coordinates of a rectangle, with y in front of it \[m\].
+fn local(rectangle: &Rectangle, point: DVec3) -> DVec3 {
+    let offset = point - rectangle.center;
+    let Rectangle { axis_x, axis_z, normal, .. } = *rectangle;
+    DVec3::new(offset.dot(axis_x), offset.dot(normal), offset.dot(axis_z))
+}
+
+/// Whether a point that was in front comes down to a height \[m\] over the rectangle, or `beside` it \[m\].
+fn comes_through(
+    rectangle: &Rectangle,
+    [start, end]: [DVec3; 2],
+    height: f64,
+    beside: f64,
+) -> bool {
+    if start.y < 0.0 || end.y >= height {
+        return false;
+    }
+    let part = if start.y > height { (start.y - height) / (start.y - end.y) } else { 0.0 };
+    let there = start + part * (end - start);
+    there.x.abs() <= rectangle.half_x + beside && there.z.abs() <= rectangle.half_z + beside
+}
+
+/// The place at a distance from the origin \[m\], on the side of the start, of a point that would come nearer on
+/// a straight way.
+fn way_out([start, end]: [DVec3; 2], distance: f64) -> Option<DVec3> {
+    let way = end - start;
+    let (along, length_squared) = (start.dot(way), way.length_squared());
+    let room = start.length_squared() - distance * distance;
+    if room < 0.0 {
+        // From inside it may come out, but not through the middle.
+        let is_same_side = start.dot(end) > 0.0;
+        if is_same_side && end.length_squared() >= distance * distance {
+            return None;
+        }
+        return Some(at_distance(if is_same_side { end } else { start }, distance));
+    }
+    let discriminant = along * along - length_squared * room;
+    if along >= 0.0 || discriminant <= 0.0 {
+        return None;
+    }
+    let enters = room / (discriminant.sqrt() - along);
+    (enters < 1.0).then(|| at_distance(start + enters * way, distance))
+}
+
+/// The place in the direction of another one, at a distance from the origin \[m\].
+fn at_distance(place: DVec3, distance: f64) -> DVec3 {
+    let length = place.length();
+    if length > 0.0 { place * (distance / length) } else { distance * DVec3::Y }
+}
