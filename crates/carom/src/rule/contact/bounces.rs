@@ -6,7 +6,7 @@ use super::batch;
 use super::row::Row;
 use super::slab::{Slab, Slabs};
 use super::slots::Slots;
-use super::solver::{Bounce, Solver};
+use super::solver::{self, Bounce, Solver};
 use super::sub_step::SubStep;
 use super::surfaces::Place;
 use super::swept::FAR;
@@ -19,7 +19,7 @@ use crate::report::StepReport;
 const ROUNDING: f64 = 1e-9;
 
 /// A bounce of a sphere off one body.
-struct OneBounce {
+pub(super) struct OneBounce {
     slot: usize,
     /// The other sphere, if it is one.
     other: Option<usize>,
@@ -33,25 +33,55 @@ impl OneBounce {
     /// What the work of its impulse is more \[J\] at its own time than in the middle of the sub-step: forces
     /// change the velocity in between.
     fn work_at_its_time(&self, slots: &Slots, sub_step: &SubStep) -> f64 {
+        if slots.sleeps[self.slot] {
+            return 0.0;
+        }
         let acceleration = slots.acceleration[self.slot].vector();
         (self.time - 0.5 * sub_step.h) * self.impulse.dot(acceleration)
     }
 }
 
-/// Notes where spheres that bounce come to.
-///
-/// One that nothing else touches in the sub-step moves until its bounce as if nothing were there. Any other
-/// moves by its last velocity. Contacts know nothing of surfaces that a sphere comes to after a bounce, or
-/// because of what hit it: one that goes far stops at the first of them, and bounces off it in the next
-/// sub-step.
-pub(super) fn note(solver: &mut Solver, sub_step: &SubStep, report: &mut StepReport) {
-    let Solver { slots, slabs, bounces, places, has_other_forces, .. } = solver;
+/// Finds the bounces of the sub-step, by slot.
+pub(super) fn find(solver: &Solver) -> Vec<OneBounce> {
+    let Solver { slots, slabs, .. } = solver;
     let mut all = Vec::new();
     for slab in slabs.iter() {
         of_pairs(slots, slab, &mut all);
         of_surfaces(slots, slab, &mut all);
     }
     all.sort_by_key(|bounce| bounce.slot);
+    all
+}
+
+/// The slots of the spheres that bounce and are not done with that: they, or what they bounce off, touch
+/// something else, or come to it.
+pub(super) fn entangled(solver: &Solver, bounces: &[OneBounce], sub_step: &SubStep) -> Vec<usize> {
+    let Solver { slots, slabs, places, .. } = solver;
+    let is_done = |of_sphere: &[OneBounce]| match of_sphere {
+        [bounce] => alone(slots, bounce, sub_step)
+            .is_some_and(|own| own.leg.first_of_free(slots, slabs, places).is_none()),
+        _ => false,
+    };
+    let spheres = bounces.chunk_by(|first, second| first.slot == second.slot);
+    let awake = spheres.filter(|it| !slots.sleeps[it[0].slot]);
+    awake.filter(|it| !is_done(it)).map(|it| it[0].slot).collect()
+}
+
+/// Notes where spheres that bounce come to, but for those that cascades took there.
+///
+/// One that nothing else touches in the sub-step moves until its bounce as if nothing were there. Any other
+/// moves by its last velocity. Contacts know nothing of surfaces that a sphere comes to after a bounce, or
+/// because of what hit it: one that goes far stops at the first of them, and bounces off it in the next
+/// sub-step.
+pub(super) fn note(
+    solver: &mut Solver,
+    mut all: Vec<OneBounce>,
+    sub_step: &SubStep,
+    report: &mut StepReport,
+) {
+    let Solver { slots, slabs, bounces, places, has_other_forces, landed, .. } = solver;
+    let has_landed = |slot: usize| solver::has_landed(landed, slot);
+    all.retain(|bounce| !has_landed(bounce.slot) && !bounce.other.is_some_and(has_landed));
     let work = all.iter().map(|bounce| bounce.work_at_its_time(slots, sub_step));
     report.energy_account.contacts += work.sum::<f64>();
     bounces.clear();
@@ -72,7 +102,7 @@ pub(super) fn note(solver: &mut Solver, sub_step: &SubStep, report: &mut StepRep
         of_spheres.map(|own| slab.start + own[0].slot as usize)
     });
     let stopped: Vec<_> = near_surfaces
-        .filter(|&slot| !is_alone(slot))
+        .filter(|&slot| !is_alone(slot) && !has_landed(slot))
         .filter_map(|slot| {
             let leg = Leg::straight(slots, slot, sub_step);
             let is_pushed = || slots.velocity[slot].vector() != slots.accelerated(slot, sub_step.h);
@@ -188,9 +218,11 @@ impl Leg {
 
     /// Where the sphere comes to a surface that bears nothing of it.
     fn first_met(&self, slots: &Slots, slabs: &Slabs, places: &[Place]) -> Option<Stop> {
-        if !self.goes_far(slots) {
-            return None;
-        }
+        if self.goes_far(slots) { self.first_of_free(slots, slabs, places) } else { None }
+    }
+
+    /// Where the sphere comes to a surface that bears nothing of it, also near where it is.
+    fn first_of_free(&self, slots: &Slots, slabs: &Slabs, places: &[Place]) -> Option<Stop> {
         let free = slabs.surfaces_of(self.slot).filter(|contact| contact.impulses.normal == 0.0);
         Stop::first(free.filter_map(|it| self.meets(slots, &places[it.surface as usize])))
     }

@@ -18,6 +18,7 @@ mod aim;
 mod apart;
 mod batch;
 mod bounces;
+mod cascade;
 mod conjugate;
 mod descent;
 mod dormant;
@@ -125,8 +126,12 @@ fn sub_step(
     solve::prepare(solver, &sub_step);
     solve::sweep(solver, &sub_step, parameters, report);
     energy::keep(solver, &sub_step, report);
-    impacts::report(system, solver, &sub_step, report);
-    bounces::note(solver, &sub_step, report);
+    let first = report.impacts.len();
+    let bounces = bounces::find(solver);
+    let seeds = bounces::entangled(solver, &bounces, &sub_step);
+    cascade::follow(system, solver, &seeds, &sub_step, report);
+    impacts::report(system, solver, &sub_step, first, report);
+    bounces::note(solver, bounces, &sub_step, report);
     advance::advance(system, solver, &sub_step);
     solve::correct(solver, report);
 }

@@ -38,6 +38,7 @@ pub(super) fn search(
     }
     let Solver { slots, slabs, watched, dormant, .. } = solver;
     solver.is_stale = false;
+    solver.incidence.clear();
     let are_surfaces = !system.surfaces.is_empty();
     solver.drift = search.arrange(slots, [frame.h, sub_step.h], are_surfaces);
     divide(slots, slabs, search);
