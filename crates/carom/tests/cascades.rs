@@ -178,7 +178,6 @@ fn the_energy_of_a_gapped_rack_converges_with_the_frame() {
         assert!(error <= last.max(1e-3), "{frame}: {all:?} of {limit}");
         last = error;
     }
-    println!("{all:?}");
 }
 
 #[test]
@@ -200,5 +199,49 @@ fn what_bounces_in_a_tube_never_gains() {
         let remainder = world.total_energy() - start - account.total();
         // What falls comes to rest as if it had moved with its mean velocity in a sub-step: m g h s at 3 m/s.
         assert!(remainder.abs() < 5e-3 * start.abs(), "{size}: {remainder}, {account:?}");
+    }
+}
+
+#[test]
+fn an_elastic_ball_keeps_its_energy_between_a_slope_and_a_steep_wall() {
+    for size in SIZES {
+        let mut world = heavy_world(contact());
+        for degrees in [20.0_f64, -75.0] {
+            let rotation = DQuat::from_rotation_z(degrees.to_radians());
+            world
+                .add_collider(Collider::new(
+                    Shape::HalfSpace,
+                    Pose { position: DVec3::ZERO, rotation },
+                ))
+                .unwrap();
+        }
+        let ball = Sphere::new(vec(0.05, 1.0, 0.0) * size, 0.1 * size);
+        world.add_sphere(ball).unwrap();
+        let start = world.total_energy();
+        let scale = size.sqrt();
+        let (account, [least, most]) = watch(&mut world, 60.0 * scale, FRAME * scale);
+        let tolerance = 1e-9 * start;
+        assert!(most - start < tolerance, "{size}: {most} of {start}, {account:?}");
+        assert!(start - least < tolerance, "{size}: {least} of {start}, {account:?}");
+    }
+}
+
+/// Too many to be followed one by one.
+#[test]
+fn a_ball_that_bounces_on_a_large_layer_gains_nothing() {
+    for size in SIZES {
+        let mut world = heavy_world(contact());
+        add_floor(&mut world, 0.0);
+        let ball = |x: f64, y: f64, z: f64| Sphere::new(vec(x, y, z) * size, 0.1 * size);
+        for number in 0..100 {
+            let (x, z) = (0.2 * f64::from(number % 10), 0.2 * f64::from(number / 10));
+            world.add_sphere(ball(x, 0.1, z)).unwrap();
+        }
+        world.add_sphere(ball(1.0, 1.5, 1.0)).unwrap();
+        let start = world.total_energy();
+        let scale = size.sqrt();
+        let (account, [_, most]) = watch(&mut world, 60.0 * scale, FRAME * scale);
+        assert!(most - start < 1e-12 * start, "{size}: {most} of {start}, {account:?}");
+        assert!(account.contacts <= 0.0, "{size}: {account:?}");
     }
 }

@@ -42,11 +42,11 @@ impl OneBounce {
 }
 
 /// Finds the bounces of the sub-step, by slot.
-pub(super) fn find(solver: &Solver) -> Vec<OneBounce> {
+pub(super) fn find(solver: &Solver, sub_step: &SubStep) -> Vec<OneBounce> {
     let Solver { slots, slabs, .. } = solver;
     let mut all = Vec::new();
     for slab in slabs.iter() {
-        of_pairs(slots, slab, &mut all);
+        of_pairs(slots, slab, sub_step, &mut all);
         of_surfaces(slots, slab, &mut all);
     }
     all.sort_by_key(|bounce| bounce.slot);
@@ -86,14 +86,22 @@ pub(super) fn note(
     report.energy_account.contacts += work.sum::<f64>();
     bounces.clear();
     for of_sphere in all.chunk_by(|first, second| first.slot == second.slot) {
+        if *has_other_forces {
+            continue;
+        }
         let own = match of_sphere {
-            [bounce] if !*has_other_forces => alone(slots, bounce, sub_step),
+            [bounce] => alone(slots, bounce, sub_step),
             _ => None,
         };
-        if let Some(own) = own {
-            let stop = own.leg.first_met(slots, slabs, places);
-            let stopped = stop.map(|stop| own.leg.stopped(slots, stop, sub_step, true));
-            bounces.push(stopped.unwrap_or(own.bounce));
+        if let Some(Way { bounce, leg }) = own {
+            let stop = leg.first_met(slots, slabs, places);
+            let stopped = stop.map(|stop| leg.stopped(slots, stop, sub_step, true));
+            bounces.push(stopped.unwrap_or(bounce));
+        } else if let Some(Way { bounce, leg }) = among_others(slots, of_sphere, sub_step) {
+            let passed = || leg.first_passed(slots, slabs, places);
+            let stop = leg.goes_far(slots).then(passed).flatten();
+            let stopped = stop.map(|stop| leg.stopped(slots, stop, sub_step, false));
+            bounces.push(stopped.unwrap_or(bounce));
         }
     }
     let is_alone = |slot: usize| bounces.binary_search_by_key(&slot, |it| it.slot as usize).is_ok();
@@ -115,14 +123,17 @@ pub(super) fn note(
     bounces.sort_by_key(|bounce| bounce.slot);
 }
 
-fn of_pairs(slots: &Slots, slab: &Slab, bounces: &mut Vec<OneBounce>) {
+fn of_pairs(slots: &Slots, slab: &Slab, sub_step: &SubStep, bounces: &mut Vec<OneBounce>) {
     for (number, lane, approach) in slab.batches.impacts() {
         let Some(impulse) = slab.batches.bounce(number, lane, approach) else { continue };
         let [first, second] = slab.slots_of(number, lane);
         let radius_sum = slab.batches.approaches[number].radius_sum[lane];
         let offset = slots.position[second].vector() - slots.position[first].vector();
         let normal = DVec3::from_array(batch::get(&slab.batches.pairs[number].normal, lane));
-        let time = (offset.dot(normal) - radius_sum).max(0.0) / approach;
+        let velocity = slots.before[second].vector() - slots.before[first].vector();
+        // The speed of approach may have changed until then.
+        let mean = 0.5 * (approach - velocity.dot(normal));
+        let time = ((offset.dot(normal) - radius_sum).max(0.0) / mean).min(sub_step.h);
         bounces.push(OneBounce { slot: first, other: Some(second), impulse: -impulse, time });
         bounces.push(OneBounce { slot: second, other: Some(first), impulse, time });
     }
@@ -137,8 +148,8 @@ fn of_surfaces(slots: &Slots, slab: &Slab, bounces: &mut Vec<OneBounce>) {
     }
 }
 
-/// A bounce of a sphere that nothing else touches in the sub-step, nor the other sphere.
-struct Alone {
+/// The way of a sphere that bounces.
+struct Way {
     bounce: Bounce,
     /// Its way from the bounce on.
     leg: Leg,
@@ -146,7 +157,7 @@ struct Alone {
 
 /// How a sphere bounces; `None` if something else changed its velocity, or the other sphere's. If it does after
 /// a time t, with the impulse P, it is `t P / m` short of where its last velocity takes it in the whole sub-step.
-fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Alone> {
+fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Way> {
     let &OneBounce { slot, other, impulse, time } = bounce;
     let own = own_change(slots, slot, impulse, sub_step)?;
     if let Some(other) = other {
@@ -166,7 +177,32 @@ fn alone(slots: &Slots, bounce: &OneBounce, sub_step: &SubStep) -> Option<Alone>
     let flight = Flight { position, velocity: arriving + own, ..start };
     let leg = Leg { slot, start: time, flight, duration: sub_step.h - time };
     let (slot, is_at_surface) = (slot as u32, other.is_none());
-    Some(Alone { bounce: Bounce { slot, shift, velocity, is_alone: true, is_at_surface }, leg })
+    Some(Way { bounce: Bounce { slot, shift, velocity, is_alone: true, is_at_surface }, leg })
+}
+
+/// How a sphere bounces off what touches something else, or off several bodies at once; `None` if it bore
+/// something before: that moves by its last velocity, and all that it presses.
+///
+/// It flies until its first bounce and goes on from there, with all that impulses changed.
+fn among_others(slots: &Slots, bounces: &[OneBounce], sub_step: &SubStep) -> Option<Way> {
+    let slot = bounces[0].slot;
+    if slots.bears[slot] || slots.sleeps[slot] {
+        return None;
+    }
+    let time = bounces.iter().map(|bounce| bounce.time).min_by(f64::total_cmp)?;
+    let [velocity, before] = [slots.velocity[slot], slots.before[slot]].map(Row::vector);
+    let acceleration = (slots.accelerated(slot, sub_step.h) - before) / sub_step.h;
+    let left = sub_step.h - time;
+    let start = slots.position[slot].vector();
+    let struck = start + time * before + 0.5 * time * time * acceleration;
+    let leaving = velocity - left * acceleration;
+    let flight = Flight { position: struck, velocity: leaving, acceleration, drag_rate: 0.0 };
+    let shift = flight.after(left).0 - start - sub_step.h * velocity;
+    let is_alone =
+        matches!(bounces, [one] if own_change(slots, slot, one.impulse, sub_step).is_some());
+    let is_at_surface = bounces.iter().any(|bounce| bounce.other.is_none());
+    let bounce = Bounce { slot: slot as u32, shift, velocity, is_alone, is_at_surface };
+    Some(Way { bounce, leg: Leg { slot, start: time, flight, duration: left } })
 }
 
 /// The change of velocity by an impulse \[m/s\]; `None` if something else changed the sphere's, too.

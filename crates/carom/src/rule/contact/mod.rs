@@ -127,7 +127,7 @@ fn sub_step(
     solve::sweep(solver, &sub_step, parameters, report);
     energy::keep(solver, &sub_step, report);
     let first = report.impacts.len();
-    let bounces = bounces::find(solver);
+    let bounces = bounces::find(solver, &sub_step);
     let seeds = bounces::entangled(solver, &bounces, &sub_step);
     cascade::follow(system, solver, &seeds, &sub_step, report);
     impacts::report(system, solver, &sub_step, first, report);
