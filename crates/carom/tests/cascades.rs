@@ -7,12 +7,16 @@ use carom::{
     Collider, Contact, DQuat, DVec3, EnergyAccount, Exact, Gravity, Pose, Rule, Settings, Shape,
     Sides, Sphere, World,
 };
-use common::vec;
+use common::{Numbers, vec};
 
 const G: f64 = 9.81;
 const FRAME: f64 = 1.0 / 60.0;
 /// Lengths of all worlds are multiplied by these, and times by their roots.
 const SIZES: [f64; 3] = [1e-6, 1.0, 1e6];
+
+fn exact() -> Rule {
+    Exact::default().into()
+}
 
 fn contact() -> Rule {
     Contact::default().into()
@@ -167,7 +171,7 @@ fn the_energy_of_a_gapped_rack_converges_with_the_frame() {
         watch(&mut world, 0.42, frame);
         world.kinetic_energy() / (0.5 * 0.17 * 9.0)
     };
-    let limit = after(Exact::default().into(), FRAME / 4.0);
+    let limit = after(exact(), FRAME / 4.0);
     assert!((limit - 0.6346).abs() < 1e-3, "{limit}");
     let mut last = 0.05 * limit;
     let mut all = Vec::new();
@@ -182,8 +186,9 @@ fn the_energy_of_a_gapped_rack_converges_with_the_frame() {
 
 #[test]
 fn what_bounces_in_a_tube_never_gains() {
-    for size in SIZES {
-        let mut world = heavy_world(contact());
+    // Under `exact` they are stepped.
+    for (rule, size) in SIZES.map(|size| (contact(), size)).into_iter().chain([(exact(), 1.0)]) {
+        let mut world = heavy_world(rule);
         let shape = Shape::Container { size: vec(0.2, 4.0, 0.2) * size, open: Sides::NONE };
         let tube = Collider::new(shape, Pose::at(DVec3::ZERO)).with_restitution(0.0);
         world.add_collider(tube.with_friction(0.3)).unwrap();
@@ -194,6 +199,7 @@ fn what_bounces_in_a_tube_never_gains() {
         let start = world.total_energy();
         let scale = size.sqrt();
         let (account, [_, most]) = watch(&mut world, 60.0 * scale, FRAME * scale);
+        assert_eq!(world.was_stepped(), rule == exact());
         assert!(most <= start + 1e-12 * start.abs(), "{size}: {most} of {start}, {account:?}");
         assert!(account.contacts < 0.0);
         let remainder = world.total_energy() - start - account.total();
@@ -243,5 +249,29 @@ fn a_ball_that_bounces_on_a_large_layer_gains_nothing() {
         let (account, [_, most]) = watch(&mut world, 60.0 * scale, FRAME * scale);
         assert!(most - start < 1e-12 * start, "{size}: {most} of {start}, {account:?}");
         assert!(account.contacts <= 0.0, "{size}: {account:?}");
+    }
+}
+
+#[test]
+fn elastic_balls_in_a_box_keep_their_energy_when_several_meet_in_a_sub_step() {
+    for speed in [5.0, 20.0] {
+        let mut world = World::new(Settings::default().with_rule(contact())).unwrap();
+        let shape = Shape::Container { size: DVec3::ONE, open: Sides::NONE };
+        world.add_collider(Collider::new(shape, Pose::at(DVec3::ZERO))).unwrap();
+        let mut numbers = Numbers(3);
+        for number in 0..20 {
+            let cell = vec(f64::from(number % 3), f64::from(number / 9), f64::from(number / 3 % 3));
+            let place = 0.3 * (cell - 1.0) + 0.05 * numbers.vector();
+            let ball = Sphere::new(place, 0.03);
+            let direction = numbers.vector().normalize();
+            world.add_sphere(ball.with_velocity(speed * direction)).unwrap();
+        }
+        let start = world.kinetic_energy();
+        let (account, [least, most]) = watch(&mut world, 10.0, FRAME);
+        println!(
+            "{speed}: {least} {most} {start} {account:?} {:?}",
+            world.report().contact_account
+        );
+        assert!(most - start < 1e-9 * start && start - least < 1e-9 * start, "{least}");
     }
 }

@@ -9,8 +9,9 @@
 //! 4. **Prepare.** Normals, gaps and impacts; contacts begin with the impulses of the sub-step before.
 //! 5. **Sweep.** Each contact in turn gets the impulse that it needs, by Gauss and Seidel.
 //! 6. **Keep energy.** Where impulses would add kinetic energy, less of them is taken.
-//! 7. **Advance.** Positions follow the velocities.
-//! 8. **Correct.** Overlaps are reduced, without a change of velocities.
+//! 7. **Follow cascades.** Small islands go from impact to impact.
+//! 8. **Advance.** Positions follow the velocities.
+//! 9. **Correct.** Overlaps are reduced, without a change of velocities.
 
 mod accelerate;
 mod advance;

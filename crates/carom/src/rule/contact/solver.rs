@@ -25,6 +25,7 @@ pub(crate) struct Solver {
     /// The spheres that go elsewhere than their last velocity takes them, for they bounce, by slot.
     pub(super) bounces: Vec<Bounce>,
     /// The spheres that cascades take elsewhere, by slot.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) landed: Vec<Landed>,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) incidence: Incidence,

@@ -17,14 +17,13 @@ use glam::DVec3;
 use super::slots::Slots;
 use super::solver::Solver;
 use super::sub_step::SubStep;
-use crate::report::{Impact, StepReport};
+use crate::report::{BodyPair, Impact, StepReport};
 use crate::system::System;
 use course::Course;
 use island::{Body, Gathering, Island};
 
 /// Where a cascade takes a sphere.
 #[derive(Debug, Clone, Copy)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Landed {
     pub slot: u32,
     /// Centre at the end of the sub-step \[m\].
@@ -124,9 +123,8 @@ struct Contact {
 
 impl Met {
     fn report(&self, system: &System, slots: &Slots, sub_step: &SubStep) -> Impact {
-        use crate::report::BodyPair;
         let Contact {
-            mut point,
+            point,
             mut normal,
             approach_speed,
             separation_speed,
@@ -150,7 +148,6 @@ impl Met {
                 BodyPair::Collider { collider, sphere: slots.id[slot as usize] }
             }
         };
-        point += DVec3::ZERO;
         Impact {
             time: sub_step.time,
             between,
