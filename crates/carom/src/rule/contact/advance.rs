@@ -28,7 +28,7 @@ const FASTER: f64 = 1.01;
 /// that all have in common: that would take it through walls.
 pub(super) fn advance(system: &System, solver: &mut Solver, sub_step: &SubStep) {
     solver.drift = solver.drift.after(sub_step.h);
-    let Solver { slots, slabs, bounces, landed, drift, .. } = solver;
+    let Solver { slots, slabs, bounces, landings, drift, .. } = solver;
     let common = drift.way;
     let flies = !solver.has_other_forces;
     slabs.each(slots, |mut run, slab| {
@@ -38,6 +38,7 @@ pub(super) fn advance(system: &System, solver: &mut Solver, sub_step: &SubStep) 
         dispatch!(Level::new(), simd => advance_run(simd, run, sub_step.h, flies));
         let bounces = &bounces[from..to];
         shift_bounced(run, slab.start, bounces);
+        let landed = &landings.spheres;
         let from = landed.partition_point(|it| (it.slot as usize) < slab.start);
         let to = landed.partition_point(|it| (it.slot as usize) < slab.end);
         let landed = &landed[from..to];

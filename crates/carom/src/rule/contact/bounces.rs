@@ -6,7 +6,7 @@ use super::batch;
 use super::row::Row;
 use super::slab::{Slab, Slabs};
 use super::slots::Slots;
-use super::solver::{self, Bounce, Solver};
+use super::solver::{Bounce, Solver};
 use super::sub_step::SubStep;
 use super::surfaces::Place;
 use super::swept::FAR;
@@ -79,8 +79,8 @@ pub(super) fn note(
     sub_step: &SubStep,
     report: &mut StepReport,
 ) {
-    let Solver { slots, slabs, bounces, places, has_other_forces, landed, .. } = solver;
-    let has_landed = |slot: usize| solver::has_landed(landed, slot);
+    let Solver { slots, slabs, bounces, places, has_other_forces, landings, .. } = solver;
+    let has_landed = |slot: usize| landings.has(slot);
     all.retain(|bounce| !has_landed(bounce.slot) && !bounce.other.is_some_and(has_landed));
     let work = all.iter().map(|bounce| bounce.work_at_its_time(slots, sub_step));
     report.energy_account.contacts += work.sum::<f64>();

@@ -31,7 +31,7 @@ fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) 
         let mut tangential_impulse = slab.batches.tangential_impulse(number, lane);
         let mut normal = DVec3::from_array(batch::get(&pair.normal, lane));
         let [mut first, mut second] = slab.slots_of(number, lane);
-        if solver.has_landed(first) || solver.has_landed(second) {
+        if solver.landings.has(first) || solver.landings.has(second) {
             continue;
         }
         if solver.slots.id[first] > solver.slots.id[second] {
@@ -67,7 +67,7 @@ fn of_surfaces(
             continue;
         }
         let slot = slab.start + contact.slot as usize;
-        if solver.has_landed(slot) {
+        if solver.landings.has(slot) {
             continue;
         }
         let center = solver.slots.position[slot];

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::batch::ContactKinds;
-use super::cascade::{Incidence, Landed};
+use super::cascade::{Incidence, Landings};
 use super::dormant::Dormant;
 use super::drift::Drift;
 use super::kept::Kept;
@@ -24,9 +24,8 @@ pub(crate) struct Solver {
     pub(super) kept: Option<Kept>,
     /// The spheres that go elsewhere than their last velocity takes them, for they bounce, by slot.
     pub(super) bounces: Vec<Bounce>,
-    /// The spheres that cascades take elsewhere, by slot.
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(super) landed: Vec<Landed>,
+    pub(super) landings: Landings,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) incidence: Incidence,
     /// Where surfaces are at the start of the sub-step, and how they move.
@@ -86,11 +85,6 @@ pub(crate) struct Scratch {
 }
 
 impl Solver {
-    /// Whether a cascade has taken the sphere in a slot through the sub-step.
-    pub(super) fn has_landed(&self, slot: usize) -> bool {
-        has_landed(&self.landed, slot)
-    }
-
     /// Something was changed from outside: neighbours are found anew, and whatever sleeps wakes. Contacts
     /// keep their impulses.
     pub fn set_changed(&mut self) {
@@ -107,9 +101,4 @@ impl Solver {
         let sleeps = &self.slots.sleeps;
         !self.is_changed && !sleeps.is_empty() && sleeps.iter().all(|&sleeps| sleeps)
     }
-}
-
-/// Whether the sphere in a slot is among those that cascades took through the sub-step.
-pub(super) fn has_landed(landed: &[Landed], slot: usize) -> bool {
-    !landed.is_empty() && landed.binary_search_by_key(&slot, |it| it.slot as usize).is_ok()
 }

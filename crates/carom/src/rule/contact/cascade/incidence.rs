@@ -22,18 +22,19 @@ impl Origin {
         slabs.list.get_mut(number as usize).unwrap_or(&mut slabs.far)
     }
 
-    /// Has the contact begin the next sub-step with these impulses, whatever it did in this one.
-    pub fn keep(self, slabs: &mut Slabs, kept: Impulses) {
+    /// Has the contact be no impact, with these impulses and what its normal velocity is to be at least, with the
+    /// opposite sign \[m/s\].
+    pub fn set(self, slabs: &mut Slabs, kept: Impulses, bias: f64) {
         match self {
             Self::Surface { slab, contact } => {
                 let contact = &mut Self::slab_mut(slabs, slab).surfaces[contact as usize];
-                (contact.impulses, contact.bias, contact.approach) = (kept, 0.0, 0.0);
+                (contact.impulses, contact.bias, contact.approach) = (kept, bias, 0.0);
             }
             Self::Pair { slab, batch, lane } => {
                 let batches = &mut Self::slab_mut(slabs, slab).batches;
                 let (batch, lane) = (batch as usize, lane as usize);
                 batches.pairs[batch].impulse[lane] = kept.normal;
-                batches.pairs[batch].bias[lane] = 0.0;
+                batches.pairs[batch].bias[lane] = bias;
                 batches.approaches[batch].previous[lane] = kept.previous;
                 if let Some(friction) = batches.frictions.get_mut(batch) {
                     set(&mut friction.tangential, lane, kept.tangential);

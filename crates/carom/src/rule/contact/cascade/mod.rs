@@ -11,12 +11,15 @@ mod island;
 mod link;
 
 pub(super) use incidence::Incidence;
+use incidence::Origin;
 
 use glam::DVec3;
 
+use super::batch::Impulses;
 use super::slots::Slots;
 use super::solver::Solver;
 use super::sub_step::SubStep;
+use super::swept::FREE;
 use crate::report::{BodyPair, Impact, StepReport};
 use crate::system::System;
 use course::Course;
@@ -28,13 +31,34 @@ pub(super) struct Landed {
     pub slot: u32,
     /// Centre at the end of the sub-step \[m\].
     pub position: DVec3,
+    velocity: DVec3,
+    /// r w \[m/s\]
+    spin: DVec3,
     /// Whether contacts bear it in the end.
     pub bears: bool,
     /// Whether it has met a surface.
     pub met_surface: bool,
 }
 
-/// Follows the cascades about the spheres in these slots.
+/// What cascades came to in a sub-step.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Landings {
+    /// The spheres that they took through it, by slot.
+    pub spheres: Vec<Landed>,
+    /// What their contacts begin the next sub-step with.
+    contacts: Vec<(Origin, Impulses)>,
+}
+
+impl Landings {
+    /// Whether the sphere in a slot is among them.
+    pub fn has(&self, slot: usize) -> bool {
+        let place = |it: &Landed| it.slot as usize;
+        !self.spheres.is_empty() && self.spheres.binary_search_by_key(&slot, place).is_ok()
+    }
+}
+
+/// Follows the cascades about the spheres in these slots. Until they [`land`], their spheres move as if nothing
+/// touched them.
 pub(super) fn follow(
     system: &System,
     solver: &mut Solver,
@@ -42,7 +66,7 @@ pub(super) fn follow(
     sub_step: &SubStep,
     report: &mut StepReport,
 ) {
-    solver.landed.clear();
+    (solver.landings.spheres.clear(), solver.landings.contacts.clear());
     if seeds.is_empty() || solver.has_moving_surfaces || solver.has_other_forces {
         return;
     }
@@ -51,46 +75,45 @@ pub(super) fn follow(
     for &seed in seeds {
         let Some(mut island) = gathering.gather(solver, seed, sub_step) else { continue };
         let course = Course::run(&mut island, &solver.places, sub_step);
-        let given = island.bodies.iter().map(|body| work_of_sweeps(&solver.slots, body, sub_step));
-        report.energy_account.contacts += course.work - given.sum::<f64>();
+        report.energy_account.contacts += course.work;
         let impacts = course.impacts.iter().map(|it| it.report(system, &solver.slots, sub_step));
         report.impacts.extend(impacts);
-        land(solver, &island, course.last, sub_step);
+        withdraw(solver, &island, course.last, sub_step);
     }
-    solver.landed.sort_unstable_by_key(|landed| landed.slot);
+    solver.landings.spheres.sort_unstable_by_key(|landed| landed.slot);
 }
 
-/// Work \[J\] of the impulses that the sweeps gave a sphere, as it was accounted for.
-fn work_of_sweeps(slots: &Slots, body: &Body, sub_step: &SubStep) -> f64 {
-    if body.inverse_mass == 0.0 {
-        return 0.0;
-    }
-    let slot = body.slot as usize;
-    let [now, before] = [slots.velocity[slot], slots.before[slot]].map(|row| row.vector());
-    let change = now - slots.accelerated(slot, sub_step.h);
-    let mut twice = change.dot(now + before) / body.inverse_mass;
-    if let (Some(now), Some(before)) = (slots.spin.get(slot), slots.spin_before.get(slot)) {
-        let [now, before] = [now, before].map(|row| row.vector());
-        twice += (now - before).dot(now + before) / body.inverse_inertia;
-    }
-    0.5 * twice
-}
-
-/// Gives the solver what came out of a cascade whose last flight took so long \[s\].
-fn land(solver: &mut Solver, island: &Island, last: f64, sub_step: &SubStep) {
-    let Solver { slots, slabs, landed, .. } = solver;
+/// Takes an island, whose last flight took so long \[s\], out of what the sweeps work on.
+fn withdraw(solver: &mut Solver, island: &Island, last: f64, sub_step: &SubStep) {
+    let Solver { slots, slabs, landings, .. } = solver;
     for body in island.bodies.iter().filter(|body| body.inverse_mass > 0.0) {
         let slot = body.slot as usize;
-        slots.velocity[slot] = slots.velocity[slot].with_vector(body.velocity);
+        let free = slots.accelerated(slot, sub_step.h);
+        slots.velocity[slot] = slots.velocity[slot].with_vector(free);
         if let Some(spin) = slots.spin.get_mut(slot) {
-            *spin = spin.with_vector(body.spin);
+            *spin = slots.spin_before[slot];
         }
-        let Body { slot, position, bears, met_surface, .. } = *body;
-        landed.push(Landed { slot, position, bears, met_surface });
+        let Body { slot, position, velocity, spin, bears, met_surface, .. } = *body;
+        landings.spheres.push(Landed { slot, position, velocity, spin, bears, met_surface });
     }
     for link in &island.links {
-        let kept = link.kept(island, last, sub_step);
-        link.origin.keep(slabs, kept);
+        landings.contacts.push((link.origin, link.kept(island, last, sub_step)));
+        link.origin.set(slabs, Impulses::default(), FREE);
+    }
+}
+
+/// Gives the spheres of cascades their last velocities, and their contacts what they begin the next sub-step with.
+pub(super) fn land(solver: &mut Solver) {
+    let Solver { slots, slabs, landings, .. } = solver;
+    for landed in &landings.spheres {
+        let slot = landed.slot as usize;
+        slots.velocity[slot] = slots.velocity[slot].with_vector(landed.velocity);
+        if let Some(spin) = slots.spin.get_mut(slot) {
+            *spin = spin.with_vector(landed.spin);
+        }
+    }
+    for &(origin, kept) in &landings.contacts {
+        origin.set(slabs, kept, 0.0);
     }
 }
 
